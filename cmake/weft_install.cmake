@@ -1,0 +1,1 @@
+# Installs the library modules, their headers and the CMake package (find_package(weft)).

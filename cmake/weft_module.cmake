@@ -1,0 +1,69 @@
+# weft_add_module(<name> PATH <folder under the source root> SOURCES ... HEADERS ... [PUBLIC ...] [PRIVATE ...]
+#                 [HIDE <child folders that belong to another module>] [NO_INSTALL])
+#
+# One module = one library target weft_<name>, alias weft::<name>. Each module has an include root of its own
+# (build/include/<name>/weft/<path> -> source), so a file can include only the modules its target links: the
+# arrows of the architecture are enforced by the compiler, not by a convention.
+
+function(weft_target_flags target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  # -ffp-contract=off: the same source gives the same bits whether or not the compiler may fuse a*b+c.
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -ffp-contract=off)
+  if(WEFT_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()
+
+# Makes build/include/<root>/weft/<path> show the source folder, leaving out the children listed in HIDE.
+function(weft_include_root root path out_variable)
+  cmake_parse_arguments(PARSE_ARGV 3 arg "" "" "HIDE")
+  set(base "${PROJECT_BINARY_DIR}/include/${root}")
+  set(link "${base}/weft/${path}")
+  if(NOT arg_HIDE)
+    cmake_path(GET link PARENT_PATH parent)
+    file(MAKE_DIRECTORY "${parent}")
+    file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${path}" "${link}" SYMBOLIC)
+  else()
+    file(MAKE_DIRECTORY "${link}")
+    file(GLOB children CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/${path}" "${PROJECT_SOURCE_DIR}/${path}/*")
+    foreach(child IN LISTS children)
+      if(NOT child IN_LIST arg_HIDE)
+        file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${path}/${child}" "${link}/${child}" SYMBOLIC)
+      endif()
+    endforeach()
+  endif()
+  set(${out_variable} "${base}" PARENT_SCOPE)
+endfunction()
+
+function(weft_add_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_INSTALL" "PATH" "SOURCES;HEADERS;PUBLIC;PRIVATE;HIDE")
+  set(target weft_${name})
+  add_library(${target} STATIC ${arg_SOURCES})
+  add_library(weft::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  weft_target_flags(${target})
+  weft_include_root(${name} ${arg_PATH} include_root HIDE ${arg_HIDE})
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${include_root}>
+                                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  set_target_properties(${target} PROPERTIES WEFT_PATH "${arg_PATH}" WEFT_HEADERS "${arg_HEADERS}")
+  set_property(GLOBAL APPEND PROPERTY WEFT_MODULES ${target})
+  if(NOT arg_NO_INSTALL)
+    set_property(GLOBAL APPEND PROPERTY WEFT_INSTALLED_MODULES ${target})
+  endif()
+endfunction()
+
+# weft_add_test(<name> SOURCES ... LIBRARIES ... [LABELS ...] [TIMEOUT s]): one GoogleTest executable.
+function(weft_add_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS;DEFINITIONS")
+  add_executable(${name} ${arg_SOURCES})
+  weft_target_flags(${name})
+  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")  # for "tests/support/..."
+  target_compile_definitions(${name} PRIVATE WEFT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${arg_DEFINITIONS})
+  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} GTest::gmock GTest::gtest_main)
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 300)
+  endif()
+  add_test(NAME ${name} COMMAND ${name})
+  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
+endfunction()

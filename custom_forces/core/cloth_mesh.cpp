@@ -1,0 +1,60 @@
+#include <weft/custom_forces/core/cloth_mesh.hpp>
+
+#include <algorithm>
+
+#include <Eigen/Geometry>
+
+#include <weft/custom_forces/core/error.hpp>
+
+namespace weft {
+
+int ClothMesh::num_edges() const {
+  int count = 0;
+  for (const EdgeSet& set : edge_sets) count += static_cast<int>(set.edges.cols());
+  return count;
+}
+
+bool ClothMesh::has_edge_set(std::string_view name) const {
+  return std::any_of(edge_sets.begin(), edge_sets.end(),
+                     [&](const EdgeSet& set) { return set.name == name; });
+}
+
+Edges ClothMesh::edges_of(const std::vector<std::string>& set_names) const {
+  Edges edges(2, 0);
+  for (const std::string& name : set_names) {
+    const auto found = std::find_if(edge_sets.begin(), edge_sets.end(),
+                                    [&](const EdgeSet& set) { return set.name == name; });
+    if (found == edge_sets.end()) {
+      std::string known;
+      for (const EdgeSet& set : edge_sets) known += (known.empty() ? "" : ", ") + set.name;
+      throw InvalidArgument("cloth mesh: edge set '" + name + "' is unknown, expected one of: " + known);
+    }
+    const Eigen::Index old = edges.cols();
+    edges.conservativeResize(2, old + found->edges.cols());
+    edges.rightCols(found->edges.cols()) = found->edges;
+  }
+  return edges;
+}
+
+VectorX<double> node_areas(const ClothMesh& mesh) {
+  VectorX<double> areas = VectorX<double>::Zero(mesh.num_nodes());
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    const Eigen::Vector3i nodes = mesh.triangles.col(t);
+    const Vector3<double> a = mesh.rest_positions.col(nodes[0]);
+    const Vector3<double> b = mesh.rest_positions.col(nodes[1]);
+    const Vector3<double> c = mesh.rest_positions.col(nodes[2]);
+    const double third = (b - a).cross(c - a).norm() / 6.0;
+    for (const int node : nodes) areas[node] += third;
+  }
+  return areas;
+}
+
+VectorX<double> edge_lengths(ConstMatrix3XRef<double> positions, const Edges& edges) {
+  VectorX<double> lengths(edges.cols());
+  for (Eigen::Index e = 0; e < edges.cols(); ++e) {
+    lengths[e] = (positions.col(edges(1, e)) - positions.col(edges(0, e))).norm();
+  }
+  return lengths;
+}
+
+}  // namespace weft

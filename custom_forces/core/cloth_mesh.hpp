@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <weft/custom_forces/core/types.hpp>
+
+namespace weft {
+
+/// A named set of edges, so that a law can act on some springs and not on others ("stretch", "shear", "bend").
+struct EdgeSet {
+  std::string name;
+  Edges edges;  ///< 2 x m, first index < second index, no duplicates
+};
+
+/// One piece of cloth as every engine receives it: rest shape, topology and mass. Knows no engine.
+struct ClothMesh {
+  Matrix3X<double> rest_positions;  ///< 3 x n [m]; rest lengths and angles come from here
+  Triangles triangles;              ///< 3 x t, counter-clockwise seen from the front
+  std::vector<EdgeSet> edge_sets;
+  VectorX<double> masses;   ///< n [kg], > 0 for every node, also for pinned ones
+  std::vector<int> pinned;  ///< sorted node indices that do not move
+
+  [[nodiscard]] int num_nodes() const { return static_cast<int>(rest_positions.cols()); }
+  [[nodiscard]] int num_edges() const;
+  [[nodiscard]] bool has_edge_set(std::string_view name) const;
+  /// The edges of the named sets, one after the other. Throws InvalidArgument for an unknown set.
+  [[nodiscard]] Edges edges_of(const std::vector<std::string>& set_names) const;
+};
+
+/// Rest area that belongs to each node: a third of each triangle around it. n [m^2].
+[[nodiscard]] VectorX<double> node_areas(const ClothMesh& mesh);
+
+/// Rest length of each edge. m [m].
+[[nodiscard]] VectorX<double> edge_lengths(ConstMatrix3XRef<double> positions, const Edges& edges);
+
+}  // namespace weft

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <weft/custom_forces/core/types.hpp>
+#include <weft/custom_forces/law_info.hpp>
+
+namespace weft::forces {
+
+/// What a law may look at: nothing but this.
+template <class Scalar>
+struct State {
+  Eigen::Ref<const Matrix3X<Scalar>> positions;   ///< x, 3 x n [m]
+  Eigen::Ref<const Matrix3X<Scalar>> velocities;  ///< v, 3 x n [m/s]
+  Eigen::Ref<const VectorX<Scalar>> masses;       ///< m, n [kg]; a pinned node has its mass too
+};
+
+/// A force law: a pure function of State. It holds its topology and parameters, checked when it was made, and
+/// afterwards never changes: no clock, no random numbers, no allocation while it runs, no engine.
+///
+/// Shapes   all matrices 3 x n, one column per node, world frame
+/// Threads  add_* functions run on oneTBB; two calls at once on one law are safe with different scratch
+template <class Scalar>
+class ForceLaw {
+ public:
+  virtual ~ForceLaw() = default;
+
+  [[nodiscard]] virtual const LawInfo& info() const noexcept = 0;
+
+  /// Columns of 3 x k scratch memory that add_* need. The caller owns it, so that a law allocates nothing.
+  [[nodiscard]] virtual Eigen::Index scratch_columns() const { return 0; }
+
+  /// forces += f(state) [N], also on pinned nodes: what a node may do with its force is the engine's matter.
+  virtual void add_forces(const State<Scalar>& state, Matrix3XRef<Scalar> scratch,
+                          Matrix3XRef<Scalar> forces) const = 0;
+
+  /// product += (df/dx) displacements [N]. With add_damping_product all that an implicit solver and the
+  /// stable-step estimate need.
+  virtual void add_stiffness_product(const State<Scalar>& /*state*/,
+                                     ConstMatrix3XRef<Scalar> /*displacements*/,
+                                     Matrix3XRef<Scalar> /*scratch*/,
+                                     Matrix3XRef<Scalar> /*product*/) const {}
+
+  /// product += (df/dv) velocity_changes [N].
+  virtual void add_damping_product(const State<Scalar>& /*state*/,
+                                   ConstMatrix3XRef<Scalar> /*velocity_changes*/,
+                                   Matrix3XRef<Scalar> /*scratch*/,
+                                   Matrix3XRef<Scalar> /*product*/) const {}
+
+  /// Stored energy [J]; 0 for a law that stores none.
+  [[nodiscard]] virtual Scalar potential_energy(const State<Scalar>& /*state*/) const {
+    return Scalar(0);
+  }
+
+  /// Power of the part that does not come from the energy [W]: negative for a damper, positive for a driver.
+  [[nodiscard]] virtual Scalar non_conservative_power(const State<Scalar>& /*state*/) const {
+    return Scalar(0);
+  }
+
+  /// Only for traits.level == kVelocity: the exact action of the law alone on velocities over time_step [s].
+  /// Engines that project positions apply this after the projection; there add_forces is not called.
+  virtual void advance_velocities(const State<Scalar>& /*state*/, Scalar /*time_step*/,
+                                  Matrix3XRef<Scalar> /*velocities*/) const {}
+};
+
+}  // namespace weft::forces

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <weft/custom_forces/force_law.hpp>
+
+namespace weft::forces {
+
+/// What happened while the laws of a body were evaluated. Numerical trouble is data, never an exception.
+struct ForceReport {
+  std::optional<int> first_non_finite_node;  ///< set: the input was not finite there and nothing was added
+  [[nodiscard]] bool ok() const { return !first_non_finite_node.has_value(); }
+};
+
+/// The laws that act on one body, with the scratch memory they share.
+/// After the first call with a given number of nodes nothing is allocated.
+template <class Scalar>
+class LawSet {
+ public:
+  void add(std::unique_ptr<ForceLaw<Scalar>> law);
+  [[nodiscard]] bool empty() const { return laws_.empty(); }
+  [[nodiscard]] const std::vector<std::unique_ptr<ForceLaw<Scalar>>>& laws() const { return laws_; }
+
+  /// How the velocity-level laws (dampers such as velocity_damping) take part.
+  enum class VelocityLaws {
+    kAsForces,  ///< they add their force like any other law
+    kSeparate,  ///< they add nothing here; the engine calls advance_velocities at its proper place
+  };
+
+  /// forces += the sum of all laws [N]. Bit-identical for any number of threads.
+  [[nodiscard]] ForceReport add_forces(const State<Scalar>& state, VelocityLaws velocity_laws,
+                                       Matrix3XRef<Scalar> forces);
+
+  void add_stiffness_product(const State<Scalar>& state, ConstMatrix3XRef<Scalar> displacements,
+                             Matrix3XRef<Scalar> product);
+  /// Velocity-level laws take part as forces here.
+  void add_damping_product(const State<Scalar>& state, ConstMatrix3XRef<Scalar> velocity_changes,
+                           Matrix3XRef<Scalar> product);
+
+  /// Applies every velocity-level law to velocities, in the order they were added, over time_step [s].
+  void advance_velocities(const State<Scalar>& state, Scalar time_step,
+                          Matrix3XRef<Scalar> velocities) const;
+
+  [[nodiscard]] Scalar potential_energy(const State<Scalar>& state) const;
+  [[nodiscard]] Scalar non_conservative_power(const State<Scalar>& state) const;
+
+ private:
+  std::vector<std::unique_ptr<ForceLaw<Scalar>>> laws_;
+  Matrix3X<Scalar> scratch_;
+};
+
+}  // namespace weft::forces

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <weft/scenes/simulator.hpp>
+
+namespace weft::scenes {
+
+/// How node values are stored: in the precision the engine computed them in, so that nothing is lost.
+enum class StoredPrecision { kFloat32, kFloat64 };
+
+/// Where a recording comes from: engine, precision, versions, compiler, flags, command line... key -> text.
+using Provenance = std::map<std::string, std::string>;
+
+/// Writes a recording (SQLite database, zstd-compressed frames). Readable by others while it is being written;
+/// after a crash everything up to the last committed chunk is there.
+class RecordingWriter {
+ public:
+  /// Creates path; the scene's resolved text goes inside. Throws Error if the file exists or cannot be made.
+  RecordingWriter(const std::filesystem::path& path, const Scene& scene, const Provenance& provenance,
+                  StoredPrecision precision);
+  ~RecordingWriter();  ///< an unfinished recording stays readable and says that it is unfinished
+  RecordingWriter(const RecordingWriter&) = delete;
+  RecordingWriter& operator=(const RecordingWriter&) = delete;
+
+  void add_frame(const SceneState& state);
+  /// A named scalar over time, e.g. ("kinetic_energy_J", 0.5, 1.25).
+  void add_metric(const std::string& name, double time, double value);
+  void set_blow_up(const BlowUp& blow_up);
+  /// Writes what is left, marks the recording finished and returns its content hash.
+  std::string finish();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Reads a recording. Throws Error that names the file for anything that is not a readable recording.
+class RecordingReader {
+ public:
+  explicit RecordingReader(const std::filesystem::path& path);
+  ~RecordingReader();
+  RecordingReader(const RecordingReader&) = delete;
+  RecordingReader& operator=(const RecordingReader&) = delete;
+
+  [[nodiscard]] const Scene& scene() const;
+  [[nodiscard]] const std::string& scene_text() const;  ///< resolved TOML
+  [[nodiscard]] const Provenance& provenance() const;
+  [[nodiscard]] StoredPrecision precision() const;
+  [[nodiscard]] bool finished() const;
+  [[nodiscard]] std::string content_hash() const;  ///< of what is stored now; equal to finish()'s when finished
+  [[nodiscard]] std::optional<BlowUp> blow_up() const;
+
+  [[nodiscard]] int num_frames() const;
+  [[nodiscard]] double frame_time(int frame) const;  ///< [s]
+  [[nodiscard]] SceneState frame(int frame) const;
+  [[nodiscard]] std::vector<std::string> metric_names() const;
+  struct Sample {
+    double time;  ///< [s]
+    double value;
+  };
+  [[nodiscard]] std::vector<Sample> metric(const std::string& name) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace weft::scenes

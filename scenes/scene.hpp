@@ -1,0 +1,111 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <weft/custom_forces/core/cloth_grid.hpp>
+#include <weft/custom_forces/core/cloth_mesh.hpp>
+#include <weft/custom_forces/law_info.hpp>
+
+namespace weft::scenes {
+
+/// A scene as every engine, recorder and report receives it: SI values, nothing left to guess.
+/// Made by read_scene(); plain data, so that C++ users can also fill it by hand.
+
+struct World {
+  Vector3<double> gravity{0, -9.81, 0};  ///< [m/s^2]
+  double time_step = 0.01;               ///< [s]
+  double duration = 1.0;                 ///< [s]
+  double frame_interval = 0.02;          ///< [s] between recorded frames; a whole number of time steps
+};
+
+/// Which grid nodes a pin holds.
+struct CornerPin {
+  int u = 0;  ///< 0 = first column, -1 = last column
+  int v = 0;  ///< 0 = first row, -1 = last row
+};
+struct EdgePin {
+  int axis = 0;  ///< 0: all nodes with the given column, 1: with the given row
+  int side = 0;  ///< 0 = first, -1 = last
+};
+struct BoxPin {
+  Vector3<double> minimum;  ///< [m]
+  Vector3<double> maximum;  ///< [m]
+};
+using Pin = std::variant<CornerPin, EdgePin, BoxPin>;
+
+struct Cloth {
+  std::string name;
+  ClothGrid grid;
+  std::vector<Pin> pins;
+  Vector3<double> velocity{0, 0, 0};  ///< [m/s] of every free node at the start
+  double collision_margin = 0.01;     ///< [m] distance at which the cloth rests on a surface, >= 0
+  double friction = 0.5;              ///< Coulomb coefficient of the cloth [-]; with a collider: the product of both
+  std::vector<forces::LawSpecification> laws;
+};
+
+struct SphereShape {
+  double radius;  ///< [m]
+};
+struct BoxShape {
+  Vector3<double> half_extents;  ///< [m]
+};
+/// The half space below the plane through the collider's position with its local y axis as normal.
+struct PlaneShape {};
+using Shape = std::variant<SphereShape, BoxShape, PlaneShape>;
+
+/// A rigid obstacle; with a mass it is a dynamic rigid body that the cloth pushes back.
+struct Collider {
+  std::string name;
+  Shape shape;
+  Vector3<double> position{0, 0, 0};                                    ///< [m]
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  double friction = 1.0;                                                ///< [-]
+  std::optional<double> mass;                                           ///< [kg]; none: fixed
+  Vector3<double> velocity{0, 0, 0};                                    ///< [m/s], dynamic bodies only
+  Vector3<double> angular_velocity{0, 0, 0};                            ///< [rad/s], dynamic bodies only
+};
+
+/// Settings of Bullet's own solver, for the engines that use it.
+struct BulletSettings {
+  int position_iterations = 20;  ///< >= 1; how often Bullet visits each link and contact per step
+};
+
+enum class Integrator { kExplicitEuler, kModifiedEuler, kVelocityVerlet, kRungeKutta4 };
+enum class ContactModel { kProjection, kImpulse };
+/// What to do when the time step is beyond the stable one.
+enum class StepGuard { kReport, kRefuse, kSubstep };
+
+/// Settings of the reference solver.
+struct ReferenceSettings {
+  Integrator integrator = Integrator::kModifiedEuler;
+  ContactModel contact = ContactModel::kImpulse;
+  StepGuard step_guard = StepGuard::kReport;
+};
+
+struct Camera {
+  Vector3<double> position{8, 6, 10};  ///< [m]
+  Vector3<double> target{0, 1, 0};     ///< [m]
+  double field_of_view = 0.6;          ///< vertical [rad]
+};
+
+struct Scene {
+  std::string name;     ///< identifier, [a-z0-9_]+
+  std::string summary;  ///< one sentence, "Shows ..."
+  World world;
+  std::vector<Cloth> cloths;
+  std::vector<Collider> colliders;
+  BulletSettings bullet;
+  ReferenceSettings reference;
+  Camera camera;
+};
+
+/// Mesh of a cloth with its pins resolved to node indices.
+/// Throws InvalidArgument if a pin holds no node.
+[[nodiscard]] ClothMesh make_mesh(const Cloth& cloth);
+
+}  // namespace weft::scenes

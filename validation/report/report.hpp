@@ -1,0 +1,102 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <weft/validation/metrics/tolerance.hpp>
+
+namespace weft::validation {
+
+/// A deliberate mistake that a check must notice.
+struct SabotageResult {
+  std::string name;      ///< "spring constant +1 %"
+  double measured = 0;   ///< the check's metric under the sabotage
+  bool detected = false; ///< the check failed, as it must
+};
+
+/// One row of the report's table: one number against one bound.
+struct CheckResult {
+  std::string case_id;    ///< "hang"
+  std::string engine;     ///< "bullet_forces float64"
+  std::string claim;      ///< "follows the reference step for step"
+  std::string metric;     ///< "largest node distance, 0 to 0.5 s"
+  std::string unit;       ///< "m"; "1" if dimensionless
+  std::string formula;    ///< what it is compared with, may be empty
+  std::string source;     ///< where the formula or reference comes from
+  double measured = 0;
+  std::optional<Tolerance> tolerance;  ///< none: measured and shown, not gated
+  Verdict verdict = Verdict::kInfo;
+  std::vector<SabotageResult> sabotages;
+  std::string note;  ///< what to look at when it fails, or what the number means
+};
+
+struct Series {
+  std::string name;  ///< shown in the legend
+  std::vector<double> x;
+  std::vector<double> y;
+};
+
+struct Plot {
+  std::string title;
+  std::string x_label;  ///< with unit, "time [s]"
+  std::string y_label;
+  bool log_x = false;
+  bool log_y = false;
+  std::vector<Series> series;
+};
+
+struct Picture {
+  std::string title;    ///< "bullet_soft float32"
+  std::string caption;  ///< "t = 6 s", "difference to the reference"
+  std::string png;      ///< file bytes
+};
+
+/// Pictures that belong side by side.
+struct PictureRow {
+  std::string title;
+  std::vector<Picture> pictures;
+};
+
+struct Table {
+  std::string title;
+  std::vector<std::string> columns;  ///< headings with units
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// Everything the report shows of one scene or case.
+struct Section {
+  std::string id;       ///< "drape_sphere"
+  std::string summary;  ///< one sentence
+  std::vector<PictureRow> picture_rows;
+  std::vector<Plot> plots;
+  std::vector<Table> tables;
+  std::string scene_text;  ///< resolved scene, may be empty
+};
+
+/// A place where an engine is known to differ, with its measured size and its reason.
+struct Departure {
+  std::string engine;
+  std::string what;      ///< "stiffness depends on iterations and time step"
+  std::string measured;  ///< "RMS 4.1 % of cloth size, drape_sphere at rest"
+  std::string reason;
+};
+
+struct Report {
+  std::string title;
+  std::vector<CheckResult> checks;
+  std::vector<Section> sections;
+  std::vector<Departure> departures;
+  std::vector<std::string> limits;                              ///< what was not tested
+  std::vector<std::pair<std::string, std::string>> provenance;  ///< machine, compiler, versions, hashes
+  [[nodiscard]] bool passed() const;  ///< no failed check and every sabotage detected
+};
+
+/// report.json, pretty-printed; pictures as base64. Numbers with 17 digits; a non-finite number is a string.
+[[nodiscard]] std::string to_json(const Report& report);
+/// junit.xml: one test case per check, one per sabotage.
+[[nodiscard]] std::string to_junit(const Report& report);
+/// One self-contained page that opens from file://.
+[[nodiscard]] std::string to_html(const Report& report);
+
+}  // namespace weft::validation
