@@ -1,5 +1,6 @@
 #pragma once
 
+#include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/core/types.hpp>
 #include <weft/custom_forces/law_info.hpp>
 
@@ -13,11 +14,13 @@ struct State {
   Eigen::Ref<const VectorX<Scalar>> masses;       ///< m, n [kg]; a pinned node has its mass too
 };
 
-/// A force law: a pure function of State. It holds its topology and parameters, checked when it was made, and
-/// afterwards never changes: no clock, no random numbers, no allocation while it runs, no engine.
+/// A force law: a pure function of State. It holds its topology and parameters, checked when it was
+/// made, and afterwards never changes: no clock, no random numbers, no allocation while it runs, no
+/// engine.
 ///
 /// Shapes   all matrices 3 x n, one column per node, world frame
-/// Threads  add_* functions run on oneTBB; two calls at once on one law are safe with different scratch
+/// Threads  add_* functions run on oneTBB; two calls at once on one law are safe with different
+/// scratch
 template <class Scalar>
 class ForceLaw {
  public:
@@ -25,15 +28,17 @@ class ForceLaw {
 
   [[nodiscard]] virtual const LawInfo& info() const noexcept = 0;
 
-  /// Columns of 3 x k scratch memory that add_* need. The caller owns it, so that a law allocates nothing.
+  /// Columns of 3 x k scratch memory that add_* need. The caller owns it, so that a law allocates
+  /// nothing.
   [[nodiscard]] virtual Eigen::Index scratch_columns() const { return 0; }
 
-  /// forces += f(state) [N], also on pinned nodes: what a node may do with its force is the engine's matter.
+  /// forces += f(state) [N], also on pinned nodes: what a node may do with its force is the
+  /// engine's matter.
   virtual void add_forces(const State<Scalar>& state, Matrix3XRef<Scalar> scratch,
                           Matrix3XRef<Scalar> forces) const = 0;
 
-  /// product += (df/dx) displacements [N]. With add_damping_product all that an implicit solver and the
-  /// stable-step estimate need.
+  /// product += (df/dx) displacements [N]. With add_damping_product all that an implicit solver and
+  /// the stable-step estimate need.
   virtual void add_stiffness_product(const State<Scalar>& /*state*/,
                                      ConstMatrix3XRef<Scalar> /*displacements*/,
                                      Matrix3XRef<Scalar> /*scratch*/,
@@ -50,13 +55,15 @@ class ForceLaw {
     return Scalar(0);
   }
 
-  /// Power of the part that does not come from the energy [W]: negative for a damper, positive for a driver.
+  /// Power of the part that does not come from the energy [W]: negative for a damper, positive for
+  /// a driver.
   [[nodiscard]] virtual Scalar non_conservative_power(const State<Scalar>& /*state*/) const {
     return Scalar(0);
   }
 
-  /// Only for traits.level == kVelocity: the exact action of the law alone on velocities over time_step [s].
-  /// Engines that project positions apply this after the projection; there add_forces is not called.
+  /// Only for traits.level == kVelocity: the exact action of the law alone on velocities over
+  /// time_step [s]. Engines that project positions apply this after the projection; there
+  /// add_forces is not called.
   virtual void advance_velocities(const State<Scalar>& /*state*/, Scalar /*time_step*/,
                                   Matrix3XRef<Scalar> /*velocities*/) const {}
 };

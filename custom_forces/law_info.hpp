@@ -10,8 +10,9 @@ namespace weft::forces {
 
 /// What a law claims about itself. The contract tests hold every registered law to its claims.
 struct LawTraits {
-  bool internal = false;     ///< conserves linear and angular momentum; feels no rigid motion
-  bool has_energy = false;   ///< the position-dependent force is minus the gradient of potential_energy
+  bool internal = false;  ///< conserves linear and angular momentum; feels no rigid motion
+  bool has_energy =
+      false;  ///< the position-dependent force is minus the gradient of potential_energy
   bool dissipative = false;  ///< non_conservative_power <= 0 always
   bool uses_edges = false;   ///< acts on edge sets of the mesh
   enum class Level { kForce, kVelocity } level = Level::kForce;
@@ -42,8 +43,9 @@ struct LawInfo {
 
 /// A law as a scene or an application asks for it: values in SI units, vectors as three numbers.
 struct LawSpecification {
-  std::string law;                     ///< id of the law
-  std::vector<std::string> edge_sets;  ///< for laws that use edges; empty means all sets of the mesh
+  std::string law;  ///< id of the law
+  std::vector<std::string>
+      edge_sets;  ///< for laws that use edges; empty means all sets of the mesh
   std::map<std::string, std::vector<double>, std::less<>> parameters;
 };
 

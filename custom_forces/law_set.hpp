@@ -8,9 +8,11 @@
 
 namespace weft::forces {
 
-/// What happened while the laws of a body were evaluated. Numerical trouble is data, never an exception.
+/// What happened while the laws of a body were evaluated. Numerical trouble is data, never an
+/// exception.
 struct ForceReport {
-  std::optional<int> first_non_finite_node;  ///< set: the input was not finite there and nothing was added
+  std::optional<int>
+      first_non_finite_node;  ///< set: the input was not finite there and nothing was added
   [[nodiscard]] bool ok() const { return !first_non_finite_node.has_value(); }
 };
 
@@ -39,7 +41,8 @@ class LawSet {
   void add_damping_product(const State<Scalar>& state, ConstMatrix3XRef<Scalar> velocity_changes,
                            Matrix3XRef<Scalar> product);
 
-  /// Applies every velocity-level law to velocities, in the order they were added, over time_step [s].
+  /// Applies every velocity-level law to velocities, in the order they were added, over time_step
+  /// [s].
   void advance_velocities(const State<Scalar>& state, Scalar time_step,
                           Matrix3XRef<Scalar> velocities) const;
 

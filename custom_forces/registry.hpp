@@ -4,16 +4,11 @@
 #include <span>
 #include <string_view>
 
-#include <unsupported/Eigen/AutoDiff>
-
 #include <weft/custom_forces/core/cloth_mesh.hpp>
+#include <weft/custom_forces/core/dual.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
 namespace weft::forces {
-
-/// Forward automatic differentiation along one direction; laws are instantiated for it so that their stiffness
-/// and damping products can be checked without differences.
-using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
 
 /// Every law of Weft, in a fixed order.
 [[nodiscard]] std::span<const LawInfo* const> all_laws();
@@ -22,13 +17,24 @@ using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
 [[nodiscard]] const LawInfo* find_law(std::string_view id);
 
 /// Fills in defaults and checks names, sizes and domains of the parameters, and the edge sets.
-/// Throws InvalidArgument that names the law, the parameter, its value and unit and what was expected.
+/// Throws InvalidArgument that names the law, the parameter, its value and unit and what was
+/// expected.
 [[nodiscard]] LawSpecification checked(const LawSpecification& specification);
 
-/// Makes a law for a mesh. Scalar is float, double or Dual. Throws as checked(), and for a mesh that the law
-/// cannot use (an unknown edge set, a spring of zero rest length).
+/// Makes a law for a mesh. Scalar is float, double or Dual. Throws as checked(), and for a mesh
+/// that the law cannot use (an unknown edge set, a spring of zero rest length).
 template <class Scalar>
 [[nodiscard]] std::unique_ptr<ForceLaw<Scalar>> make_law(const LawSpecification& specification,
                                                          const ClothMesh& mesh);
+
+template <>
+std::unique_ptr<ForceLaw<float>> make_law<float>(const LawSpecification& specification,
+                                                 const ClothMesh& mesh);
+template <>
+std::unique_ptr<ForceLaw<double>> make_law<double>(const LawSpecification& specification,
+                                                   const ClothMesh& mesh);
+template <>
+std::unique_ptr<ForceLaw<Dual>> make_law<Dual>(const LawSpecification& specification,
+                                               const ClothMesh& mesh);
 
 }  // namespace weft::forces

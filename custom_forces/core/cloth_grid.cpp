@@ -14,11 +14,12 @@ namespace {
 
 using Offset = std::pair<int, int>;
 
-// Offsets with a positive index step, so that every spring appears once and its first node has the lower index.
+// Offsets with a positive index step, so that every spring appears once and its first node has the
+// lower index.
 const std::vector<Offset> kStretchOffsets = {{1, 0}, {0, 1}};
 const std::vector<Offset> kShearOffsets = {{1, 1}, {-1, 1}};
 const std::vector<Offset> kSkipOneOffsets = {{2, 0}, {0, 2}};
-const std::vector<Offset> kRingTwoOffsets = {{2, 0},  {0, 2}, {2, 1}, {-2, 1},
+const std::vector<Offset> kRingTwoOffsets = {{2, 0}, {0, 2},  {2, 1}, {-2, 1},
                                              {1, 2}, {-1, 2}, {2, 2}, {-2, 2}};
 
 void require(bool ok, const std::string& message) {
@@ -27,7 +28,8 @@ void require(bool ok, const std::string& message) {
 
 void check(const ClothGrid& grid) {
   for (int axis = 0; axis < 2; ++axis) {
-    require(grid.nodes[axis] >= 2, "nodes = " + std::to_string(grid.nodes[axis]) + ", expected >= 2");
+    require(grid.nodes[axis] >= 2,
+            "nodes = " + std::to_string(grid.nodes[axis]) + ", expected >= 2");
     require(std::isfinite(grid.size[axis]) && grid.size[axis] > 0,
             "size = " + std::to_string(grid.size[axis]) + " [m], expected > 0 and finite");
   }
@@ -112,7 +114,8 @@ ClothMesh make_cloth_grid(const ClothGrid& grid) {
   if (grid.lumping == MassLumping::kUniform) {
     mesh.masses = VectorX<double>::Constant(num_nodes, grid.total_mass / num_nodes);
   } else {
-    // By cell quarters and not by triangles: the alternating diagonals would give corner nodes 1/6 or 1/3 of a cell.
+    // By cell quarters and not by triangles: the alternating diagonals would give corner nodes 1/6
+    // or 1/3 of a cell.
     const double cell_mass = grid.total_mass / ((columns - 1.0) * (rows - 1.0));
     mesh.masses.resize(num_nodes);
     for (int j = 0; j < rows; ++j) {

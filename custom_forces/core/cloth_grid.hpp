@@ -15,27 +15,28 @@ enum class GridStencil {
 
 /// How the total mass is shared out.
 enum class MassLumping {
-  kArea,     ///< by rest area: an edge node has half of an inner node's mass, a corner node a quarter
+  kArea,  ///< by rest area: an edge node has half of an inner node's mass, a corner node a quarter
   kUniform,  ///< the same mass for every node
 };
 
-/// A rectangular cloth, nodes[0] x nodes[1] nodes, lying in the plane of u_axis and v_axis around center.
-/// Node (i, j) has index j * nodes[0] + i and stands at
-/// center + (i/(nodes[0]-1) - 1/2) size[0] u + (j/(nodes[1]-1) - 1/2) size[1] v.
+/// A rectangular cloth, nodes[0] x nodes[1] nodes, lying in the plane of u_axis and v_axis around
+/// center. Node (i, j) has index j * nodes[0] + i and stands at center + (i/(nodes[0]-1) - 1/2)
+/// size[0] u + (j/(nodes[1]-1) - 1/2) size[1] v.
 struct ClothGrid {
   std::array<int, 2> nodes{2, 2};        ///< >= 2 each
   std::array<double, 2> size{1.0, 1.0};  ///< [m], > 0
   Vector3<double> center{0, 0, 0};       ///< [m]
   Vector3<double> u_axis{1, 0, 0};       ///< direction [-], normalised on use
-  Vector3<double> v_axis{0, 0, -1};      ///< direction [-], perpendicular to u_axis; front normal is u x v
+  Vector3<double> v_axis{0, 0,
+                         -1};  ///< direction [-], perpendicular to u_axis; front normal is u x v
   GridStencil stencil = GridStencil::k24Neighbour;
   double total_mass = 1.0;  ///< [kg], > 0
   MassLumping lumping = MassLumping::kArea;
 };
 
-/// Builds the mesh: edge sets "stretch" (distance 1), "shear" (diagonals) and "bend" (ring 2), and union-jack
-/// triangles (the diagonal alternates, so that no direction is preferred).
-/// Throws InvalidArgument for sizes out of their domain and for axes that are not perpendicular.
+/// Builds the mesh: edge sets "stretch" (distance 1), "shear" (diagonals) and "bend" (ring 2), and
+/// union-jack triangles (the diagonal alternates, so that no direction is preferred). Throws
+/// InvalidArgument for sizes out of their domain and for axes that are not perpendicular.
 [[nodiscard]] ClothMesh make_cloth_grid(const ClothGrid& grid);
 
 /// Index of node (i, j); negative values count from the far side, so (-1, -1) is the last node.

@@ -27,7 +27,8 @@ Edges ClothMesh::edges_of(const std::vector<std::string>& set_names) const {
     if (found == edge_sets.end()) {
       std::string known;
       for (const EdgeSet& set : edge_sets) known += (known.empty() ? "" : ", ") + set.name;
-      throw InvalidArgument("cloth mesh: edge set '" + name + "' is unknown, expected one of: " + known);
+      throw InvalidArgument("cloth mesh: edge set '" + name +
+                            "' is unknown, expected one of: " + known);
     }
     const Eigen::Index old = edges.cols();
     edges.conservativeResize(2, old + found->edges.cols());

@@ -8,7 +8,8 @@
 
 namespace weft {
 
-/// A named set of edges, so that a law can act on some springs and not on others ("stretch", "shear", "bend").
+/// A named set of edges, so that a law can act on some springs and not on others ("stretch",
+/// "shear", "bend").
 struct EdgeSet {
   std::string name;
   Edges edges;  ///< 2 x m, first index < second index, no duplicates

@@ -1,0 +1,56 @@
+#include <weft/custom_forces/law_input.hpp>
+
+#include <cmath>
+#include <string>
+
+#include <weft/custom_forces/core/error.hpp>
+
+namespace weft::forces {
+namespace {
+
+const std::vector<double>& values_of(const LawSpecification& specification,
+                                     std::string_view parameter) {
+  const auto found = specification.parameters.find(parameter);
+  if (found == specification.parameters.end()) {
+    throw InvalidArgument(specification.law + ": parameter '" + std::string(parameter) +
+                          "' is missing, expected a value");
+  }
+  return found->second;
+}
+
+}  // namespace
+
+double law_scalar(const LawSpecification& specification, std::string_view parameter) {
+  return values_of(specification, parameter).at(0);
+}
+
+Vector3<double> law_vector(const LawSpecification& specification, std::string_view parameter) {
+  const std::vector<double>& values = values_of(specification, parameter);
+  return {values.at(0), values.at(1), values.at(2)};
+}
+
+Edges law_edges(const LawSpecification& specification, const ClothMesh& mesh) {
+  if (!specification.edge_sets.empty()) return mesh.edges_of(specification.edge_sets);
+  std::vector<std::string> all;
+  for (const EdgeSet& set : mesh.edge_sets) all.push_back(set.name);
+  return mesh.edges_of(all);
+}
+
+VectorX<double> law_rest_lengths(const LawSpecification& specification, const ClothMesh& mesh,
+                                 const Edges& edges) {
+  if (edges.size() > 0 && (edges.minCoeff() < 0 || edges.maxCoeff() >= mesh.num_nodes())) {
+    throw InvalidArgument(specification.law + ": an edge names a node outside 0 to " +
+                          std::to_string(mesh.num_nodes() - 1));
+  }
+  VectorX<double> lengths = edge_lengths(mesh.rest_positions, edges);
+  for (Eigen::Index e = 0; e < lengths.size(); ++e) {
+    if (!(lengths[e] > 0) || !std::isfinite(lengths[e])) {
+      throw InvalidArgument(specification.law + ": rest length of the edge between nodes " +
+                            std::to_string(edges(0, e)) + " and " + std::to_string(edges(1, e)) +
+                            " = " + std::to_string(lengths[e]) + " [m], expected > 0 and finite");
+    }
+  }
+  return lengths;
+}
+
+}  // namespace weft::forces

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string_view>
+
+#include <weft/custom_forces/core/cloth_mesh.hpp>
+#include <weft/custom_forces/law_info.hpp>
+
+namespace weft::forces {
+
+/// How a law reads a specification that checked() has passed.
+
+[[nodiscard]] double law_scalar(const LawSpecification& specification, std::string_view parameter);
+[[nodiscard]] Vector3<double> law_vector(const LawSpecification& specification,
+                                         std::string_view parameter);
+
+/// Edges of the sets the specification names, all sets of the mesh if it names none.
+[[nodiscard]] Edges law_edges(const LawSpecification& specification, const ClothMesh& mesh);
+
+/// Rest length of each edge [m]. Throws InvalidArgument that names the nodes of an edge without
+/// length.
+[[nodiscard]] VectorX<double> law_rest_lengths(const LawSpecification& specification,
+                                               const ClothMesh& mesh, const Edges& edges);
+
+}  // namespace weft::forces

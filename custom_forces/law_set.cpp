@@ -1,0 +1,126 @@
+#include <weft/custom_forces/law_set.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/registry.hpp>
+
+namespace weft::forces {
+namespace {
+
+double value_of(float x) {
+  return x;
+}
+double value_of(double x) {
+  return x;
+}
+double value_of(const Dual& x) {
+  return x.value();
+}
+
+template <class Scalar>
+std::optional<int> first_non_finite_node(const State<Scalar>& state) {
+  for (Eigen::Index node = 0; node < state.positions.cols(); ++node) {
+    double sum = value_of(state.masses[node]);
+    for (int axis = 0; axis < 3; ++axis) {
+      sum += value_of(state.positions(axis, node)) + value_of(state.velocities(axis, node));
+    }
+    // x - x is 0 for every finite x and NaN otherwise; a sum of finite doubles from float input
+    // cannot overflow, one from double input could, and such a state is beyond use as well.
+    if (sum - sum != 0.0) return static_cast<int>(node);
+  }
+  return std::nullopt;
+}
+
+template <class Scalar>
+bool is_separate(const ForceLaw<Scalar>& law, typename LawSet<Scalar>::VelocityLaws velocity_laws) {
+  return velocity_laws == LawSet<Scalar>::VelocityLaws::kSeparate &&
+         law.info().traits.level == LawTraits::Level::kVelocity;
+}
+
+template <class Scalar>
+void check_shapes(const State<Scalar>& state, Eigen::Index columns) {
+  const Eigen::Index n = state.positions.cols();
+  if (state.velocities.cols() != n || state.masses.size() != n || columns != n) {
+    throw InvalidArgument("law set: positions 3 x " + std::to_string(n) + ", velocities 3 x " +
+                          std::to_string(state.velocities.cols()) + ", masses " +
+                          std::to_string(state.masses.size()) + ", result 3 x " +
+                          std::to_string(columns) + ", expected the same number of nodes");
+  }
+}
+
+}  // namespace
+
+template <class Scalar>
+void LawSet<Scalar>::add(std::unique_ptr<ForceLaw<Scalar>> law) {
+  if (!law) throw InvalidArgument("law set: law is null, expected a law");
+  const Eigen::Index columns = std::max(scratch_.cols(), law->scratch_columns());
+  scratch_.setZero(3, columns);
+  laws_.push_back(std::move(law));
+}
+
+template <class Scalar>
+ForceReport LawSet<Scalar>::add_forces(const State<Scalar>& state, VelocityLaws velocity_laws,
+                                       Matrix3XRef<Scalar> forces) {
+  check_shapes(state, forces.cols());
+  ForceReport report{first_non_finite_node(state)};
+  if (!report.ok()) return report;
+  for (const auto& law : laws_) {
+    if (!is_separate(*law, velocity_laws)) law->add_forces(state, scratch_, forces);
+  }
+  return report;
+}
+
+template <class Scalar>
+void LawSet<Scalar>::add_stiffness_product(const State<Scalar>& state,
+                                           ConstMatrix3XRef<Scalar> displacements,
+                                           Matrix3XRef<Scalar> product) {
+  check_shapes(state, product.cols());
+  for (const auto& law : laws_) {
+    law->add_stiffness_product(state, displacements, scratch_, product);
+  }
+}
+
+template <class Scalar>
+void LawSet<Scalar>::add_damping_product(const State<Scalar>& state,
+                                         ConstMatrix3XRef<Scalar> velocity_changes,
+                                         Matrix3XRef<Scalar> product) {
+  check_shapes(state, product.cols());
+  for (const auto& law : laws_) {
+    law->add_damping_product(state, velocity_changes, scratch_, product);
+  }
+}
+
+template <class Scalar>
+void LawSet<Scalar>::advance_velocities(const State<Scalar>& state, Scalar time_step,
+                                        Matrix3XRef<Scalar> velocities) const {
+  check_shapes(state, velocities.cols());
+  for (const auto& law : laws_) {
+    if (law->info().traits.level == LawTraits::Level::kVelocity) {
+      law->advance_velocities(state, time_step, velocities);
+    }
+  }
+}
+
+template <class Scalar>
+Scalar LawSet<Scalar>::potential_energy(const State<Scalar>& state) const {
+  Scalar energy(0);
+  for (const auto& law : laws_) energy += law->potential_energy(state);
+  return energy;
+}
+
+template <class Scalar>
+Scalar LawSet<Scalar>::non_conservative_power(const State<Scalar>& state) const {
+  Scalar power(0);
+  for (const auto& law : laws_) power += law->non_conservative_power(state);
+  return power;
+}
+
+template class LawSet<float>;
+template class LawSet<double>;
+template class LawSet<Dual>;
+
+}  // namespace weft::forces

@@ -1,0 +1,162 @@
+#include <weft/custom_forces/registry.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/gravity.hpp>
+#include <weft/custom_forces/spring_damping.hpp>
+#include <weft/custom_forces/tension.hpp>
+#include <weft/custom_forces/velocity_damping.hpp>
+
+namespace weft::forces {
+namespace {
+
+template <class Scalar>
+using Factory = std::unique_ptr<ForceLaw<Scalar>> (*)(const LawSpecification&, const ClothMesh&);
+
+template <template <class> class Law, class Scalar>
+std::unique_ptr<ForceLaw<Scalar>> make(const LawSpecification& specification,
+                                       const ClothMesh& mesh) {
+  return std::make_unique<Law<Scalar>>(specification, mesh);
+}
+
+struct Row {
+  const LawInfo* info;
+  Factory<float> make_float;
+  Factory<double> make_double;
+  Factory<Dual> make_dual;
+};
+
+template <template <class> class Law>
+Row row() {
+  return {&Law<double>::kInfo, &make<Law, float>, &make<Law, double>, &make<Law, Dual>};
+}
+
+// The one list of laws. Everything that enumerates laws reads this table.
+const auto& rows() {
+  static const std::array kRows = {
+      row<Tension>(),
+      row<SpringDamping>(),
+      row<VelocityDamping>(),
+      row<Gravity>(),
+  };
+  return kRows;
+}
+
+const Row& find_row(std::string_view id) {
+  std::string known;
+  for (const Row& row : rows()) {
+    if (row.info->id == id) return row;
+    known += (known.empty() ? "" : ", ") + std::string(row.info->id);
+  }
+  throw InvalidArgument("law '" + std::string(id) + "' is unknown, expected one of: " + known);
+}
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%g", value);
+  return text.data();
+}
+
+[[noreturn]] void refuse(const LawSpecification& specification, const ParameterInfo& parameter,
+                         const std::string& value, const std::string& expected) {
+  throw InvalidArgument(specification.law + ": " + std::string(parameter.name) + " = " + value +
+                        " [" + std::string(parameter.unit) + "], expected " + expected);
+}
+
+void check_values(const LawSpecification& specification, const ParameterInfo& parameter,
+                  const std::vector<double>& values) {
+  if (static_cast<int>(values.size()) != parameter.size) {
+    refuse(specification, parameter, std::to_string(values.size()) + " numbers",
+           std::to_string(parameter.size));
+  }
+  for (const double value : values) {
+    if (!std::isfinite(value)) refuse(specification, parameter, number(value), "a finite number");
+    if (parameter.size > 1) continue;
+    if (value < parameter.minimum) {
+      refuse(specification, parameter, number(value), ">= " + number(parameter.minimum));
+    }
+    if (value > parameter.maximum) {
+      refuse(specification, parameter, number(value), "<= " + number(parameter.maximum));
+    }
+  }
+}
+
+void check_names(const LawSpecification& specification, const LawInfo& info) {
+  for (const auto& [name, values] : specification.parameters) {
+    std::string known;
+    bool found = false;
+    for (const ParameterInfo& parameter : info.parameters) {
+      found = found || parameter.name == name;
+      known += (known.empty() ? "" : ", ") + std::string(parameter.name);
+    }
+    if (!found) {
+      throw InvalidArgument(specification.law + ": parameter '" + name +
+                            "' is unknown, expected one of: " + known);
+    }
+  }
+  if (!info.traits.uses_edges && !specification.edge_sets.empty()) {
+    throw InvalidArgument(specification.law + ": edge_sets = '" + specification.edge_sets.front() +
+                          "', expected none, for this law acts on nodes");
+  }
+}
+
+}  // namespace
+
+std::span<const LawInfo* const> all_laws() {
+  static const auto kInfos = [] {
+    std::vector<const LawInfo*> infos;
+    for (const Row& row : rows()) infos.push_back(row.info);
+    return infos;
+  }();
+  return kInfos;
+}
+
+const LawInfo* find_law(std::string_view id) {
+  for (const LawInfo* info : all_laws()) {
+    if (info->id == id) return info;
+  }
+  return nullptr;
+}
+
+LawSpecification checked(const LawSpecification& specification) {
+  const LawInfo& info = *find_row(specification.law).info;
+  check_names(specification, info);
+  LawSpecification result = specification;
+  for (const ParameterInfo& parameter : info.parameters) {
+    const auto given = result.parameters.find(parameter.name);
+    if (given == result.parameters.end()) {
+      if (parameter.required) {
+        throw InvalidArgument(specification.law + ": parameter '" + std::string(parameter.name) +
+                              "' is missing, expected a value in " + std::string(parameter.unit));
+      }
+      result.parameters.emplace(parameter.name, std::vector<double>{parameter.default_value});
+      continue;
+    }
+    check_values(specification, parameter, given->second);
+  }
+  return result;
+}
+
+template <>
+std::unique_ptr<ForceLaw<float>> make_law<float>(const LawSpecification& specification,
+                                                 const ClothMesh& mesh) {
+  return find_row(specification.law).make_float(checked(specification), mesh);
+}
+
+template <>
+std::unique_ptr<ForceLaw<double>> make_law<double>(const LawSpecification& specification,
+                                                   const ClothMesh& mesh) {
+  return find_row(specification.law).make_double(checked(specification), mesh);
+}
+
+template <>
+std::unique_ptr<ForceLaw<Dual>> make_law<Dual>(const LawSpecification& specification,
+                                               const ClothMesh& mesh) {
+  return find_row(specification.law).make_dual(checked(specification), mesh);
+}
+
+}  // namespace weft::forces

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <weft/custom_forces/element_assembly.hpp>
+#include <weft/custom_forces/force_law.hpp>
+
+namespace weft::forces {
+
+/// Viscous damper along each edge.
+///
+///   f_i = c ((v_j - v_i) . u) u     f_j = -f_i     power = -c ((v_j - v_i) . u)^2     u = (x_j -
+///   x_i) / l
+///
+/// Symbols  c  damping  [N*s/m]  >= 0
+/// Errors   InvalidArgument at construction; an edge shorter than kMinLengthRatio l0 exerts no
+/// force Source   dashpot parallel to a spring; acts on the change of length only, so that a rigid
+/// motion feels nothing Checked  contract tests; oscillator
+template <class Scalar>
+class SpringDamping final : public ForceLaw<Scalar> {
+ public:
+  static const LawInfo kInfo;
+
+  SpringDamping(const LawSpecification& specification, const ClothMesh& mesh);
+
+  [[nodiscard]] const LawInfo& info() const noexcept override { return kInfo; }
+  [[nodiscard]] Eigen::Index scratch_columns() const override {
+    return assembly_.scratch_columns();
+  }
+  void add_forces(const State<Scalar>& state, Matrix3XRef<Scalar> scratch,
+                  Matrix3XRef<Scalar> forces) const override;
+  void add_stiffness_product(const State<Scalar>& state, ConstMatrix3XRef<Scalar> displacements,
+                             Matrix3XRef<Scalar> scratch,
+                             Matrix3XRef<Scalar> product) const override;
+  void add_damping_product(const State<Scalar>& state, ConstMatrix3XRef<Scalar> velocity_changes,
+                           Matrix3XRef<Scalar> scratch, Matrix3XRef<Scalar> product) const override;
+  [[nodiscard]] Scalar non_conservative_power(const State<Scalar>& state) const override;
+
+ private:
+  ElementAssembly<2> assembly_;
+  VectorX<Scalar> rest_lengths_;  ///< [m]
+  Scalar damping_;                ///< [N s/m]
+};
+
+}  // namespace weft::forces
