@@ -1,0 +1,117 @@
+#include <weft/bridge/cloth_body.hpp>
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <weft/bridge/link_stiffness.hpp>
+#include <weft/custom_forces/core/error.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+namespace {
+
+void require(bool ok, const std::string& message) {
+  if (!ok) throw InvalidArgument("cloth body: " + message);
+}
+
+void check(const ClothSettings& settings) {
+  require(std::isfinite(settings.collision_margin) && settings.collision_margin >= 0,
+          "collision_margin = " + std::to_string(settings.collision_margin) +
+              " [m], expected >= 0 and finite");
+  require(std::isfinite(settings.friction) && settings.friction >= 0,
+          "friction = " + std::to_string(settings.friction) + " [1], expected >= 0 and finite");
+  require(
+      settings.position_iterations >= 1,
+      "position_iterations = " + std::to_string(settings.position_iterations) + ", expected >= 1");
+  require(
+      settings.contact_hardness >= 0 && settings.contact_hardness <= 1,
+      "contact_hardness = " + std::to_string(settings.contact_hardness) + " [1], expected 0 to 1");
+}
+
+// All of btSoftBody::Config, in its order, so that no default of Bullet's can change a result
+// unseen.
+void configure(const ClothSettings& settings, btSoftBody& body) {
+  btSoftBody::Config& config = body.m_cfg;
+  config.aeromodel = btSoftBody::eAeroModel::V_Point;
+  config.kVCF = 1;
+  config.kDP = 0;
+  config.kDG = 0;
+  config.kLF = 0;
+  config.kPR = 0;
+  config.kVC = 0;
+  config.kDF = static_cast<btScalar>(settings.friction);
+  config.kMT = 0;
+  config.kCHR = static_cast<btScalar>(settings.contact_hardness);
+  config.kKHR = static_cast<btScalar>(settings.contact_hardness);
+  config.kSHR = 1;
+  config.kAHR = 1;
+  config.maxvolume = 1;
+  config.timescale = 1;
+  config.viterations = 0;
+  config.piterations = settings.position_iterations;
+  config.diterations = 0;
+  config.citerations = 0;
+  config.collisions = btSoftBody::fCollision::SDF_RS;
+  config.drag = 0;
+  body.setSolver(btSoftBody::eSolverPresets::Positions);
+  body.m_restLengthScale = 1;
+  body.getCollisionShape()->setMargin(static_cast<btScalar>(settings.collision_margin));
+}
+
+double inverse_mass(const btSoftBody& body, int node) {
+  return static_cast<double>(body.m_nodes[node].m_im);
+}
+
+void add_links(const ClothMesh& mesh, const ClothSettings& settings, btSoftBody& body) {
+  for (const LinkSet& set : settings.links) {
+    std::vector<std::string> names = set.edge_sets;
+    if (names.empty()) {
+      for (const EdgeSet& edge_set : mesh.edge_sets) names.push_back(edge_set.name);
+    }
+    const Edges edges = mesh.edges_of(names);
+    // Links between nodes of the same masses share a material: a grid has a handful.
+    std::map<double, btSoftBody::Material*> materials;
+    for (Eigen::Index e = 0; e < edges.cols(); ++e) {
+      const double inverse_sum = inverse_mass(body, edges(0, e)) + inverse_mass(body, edges(1, e));
+      if (inverse_sum == 0.0) continue;  // between two pinned nodes nothing can move
+      auto [entry, is_new] = materials.try_emplace(inverse_sum, nullptr);
+      if (is_new) {
+        entry->second = body.appendMaterial();
+        entry->second->m_kLST = static_cast<btScalar>(link_factor_from_stiffness(
+            set.stiffness, {1.0 / inverse_sum, settings.position_iterations, settings.time_step}));
+      }
+      body.appendLink(edges(0, e), edges(1, e), entry->second);
+    }
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<btSoftBody> make_cloth_body(btSoftBodyWorldInfo& world_info, const ClothMesh& mesh,
+                                            const ClothSettings& settings) {
+  check(settings);
+  const int num_nodes = mesh.num_nodes();
+  std::vector<btVector3> positions(static_cast<std::size_t>(num_nodes));
+  std::vector<btScalar> masses(static_cast<std::size_t>(num_nodes));
+  for (int i = 0; i < num_nodes; ++i) {
+    const Vector3<btScalar> x = mesh.rest_positions.col(i).cast<btScalar>();
+    positions[static_cast<std::size_t>(i)].setValue(x[0], x[1], x[2]);
+    masses[static_cast<std::size_t>(i)] = static_cast<btScalar>(mesh.masses[i]);
+  }
+  for (const int node : mesh.pinned) masses[static_cast<std::size_t>(node)] = 0;
+  auto body = std::make_unique<btSoftBody>(&world_info, num_nodes, positions.data(), masses.data());
+  configure(settings, *body);
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    body->appendFace(mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t));
+  }
+  add_links(mesh, settings, *body);
+  // Now, from the rest shape: Bullet would do it in the first step, from whatever shape the body
+  // has by then.
+  body->updateConstants();
+  body->m_bUpdateRtCst = false;
+  return body;
+}
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <weft/bridge/precision.hpp>
+#include <weft/custom_forces/core/types.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+/// Node positions m_x, 3 x n [m], and velocities m_v, 3 x n [m/s]. The matrices are resized if
+/// needed.
+void read_nodes(const btSoftBody& body, Matrix3X<btScalar>& positions,
+                Matrix3X<btScalar>& velocities);
+
+/// Node forces m_f += forces, 3 x n [N].
+void add_node_forces(const Matrix3X<btScalar>& forces, btSoftBody& body);
+
+/// Node velocities m_v = velocities, 3 x n [m/s]; pinned nodes (m_im = 0) keep theirs.
+void write_node_velocities(const Matrix3X<btScalar>& velocities, btSoftBody& body);
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

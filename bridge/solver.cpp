@@ -1,0 +1,168 @@
+#include <weft/bridge/solver.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <weft/bridge/node_state.hpp>
+#include <weft/custom_forces/core/error.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+using LawSet = forces::LawSet<btScalar>;
+using State = forces::State<btScalar>;
+
+struct SoftBodySolver::Attachment {
+  btSoftBody* body;
+  LawSet laws;
+  VectorX<btScalar> masses;
+  Matrix3X<btScalar> positions;
+  Matrix3X<btScalar> velocities;
+  Matrix3X<btScalar> forces;
+  std::optional<BodyBlowUp> blow_up;
+
+  void add_forces(btScalar time_step);
+  void advance_velocities(btScalar time_step);
+  void check_prediction(btScalar time_step);
+};
+
+struct SoftBodySolver::Attachments {
+  std::vector<std::unique_ptr<Attachment>> list;
+};
+
+void SoftBodySolver::Attachment::add_forces(btScalar time_step) {
+  read_nodes(*body, positions, velocities);
+  forces.setZero(3, positions.cols());
+  const forces::ForceReport report = laws.add_forces(State{positions, velocities, masses},
+                                                     LawSet::VelocityLaws::kSeparate, forces);
+  if (!report.ok()) {
+    blow_up = BodyBlowUp{*report.first_non_finite_node, "position or velocity is not finite"};
+    return;
+  }
+  check_prediction(time_step);
+  if (!blow_up) add_node_forces(forces, *body);
+}
+
+// Looks at the velocities that predictMotion is about to make. Afterwards would be too late: a node
+// without a place in space ruins the body's bounding-volume tree.
+void SoftBodySolver::Attachment::check_prediction(btScalar time_step) {
+  const auto max_speed = static_cast<btScalar>(kMaxSpeed);
+  for (int i = 0; i < body->m_nodes.size(); ++i) {
+    const btScalar speed =
+        (velocities.col(i) + forces.col(i) * (body->m_nodes[i].m_im * time_step)).norm();
+    if (speed <= max_speed) continue;
+    if (!std::isfinite(speed)) {
+      blow_up = BodyBlowUp{i, "velocity is not finite"};
+    } else {
+      char text[64];
+      std::snprintf(text, sizeof text, "speed %.3g m/s is over %.3g m/s",
+                    static_cast<double>(speed), kMaxSpeed);
+      blow_up = BodyBlowUp{i, text};
+    }
+    return;
+  }
+}
+
+void SoftBodySolver::Attachment::advance_velocities(btScalar time_step) {
+  read_nodes(*body, positions, velocities);
+  forces = velocities;  // the laws see the state as it is and change a copy
+  laws.advance_velocities(State{positions, velocities, masses}, time_step, forces);
+  write_node_velocities(forces, *body);
+}
+
+SoftBodySolver::SoftBodySolver(const BulletLayout& caller)
+    : attachments_(std::make_unique<Attachments>()) {
+  require_matching_bullet(caller);
+}
+
+SoftBodySolver::~SoftBodySolver() = default;
+
+SoftBodySolver::Attachment* SoftBodySolver::find(const btSoftBody& body) const {
+  for (const auto& attachment : attachments_->list) {
+    if (attachment->body == &body) return attachment.get();
+  }
+  return nullptr;
+}
+
+void SoftBodySolver::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> masses) {
+  if (has_laws(body)) {
+    throw InvalidArgument("soft body solver: the body has laws already, expected detach() first");
+  }
+  if (masses.size() != body.m_nodes.size()) {
+    throw InvalidArgument("soft body solver: " + std::to_string(masses.size()) +
+                          " masses, expected one for each of the " +
+                          std::to_string(body.m_nodes.size()) + " nodes");
+  }
+  auto attachment = std::make_unique<Attachment>();
+  attachment->body = &body;
+  attachment->laws = std::move(laws);
+  attachment->masses = std::move(masses);
+  attachments_->list.push_back(std::move(attachment));
+}
+
+void SoftBodySolver::detach(btSoftBody& body) {
+  auto& list = attachments_->list;
+  list.erase(std::remove_if(list.begin(), list.end(),
+                            [&](const auto& attachment) { return attachment->body == &body; }),
+             list.end());
+}
+
+bool SoftBodySolver::has_laws(const btSoftBody& body) const {
+  return find(body) != nullptr;
+}
+
+std::optional<BodyBlowUp> SoftBodySolver::blow_up(const btSoftBody& body) const {
+  const Attachment* attachment = find(body);
+  return attachment ? attachment->blow_up : std::nullopt;
+}
+
+bool SoftBodySolver::is_frozen(const btSoftBody& body) const {
+  const Attachment* attachment = find(body);
+  return attachment && attachment->blow_up;
+}
+
+void SoftBodySolver::predictMotion(btScalar time_step) {
+  time_step_ = time_step;
+  for (int i = 0; i < m_softBodySet.size(); ++i) {
+    btSoftBody& body = *m_softBodySet[i];
+    if (!body.isActive()) continue;
+    Attachment* attachment = find(body);
+    if (attachment && !attachment->blow_up) attachment->add_forces(time_step);
+    if (!is_frozen(body)) body.predictMotion(time_step);
+  }
+}
+
+void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
+  // Velocities decay over the step that predictMotion was given. The argument here is the same time
+  // before Bullet rounds it to single precision; to use it would mix two clocks in one step.
+  for (int i = 0; i < m_softBodySet.size(); ++i) {
+    btSoftBody& body = *m_softBodySet[i];
+    if (!body.isActive() || is_frozen(body)) continue;
+    body.solveConstraints();
+    if (Attachment* attachment = find(body)) attachment->advance_velocities(time_step_);
+  }
+}
+
+void SoftBodySolver::updateSoftBodies() {
+  for (int i = 0; i < m_softBodySet.size(); ++i) {
+    btSoftBody& body = *m_softBodySet[i];
+    if (body.isActive() && !is_frozen(body)) body.integrateMotion();
+  }
+}
+
+void SoftBodySolver::processCollision(btSoftBody* body, const btCollisionObjectWrapper* object) {
+  if (!is_frozen(*body)) btDefaultSoftBodySolver::processCollision(body, object);
+}
+
+void SoftBodySolver::processCollision(btSoftBody* body, btSoftBody* other) {
+  if (is_frozen(*body) || is_frozen(*other)) return;
+  btDefaultSoftBodySolver::processCollision(body, other);
+}
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

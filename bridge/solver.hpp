@@ -1,0 +1,79 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <BulletSoftBody/btDefaultSoftBodySolver.h>
+
+#include <weft/bridge/bullet_guard.hpp>
+#include <weft/custom_forces/law_set.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+/// Why a body was taken out of the simulation.
+struct BodyBlowUp {
+  int node = 0;
+  std::string reason;  ///< "velocity is not finite", "speed 2.1e+06 m/s is over 1e+06 m/s"
+};
+
+/// Weft's forces in Bullet's classic soft-body world, through Bullet's own extension point.
+///
+///   SoftBodySolver solver;
+///   btSoftRigidDynamicsWorld world(dispatcher, broadphase, constraint_solver, configuration,
+///   &solver); solver.attach(*cloth, std::move(laws), masses);
+///
+/// A body without attached laws is stepped by Bullet's default solver, bit for bit. For a body with
+/// laws
+/// * force-level laws are added to the nodes' m_f before btSoftBody::predictMotion,
+/// * velocity-level laws act on m_v after btSoftBody::solveConstraints; a velocity written before
+/// would be lost,
+///   for Bullet derives velocities from positions there,
+/// * a state that is not finite, or faster than kMaxSpeed, freezes the body and is reported: Bullet
+/// would go on to
+///   look up contacts at that place and crash.
+///
+/// The world's gravity (btSoftBodyWorldInfo::m_gravity) still acts: set it to zero for a body with
+/// a gravity law. Threads: laws run on oneTBB; results do not depend on the number of threads.
+class SoftBodySolver : public btDefaultSoftBodySolver {
+ public:
+  /// Throws Error if the calling program was compiled for another Bullet than the bridge.
+  SoftBodySolver() : SoftBodySolver(bullet_layout_here()) {}
+  ~SoftBodySolver() override;
+  SoftBodySolver(const SoftBodySolver&) = delete;
+  SoftBodySolver& operator=(const SoftBodySolver&) = delete;
+
+  /// Speed [m/s] beyond which a node counts as exploded: 3000 times the speed of sound, and still
+  /// small enough for single-precision squares.
+  static constexpr double kMaxSpeed = 1e6;
+
+  /// masses: n [kg], those of pinned nodes too (Bullet itself only knows that they do not move).
+  /// Throws InvalidArgument if sizes differ from the body's nodes, or if laws are attached already.
+  /// The body must not gain or lose nodes while laws are attached.
+  void attach(btSoftBody& body, forces::LawSet<btScalar> laws, VectorX<btScalar> masses);
+  /// Back to plain Bullet. Call before deleting the body. Does nothing if no laws are attached.
+  void detach(btSoftBody& body);
+  [[nodiscard]] bool has_laws(const btSoftBody& body) const;
+  /// Set once the body has exploded; it does not move any more.
+  [[nodiscard]] std::optional<BodyBlowUp> blow_up(const btSoftBody& body) const;
+
+  void predictMotion(btScalar time_step) override;
+  void solveConstraints(btScalar time_step) override;
+  void updateSoftBodies() override;
+  void processCollision(btSoftBody* body, const btCollisionObjectWrapper* object) override;
+  void processCollision(btSoftBody* body, btSoftBody* other) override;
+
+ private:
+  explicit SoftBodySolver(const BulletLayout& caller);
+  struct Attachment;
+  struct Attachments;
+  [[nodiscard]] Attachment* find(const btSoftBody& body) const;
+  [[nodiscard]] bool is_frozen(const btSoftBody& body) const;
+
+  std::unique_ptr<Attachments> attachments_;
+  btScalar time_step_ = 0;  ///< [s] of the step in progress
+};
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge
