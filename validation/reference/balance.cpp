@@ -1,0 +1,48 @@
+#include <weft/validation/reference/balance.hpp>
+
+namespace weft::reference {
+
+Energies energies(const System& system) {
+  Energies sum;
+  for (const Body& body : system.bodies) {
+    const forces::State<double> state{body.positions, body.velocities, body.mesh.masses};
+    sum.kinetic += 0.5 * body.velocities.colwise().squaredNorm().dot(body.mesh.masses);
+    sum.potential += body.laws.potential_energy(state);
+    sum.power += body.laws.non_conservative_power(state);
+  }
+  for (const Collider& collider : system.colliders) {
+    if (!collider.mass) continue;
+    const Vector3<double> spin = world_inertia(collider) * collider.angular_velocity;
+    sum.kinetic += 0.5 * (*collider.mass * collider.velocity.squaredNorm() +
+                          collider.angular_velocity.dot(spin));
+    sum.potential -= *collider.mass * system.gravity.dot(collider.position);
+  }
+  return sum;
+}
+
+Vector3<double> linear_momentum(const System& system) {
+  Vector3<double> sum = Vector3<double>::Zero();
+  for (const Body& body : system.bodies) sum += body.velocities * body.mesh.masses;
+  for (const Collider& collider : system.colliders) {
+    if (collider.mass) sum += *collider.mass * collider.velocity;
+  }
+  return sum;
+}
+
+Vector3<double> angular_momentum(const System& system) {
+  Vector3<double> sum = Vector3<double>::Zero();
+  for (const Body& body : system.bodies) {
+    for (Eigen::Index i = 0; i < body.positions.cols(); ++i) {
+      const Vector3<double> position = body.positions.col(i);
+      sum += body.mesh.masses[i] * position.cross(body.velocities.col(i));
+    }
+  }
+  for (const Collider& collider : system.colliders) {
+    if (!collider.mass) continue;
+    sum += *collider.mass * collider.position.cross(collider.velocity) +
+           world_inertia(collider) * collider.angular_velocity;
+  }
+  return sum;
+}
+
+}  // namespace weft::reference

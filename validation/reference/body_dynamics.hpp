@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+
+#include <weft/validation/reference/system.hpp>
+
+namespace weft::reference {
+
+/// What an integrator sees of a body: accelerations, and the exact action of its velocity-level
+/// laws.
+class BodyDynamics {
+ public:
+  explicit BodyDynamics(Body& body);
+
+  using VelocityLaws = forces::LawSet<double>::VelocityLaws;
+
+  /// accelerations = M^-1 f(positions, velocities) [m/s^2], 0 for pinned nodes.
+  void evaluate(ConstMatrix3XRef<double> positions, ConstMatrix3XRef<double> velocities,
+                VelocityLaws velocity_laws, Matrix3XRef<double> accelerations);
+
+  /// Applies the velocity-level laws alone over time_step [s]; pinned nodes stay at rest.
+  void advance_velocities(ConstMatrix3XRef<double> positions, double time_step,
+                          Matrix3X<double>& velocities);
+
+  [[nodiscard]] const Body& body() const { return *body_; }
+  [[nodiscard]] const VectorX<double>& inverse_masses() const { return inverse_masses_; }
+
+  /// First node whose state was not finite in any evaluation so far.
+  [[nodiscard]] std::optional<int> first_non_finite_node() const { return first_non_finite_node_; }
+
+ private:
+  Body* body_;
+  VectorX<double> inverse_masses_;  // 0 for pinned nodes
+  Matrix3X<double> before_;         // velocities as the velocity-level laws see them
+  std::optional<int> first_non_finite_node_;
+};
+
+}  // namespace weft::reference

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <weft/validation/reference/contact/contact_model.hpp>
+
+namespace weft::reference {
+
+/// The two parts that both contact models are made of.
+
+struct PositionStage {
+  bool friction = true;  ///< Coulomb friction on the slip of the step
+  bool change_end_velocity =
+      true;  ///< impulses act on end velocities too; else only positions move
+};
+
+/// Changes mean velocities so that no node ends the step inside. The surface is linearised where
+/// the node would end and this is repeated until the normals stand still (implicit normal), so that
+/// a node rests on a curved surface without creep. All shapes are convex: even one pass leaves no
+/// node inside a fixed collider.
+[[nodiscard]] ContactOutcome run_position_stage(const System& system, const PositionStage& stage,
+                                                SystemStep& step);
+
+/// Changes end velocities so that no touching node approaches its surface, with or without
+/// friction.
+[[nodiscard]] ContactOutcome run_velocity_stage(const System& system, bool friction,
+                                                SystemStep& step);
+
+/// Passes over the linearised surface. The error of the normal shrinks by (distance per step /
+/// radius) per pass; ten are far more than any step short enough to be of use needs.
+inline constexpr int kMaxPasses = 10;
+/// Change of a normal that counts as standing still [-]: thousand roundings.
+inline constexpr double kNormalTolerance = 1e-12;
+/// A node this close to its margin touches [m]: above the rounding of coordinates below 1e5 m,
+/// below any margin.
+inline constexpr double kTouchDistance = 1e-10;
+
+}  // namespace weft::reference

@@ -1,0 +1,21 @@
+#include <weft/validation/reference/contact/contact_stages.hpp>
+
+namespace weft::reference {
+namespace {
+
+class ImpulseContact final : public ContactModel {
+ public:
+  [[nodiscard]] ContactOutcome resolve(const System& system, SystemStep& step) const override {
+    const ContactOutcome landing = run_position_stage(system, {}, step);
+    if (step.mean_is_end) return landing;
+    return combined(landing, run_velocity_stage(system, /*friction=*/true, step));
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<ContactModel> make_impulse_contact() {
+  return std::make_unique<ImpulseContact>();
+}
+
+}  // namespace weft::reference

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+
+#include <weft/validation/reference/body_dynamics.hpp>
+#include <weft/validation/reference/options.hpp>
+
+namespace weft::reference {
+
+/// What a step does to one body before contact is looked at: x1 = x0 + h mean_velocities, v1 =
+/// end_velocities. Contact changes both; only then positions are written.
+struct BodyStep {
+  Matrix3X<double> mean_velocities;  ///< 3 x n [m/s], (x1 - x0) / h
+  Matrix3X<double> end_velocities;   ///< 3 x n [m/s]
+};
+
+/// A one-step method for x' = v, v' = a(x, v).
+///
+/// A step is advance(), contact, x1 = x0 + h mean_velocities, finish(). Contact is an operator
+/// split at the end of the step for every method, so a trajectory with contact is of order 1
+/// whatever the method's own order is. For modified Euler mean and end velocity are the same
+/// numbers: there the split is the usual "velocity, contact, position".
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+
+  [[nodiscard]] virtual IntegratorKind kind() const = 0;
+  [[nodiscard]] virtual int order() const = 0;  ///< of smooth trajectories, without contact
+
+  /// Fills step from the state of the body, which stays as it is. time_step [s], > 0.
+  virtual void advance(BodyDynamics& dynamics, double time_step, BodyStep& step) = 0;
+
+  /// Velocity-level laws that act after the step, on the end velocities; positions are those after
+  /// the step.
+  virtual void finish(BodyDynamics& dynamics, ConstMatrix3XRef<double> positions, double time_step,
+                      Matrix3X<double>& velocities) = 0;
+};
+
+[[nodiscard]] std::unique_ptr<Integrator> make_explicit_euler();
+[[nodiscard]] std::unique_ptr<Integrator> make_modified_euler();
+[[nodiscard]] std::unique_ptr<Integrator> make_velocity_verlet();
+[[nodiscard]] std::unique_ptr<Integrator> make_runge_kutta4();
+
+[[nodiscard]] std::unique_ptr<Integrator> make_integrator(IntegratorKind kind);
+
+}  // namespace weft::reference

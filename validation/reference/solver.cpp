@@ -1,0 +1,126 @@
+#include <weft/validation/reference/solver.hpp>
+
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include <weft/custom_forces/core/error.hpp>
+
+namespace weft::reference {
+namespace {
+
+std::optional<std::string> fault_of(const Vector3<double>& position,
+                                    const Vector3<double>& velocity) {
+  if (!position.allFinite()) return "position is not finite";
+  if (!velocity.allFinite()) return "velocity is not finite";
+  const double speed = velocity.norm();
+  if (speed <= kBlowUpSpeed) return std::nullopt;
+  std::ostringstream reason;
+  reason.precision(3);
+  reason << "speed " << speed << " m/s is over " << kBlowUpSpeed << " m/s";
+  return reason.str();
+}
+
+}  // namespace
+
+SpringSolver::SpringSolver(System system, SolverOptions options)
+    : system_(std::make_unique<System>(std::move(system))),
+      options_(options),
+      integrator_(make_integrator(options.integrator)),
+      contact_(make_contact_model(options.contact)) {
+  check_system(*system_);
+  for (Body& body : system_->bodies) {
+    for (const int node : body.mesh.pinned) body.velocities.col(node).setZero();
+    dynamics_.emplace_back(body);
+    motion_.inverse_masses.push_back(dynamics_.back().inverse_masses());
+  }
+  motion_.bodies.resize(system_->bodies.size());
+  motion_.mean_is_end = options.integrator == IntegratorKind::kModifiedEuler;
+  blow_up_ = find_blow_up();
+}
+
+StepOutcome SpringSolver::step(double time_step) {
+  if (!(time_step > 0.0 && std::isfinite(time_step))) {
+    std::ostringstream message;
+    message << "reference solver: time_step = " << time_step << " [s], expected > 0 and finite";
+    throw InvalidArgument(message.str());
+  }
+  StepOutcome outcome;
+  if (blow_up_) {
+    outcome.blow_up = blow_up_;
+    return outcome;
+  }
+  const bool is_due =
+      options_.guard_interval > 0 && steps_since_estimate_ >= options_.guard_interval;
+  if (!stability_ || is_due) {
+    stability_ = stability();
+    steps_since_estimate_ = 0;
+  }
+  ++steps_since_estimate_;
+  outcome.stable_step = stability_->stable_step;
+  outcome.substeps = num_substeps(options_.guard, *stability_, time_step);
+  const double substep_size = time_step / outcome.substeps;
+  outcome.is_step_stable = substep_size < outcome.stable_step;
+
+  for (int i = 0; i < outcome.substeps && !blow_up_; ++i) {
+    const ContactOutcome contact = substep(substep_size);
+    const int last_contacts = contact.num_contacts;
+    outcome.contact = combined(outcome.contact, contact);
+    outcome.contact.num_contacts = last_contacts;
+    blow_up_ = find_blow_up();
+  }
+  time_ += time_step;
+  outcome.blow_up = blow_up_;
+  return outcome;
+}
+
+ContactOutcome SpringSolver::substep(double time_step) {
+  motion_.time_step = time_step;
+  for (std::size_t b = 0; b < dynamics_.size(); ++b) {
+    integrator_->advance(dynamics_[b], time_step, motion_.bodies[b]);
+  }
+  motion_.rigids.clear();
+  for (const Collider& collider : system_->colliders) {
+    motion_.rigids.push_back(
+        free_motion(collider, system_->gravity, options_.integrator, time_step));
+  }
+  const ContactOutcome outcome = contact_->resolve(*system_, motion_);
+  write(time_step);
+  return outcome;
+}
+
+void SpringSolver::write(double time_step) {
+  for (std::size_t b = 0; b < dynamics_.size(); ++b) {
+    Body& body = system_->bodies[b];
+    body.positions += time_step * motion_.bodies[b].mean_velocities;
+    body.velocities = motion_.bodies[b].end_velocities;
+    integrator_->finish(dynamics_[b], body.positions, time_step, body.velocities);
+  }
+  for (std::size_t k = 0; k < system_->colliders.size(); ++k) {
+    write_motion(motion_.rigids[k], time_step, system_->colliders[k]);
+  }
+}
+
+Stability SpringSolver::stability() {
+  return assess(*system_, options_.integrator);
+}
+
+std::optional<BlowUp> SpringSolver::find_blow_up() const {
+  for (const BodyDynamics& dynamics : dynamics_) {
+    const Body& body = dynamics.body();
+    if (const auto node = dynamics.first_non_finite_node()) {
+      return BlowUp{body.name, *node, "state was not finite within the step"};
+    }
+    for (int node = 0; node < body.mesh.num_nodes(); ++node) {
+      const auto fault = fault_of(body.positions.col(node), body.velocities.col(node));
+      if (fault) return BlowUp{body.name, node, *fault};
+    }
+  }
+  for (const Collider& collider : system_->colliders) {
+    const auto fault = fault_of(collider.position, collider.velocity);
+    if (fault) return BlowUp{collider.name, 0, *fault};
+  }
+  return std::nullopt;
+}
+
+}  // namespace weft::reference

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <weft/validation/reference/contact/contact_model.hpp>
+#include <weft/validation/reference/integrators/integrator.hpp>
+#include <weft/validation/reference/options.hpp>
+#include <weft/validation/reference/step_guard.hpp>
+#include <weft/validation/reference/system.hpp>
+
+namespace weft::reference {
+
+/// Where a state left the range in which numbers mean anything.
+struct BlowUp {
+  std::string body;    ///< of the cloth or the collider
+  int node = 0;        ///< of the cloth; 0 for a collider
+  std::string reason;  ///< "position is not finite", "speed 3.1e+08 m/s is over 1e+06 m/s"
+};
+
+/// Speed beyond which a state counts as blown up [m/s]: a thousand times any cloth, far below
+/// overflow.
+inline constexpr double kBlowUpSpeed = 1e6;
+
+/// What one step did.
+struct StepOutcome {
+  int substeps = 1;
+  double stable_step = 0.0;    ///< [s], as last estimated; infinite if nothing limits it
+  bool is_step_stable = true;  ///< the (sub)step is below it
+  ContactOutcome contact;  ///< impulses and sweeps summed over substeps, contacts of the last one
+  std::optional<BlowUp> blow_up;  ///< once set, further steps do nothing
+};
+
+/// The reference spring solver: double precision, no engine, every number of a step documented and
+/// tested. Deterministic: the same system and steps give the same bits, for any number of threads.
+class SpringSolver {
+ public:
+  /// Throws InvalidArgument for a system that check_system() refuses.
+  explicit SpringSolver(System system, SolverOptions options = {});
+
+  /// Advances by time_step [s]. Throws InvalidArgument for a step that is not positive and finite,
+  /// or that the guard refuses; a numerical blow-up is in the outcome.
+  StepOutcome step(double time_step);
+
+  [[nodiscard]] const System& system() const { return *system_; }
+  [[nodiscard]] const SolverOptions& options() const { return options_; }
+  [[nodiscard]] double time() const { return time_; }  ///< [s]
+
+  /// Estimate at the present state, whatever the policy.
+  [[nodiscard]] Stability stability();
+
+ private:
+  ContactOutcome substep(double time_step);
+  void write(double time_step);
+  [[nodiscard]] std::optional<BlowUp> find_blow_up() const;
+
+  std::unique_ptr<System> system_;  // on the heap: dynamics_ refer to its bodies
+  SolverOptions options_;
+  std::unique_ptr<Integrator> integrator_;
+  std::unique_ptr<ContactModel> contact_;
+  std::vector<BodyDynamics> dynamics_;
+  SystemStep motion_;
+  std::optional<Stability> stability_;
+  std::optional<BlowUp> blow_up_;
+  double time_ = 0.0;
+  int steps_since_estimate_ = 0;
+};
+
+}  // namespace weft::reference

@@ -1,0 +1,124 @@
+#include <weft/validation/reference/spectrum.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+
+namespace weft::reference {
+namespace {
+
+/// y = A x for a symmetric A; x and y are 3 x n.
+using Operator = std::function<void(const Matrix3X<double>&, Matrix3X<double>&)>;
+
+struct Eigenpair {
+  double value = 0.0;
+  Matrix3X<double> vector;  // unit norm
+  int iterations = 0;
+  bool converged = true;
+};
+
+/// Pseudo-random and fixed: has a part of every mode, whatever the symmetry of the mesh.
+Matrix3X<double> start_vector(const VectorX<double>& inverse_masses) {
+  Matrix3X<double> vector(3, inverse_masses.size());
+  std::uint32_t state = 1;
+  for (Eigen::Index i = 0; i < vector.size(); ++i) {
+    state = state * 1664525u + 1013904223u;  // Numerical Recipes' generator, low quality is enough
+    vector.data()[i] = static_cast<double>(state) / 4294967296.0 - 0.5;
+  }
+  for (Eigen::Index i = 0; i < vector.cols(); ++i) {
+    if (inverse_masses[i] == 0.0) vector.col(i).setZero();
+  }
+  return vector;
+}
+
+/// Eigenvalue of A + shift that is largest in magnitude, minus the shift.
+Eigenpair power_iteration(const Operator& multiply, Matrix3X<double> vector, double shift) {
+  Eigenpair result;
+  Matrix3X<double> product(3, vector.cols());
+  double norm = vector.norm();
+  double previous = 0.0;
+  result.converged = false;
+  while (norm > 0.0 && result.iterations < kMaxPowerIterations) {
+    vector /= norm;
+    multiply(vector, product);
+    product += shift * vector;
+    const double quotient = vector.cwiseProduct(product).sum();
+    result.value = quotient - shift;
+    ++result.iterations;
+    result.converged = std::abs(quotient - previous) <= kRayleighTolerance * std::abs(quotient);
+    if (result.converged) break;
+    previous = quotient;
+    result.vector = vector;
+    vector.swap(product);
+    norm = vector.norm();
+  }
+  if (!(norm > 0.0)) result.converged = norm == 0.0;  // A = 0, or not a number
+  if (result.converged && norm > 0.0) result.vector = vector;
+  return result;
+}
+
+Eigenpair largest_eigenvalue(const Operator& multiply, const Matrix3X<double>& start) {
+  Eigenpair pair = power_iteration(multiply, start, 0.0);
+  if (pair.value < 0.0) {
+    const int iterations = pair.iterations;
+    pair = power_iteration(multiply, start, -pair.value);
+    pair.iterations += iterations;
+  }
+  return pair;
+}
+
+/// Wraps a product as M^-1/2 (-product) M^-1/2 on free nodes.
+Operator scaled(const VectorX<double>& inverse_masses, const Operator& product) {
+  const VectorX<double> scale = inverse_masses.cwiseSqrt();
+  return [scale, product](const Matrix3X<double>& x, Matrix3X<double>& y) {
+    const Matrix3X<double> moved = x * scale.asDiagonal();
+    Matrix3X<double> forces = Matrix3X<double>::Zero(3, x.cols());
+    product(moved, forces);
+    y = -(forces * scale.asDiagonal());
+  };
+}
+
+}  // namespace
+
+Spectrum spectrum(Body& body) {
+  using Level = forces::LawTraits::Level;
+  const forces::State<double> state{body.positions, body.velocities, body.mesh.masses};
+  const VectorX<double> inverse = inverse_masses(body.mesh);
+  const Matrix3X<double> start = start_vector(inverse);
+
+  const auto damping = [&](Level level) -> Operator {
+    return scaled(inverse, [&body, &state, level](const Matrix3X<double>& x, Matrix3X<double>& y) {
+      for (const auto& law : body.laws.laws()) {
+        if (law->info().traits.level != level) continue;
+        Matrix3X<double> scratch = Matrix3X<double>::Zero(3, law->scratch_columns());
+        law->add_damping_product(state, x, scratch, y);
+      }
+    });
+  };
+  const Operator stiffness =
+      scaled(inverse, [&body, &state](const Matrix3X<double>& x, Matrix3X<double>& y) {
+        body.laws.add_stiffness_product(state, x, y);
+      });
+
+  const Eigenpair top = largest_eigenvalue(stiffness, start);
+  const Eigenpair force = largest_eigenvalue(damping(Level::kForce), start);
+  const Eigenpair velocity = largest_eigenvalue(damping(Level::kVelocity), start);
+
+  Spectrum result;
+  result.omega_max = std::sqrt(std::max(0.0, top.value));
+  if (top.vector.cols() > 0) {
+    Matrix3X<double> product(3, start.cols());
+    for (const Level level : {Level::kForce, Level::kVelocity}) {
+      damping(level)(top.vector, product);
+      result.top_mode_damping += top.vector.cwiseProduct(product).sum();
+    }
+  }
+  result.gamma_force_max = std::max(0.0, force.value);
+  result.gamma_velocity_max = std::max(0.0, velocity.value);
+  result.iterations = std::max({top.iterations, force.iterations, velocity.iterations});
+  result.converged = top.converged && force.converged && velocity.converged;
+  return result;
+}
+
+}  // namespace weft::reference

@@ -1,0 +1,97 @@
+#include <weft/validation/reference/step_guard.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include <weft/custom_forces/core/error.hpp>
+
+namespace weft::reference {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// a / b, infinite for b = 0.
+double ratio(double a, double b) {
+  return b > 0.0 ? a / b : kInfinity;
+}
+
+/// First step at which the modified Euler margin vanishes.
+double modified_euler_step(const Spectrum& s) {
+  const auto margin = [&](double h) {
+    const double q = std::exp(-h * s.gamma_velocity_max) * (1.0 - h * s.gamma_force_max);
+    return 2.0 * (1.0 + q) - h * h * s.omega_max * s.omega_max;
+  };
+  double unstable = std::min(ratio(2.0, s.omega_max), ratio(2.0, s.gamma_force_max));
+  if (!std::isfinite(unstable) || margin(unstable) > 0.0) return unstable;
+  double stable = 0.0;
+  constexpr int kBisections = 60;  // one bit each, more than a double has
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = 0.5 * (stable + unstable);
+    (margin(middle) > 0.0 ? stable : unstable) = middle;
+  }
+  return stable;
+}
+
+double verlet_step(const Spectrum& s) {
+  // Positive root of h^2 w^2 + 2 h f = 4, in the form that stays exact for w -> 0.
+  const double f = s.gamma_force_max;
+  return ratio(4.0, f + std::hypot(f, 2.0 * s.omega_max));
+}
+
+double runge_kutta_step(const Spectrum& s) {
+  const double damping = s.gamma_force_max + s.gamma_velocity_max;
+  if (damping == 0.0) return ratio(kRungeKuttaImaginary, s.omega_max);
+  return ratio(kRungeKuttaHalfDisc, std::max(s.omega_max, damping));
+}
+
+double explicit_euler_step(const Spectrum& s) {
+  const double oscillation = ratio(s.top_mode_damping, s.omega_max * s.omega_max);
+  return std::min(oscillation, ratio(2.0, s.gamma_force_max + s.gamma_velocity_max));
+}
+
+}  // namespace
+
+double stable_step(IntegratorKind integrator, const Spectrum& spectrum) {
+  switch (integrator) {
+    case IntegratorKind::kExplicitEuler:
+      return explicit_euler_step(spectrum);
+    case IntegratorKind::kModifiedEuler:
+      return modified_euler_step(spectrum);
+    case IntegratorKind::kVelocityVerlet:
+      return verlet_step(spectrum);
+    case IntegratorKind::kRungeKutta4:
+      return runge_kutta_step(spectrum);
+  }
+  throw InvalidArgument(
+      "reference solver: integrator = " + std::to_string(static_cast<int>(integrator)) +
+      ", expected a value of IntegratorKind");
+}
+
+Stability assess(System& system, IntegratorKind integrator) {
+  Stability least{.stable_step = kInfinity, .body = {}, .spectrum = {}};
+  for (Body& body : system.bodies) {
+    const Spectrum found = spectrum(body);
+    const double step = stable_step(integrator, found);
+    if (least.body.empty() || step < least.stable_step) least = {step, body.name, found};
+  }
+  return least;
+}
+
+int num_substeps(GuardPolicy policy, const Stability& stability, double time_step) {
+  const double limit = stability.stable_step;
+  const auto refuse = [&](const std::string& expected) {
+    std::ostringstream message;
+    message << "reference solver, cloth '" << stability.body << "': time_step = " << time_step
+            << " [s], expected " << expected << " " << limit << " [s]";
+    throw InvalidArgument(message.str());
+  };
+  if (policy == GuardPolicy::kRefuse && !(time_step < limit)) refuse("less than the stable step");
+  if (policy != GuardPolicy::kSubstep) return 1;
+  const double needed = std::ceil(time_step / (kSubstepSafety * limit));
+  if (!(needed <= kMaxSubsteps)) refuse("few enough substeps of the stable step");
+  return std::max(1, static_cast<int>(needed));
+}
+
+}  // namespace weft::reference

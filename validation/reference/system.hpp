@@ -1,0 +1,69 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <weft/custom_forces/core/cloth_mesh.hpp>
+#include <weft/custom_forces/law_set.hpp>
+
+namespace weft::reference {
+
+/// One cloth: mass points with force laws.
+struct Body {
+  std::string name;
+  ClothMesh mesh;  ///< pinned nodes do not move: their forces and velocities are zeroed
+  forces::LawSet<double> laws;    ///< everything that acts on the cloth, gravity too
+  Matrix3X<double> positions;     ///< 3 x n [m]
+  Matrix3X<double> velocities;    ///< 3 x n [m/s]
+  double collision_margin = 0.0;  ///< [m] distance from a surface at which a node rests, >= 0
+  double friction = 0.0;          ///< Coulomb coefficient [-], >= 0; with a collider: the product
+};
+
+struct Sphere {
+  double radius;  ///< [m], > 0
+};
+struct Box {
+  Vector3<double> half_extents;  ///< [m], > 0
+};
+/// The half space below the plane through the collider's position with its local y axis as normal.
+struct Plane {};
+using Shape = std::variant<Sphere, Box, Plane>;
+
+/// A rigid body that touches cloth, and cloth only: colliders do not meet each other.
+/// Without a mass nothing moves it but its own given velocities; with a mass the cloth pushes back.
+struct Collider {
+  std::string name;
+  Shape shape;
+  Vector3<double> position{0, 0, 0};  ///< centre of mass [m]
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  double friction = 1.0;                      ///< [-], >= 0
+  std::optional<double> mass;                 ///< [kg], > 0; homogeneous sphere or box
+  Vector3<double> velocity{0, 0, 0};          ///< [m/s]
+  Vector3<double> angular_velocity{0, 0, 0};  ///< world frame [rad/s]
+};
+
+/// Everything that the solver moves.
+struct System {
+  std::vector<Body> bodies;
+  std::vector<Collider> colliders;
+  Vector3<double> gravity{0, 0,
+                          0};  ///< [m/s^2], of colliders with a mass; cloth has its gravity law
+};
+
+/// Throws InvalidArgument for sizes that do not match and for values out of their domain.
+void check_system(const System& system);
+
+/// 1/m per node [1/kg], 0 for pinned nodes.
+[[nodiscard]] VectorX<double> inverse_masses(const ClothMesh& mesh);
+
+/// Principal moments of inertia of a collider with a mass, body frame [kg m^2].
+[[nodiscard]] Vector3<double> principal_inertia(const Collider& collider);
+
+/// Inertia of a collider with a mass about its centre, world frame [kg m^2].
+[[nodiscard]] Matrix3<double> world_inertia(const Collider& collider);
+
+}  // namespace weft::reference
