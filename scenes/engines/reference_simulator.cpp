@@ -1,0 +1,146 @@
+#include <weft/scenes/engines/reference_simulator.hpp>
+
+#include <utility>
+
+#include <weft/custom_forces/registry.hpp>
+#include <weft/scenes/engines/blow_up_check.hpp>
+#include <weft/validation/reference/solver.hpp>
+
+namespace weft::scenes {
+namespace {
+
+class ReferenceSimulator final : public Simulator {
+ public:
+  void load(const Scene& scene) override;
+  [[nodiscard]] StepReport step(double time_step) override;
+  [[nodiscard]] const SceneState& state() const override { return state_; }
+
+ private:
+  void read_state();
+
+  std::unique_ptr<reference::SpringSolver> solver_;
+  SceneState state_;
+  StepReport report_;
+};
+
+reference::Body make_body(const Cloth& cloth) {
+  reference::Body body;
+  body.name = cloth.name;
+  body.mesh = make_mesh(cloth);
+  for (const forces::LawSpecification& law : cloth.laws) {
+    body.laws.add(forces::make_law<double>(law, body.mesh));
+  }
+  body.positions = body.mesh.rest_positions;
+  body.velocities = cloth.velocity.replicate(1, body.mesh.num_nodes());
+  for (const int node : body.mesh.pinned) body.velocities.col(node).setZero();
+  body.collision_margin = cloth.collision_margin;
+  body.friction = cloth.friction;
+  return body;
+}
+
+struct ToReferenceShape {
+  reference::Shape operator()(const SphereShape& s) const { return reference::Sphere{s.radius}; }
+  reference::Shape operator()(const BoxShape& b) const { return reference::Box{b.half_extents}; }
+  reference::Shape operator()(const PlaneShape&) const { return reference::Plane{}; }
+};
+
+reference::Collider make_collider(const Collider& collider) {
+  reference::Collider result;
+  result.name = collider.name;
+  result.shape = std::visit(ToReferenceShape{}, collider.shape);
+  result.position = collider.position;
+  result.orientation = collider.orientation;
+  result.friction = collider.friction;
+  result.mass = collider.mass;
+  if (collider.mass) {
+    result.velocity = collider.velocity;
+    result.angular_velocity = collider.angular_velocity;
+  }
+  return result;
+}
+
+reference::IntegratorKind to_reference(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::kExplicitEuler:
+      return reference::IntegratorKind::kExplicitEuler;
+    case Integrator::kModifiedEuler:
+      return reference::IntegratorKind::kModifiedEuler;
+    case Integrator::kVelocityVerlet:
+      return reference::IntegratorKind::kVelocityVerlet;
+    case Integrator::kRungeKutta4:
+      break;
+  }
+  return reference::IntegratorKind::kRungeKutta4;
+}
+
+reference::GuardPolicy to_reference(StepGuard guard) {
+  switch (guard) {
+    case StepGuard::kReport:
+      return reference::GuardPolicy::kReport;
+    case StepGuard::kRefuse:
+      return reference::GuardPolicy::kRefuse;
+    case StepGuard::kSubstep:
+      break;
+  }
+  return reference::GuardPolicy::kSubstep;
+}
+
+void ReferenceSimulator::load(const Scene& scene) {
+  reference::System system;
+  system.gravity = scene.world.gravity;
+  for (const Cloth& cloth : scene.cloths) system.bodies.push_back(make_body(cloth));
+  for (const Collider& collider : scene.colliders) {
+    system.colliders.push_back(make_collider(collider));
+  }
+  reference::SolverOptions options;
+  options.integrator = to_reference(scene.reference.integrator);
+  options.contact = scene.reference.contact == ContactModel::kProjection
+                        ? reference::ContactKind::kProjection
+                        : reference::ContactKind::kImpulse;
+  options.guard = to_reference(scene.reference.step_guard);
+  solver_ = std::make_unique<reference::SpringSolver>(std::move(system), options);
+  state_ = {};
+  report_ = {};
+  read_state();
+}
+
+void ReferenceSimulator::read_state() {
+  const reference::System& system = solver_->system();
+  state_.time = solver_->time();
+  state_.cloths.resize(system.bodies.size());
+  for (std::size_t b = 0; b < system.bodies.size(); ++b) {
+    state_.cloths[b].name = system.bodies[b].name;
+    state_.cloths[b].positions = system.bodies[b].positions;
+    state_.cloths[b].velocities = system.bodies[b].velocities;
+  }
+  state_.rigids.resize(system.colliders.size());
+  for (std::size_t c = 0; c < system.colliders.size(); ++c) {
+    const reference::Collider& collider = system.colliders[c];
+    state_.rigids[c] = {collider.name, collider.position, collider.orientation, collider.velocity,
+                        collider.angular_velocity};
+  }
+}
+
+StepReport ReferenceSimulator::step(double time_step) {
+  if (report_.blow_up) return report_;
+  const reference::StepOutcome outcome = solver_->step(time_step);
+  report_.step += 1;
+  report_.time = solver_->time();
+  report_.time_step = time_step;
+  report_.substeps = outcome.substeps;
+  report_.num_contacts = outcome.contact.num_contacts;
+  read_state();
+  if (outcome.blow_up) {
+    report_.blow_up = BlowUp{report_.step, report_.time, outcome.blow_up->body,
+                             outcome.blow_up->node, outcome.blow_up->reason};
+  }
+  return report_;
+}
+
+}  // namespace
+
+std::unique_ptr<Simulator> make_reference() {
+  return std::make_unique<ReferenceSimulator>();
+}
+
+}  // namespace weft::scenes
