@@ -10,20 +10,20 @@ namespace weft::validation {
 
 /// A deliberate mistake that a check must notice.
 struct SabotageResult {
-  std::string name;      ///< "spring constant +1 %"
-  double measured = 0;   ///< the check's metric under the sabotage
-  bool detected = false; ///< the check failed, as it must
+  std::string name;       ///< "spring constant +1 %"
+  double measured = 0;    ///< the check's metric under the sabotage
+  bool detected = false;  ///< the check failed, as it must
 };
 
 /// One row of the report's table: one number against one bound.
 struct CheckResult {
-  std::string case_id;    ///< "hang"
-  std::string engine;     ///< "bullet_forces float64"
-  std::string claim;      ///< "follows the reference step for step"
-  std::string metric;     ///< "largest node distance, 0 to 0.5 s"
-  std::string unit;       ///< "m"; "1" if dimensionless
-  std::string formula;    ///< what it is compared with, may be empty
-  std::string source;     ///< where the formula or reference comes from
+  std::string case_id;  ///< "hang"
+  std::string engine;   ///< "bullet_forces float64"
+  std::string claim;    ///< "follows the reference step for step"
+  std::string metric;   ///< "largest node distance, 0 to 0.5 s"
+  std::string unit;     ///< "m"; "1" if dimensionless
+  std::string formula;  ///< what it is compared with, may be empty
+  std::string source;   ///< where the formula or reference comes from
   double measured = 0;
   std::optional<Tolerance> tolerance;  ///< none: measured and shown, not gated
   Verdict verdict = Verdict::kInfo;
@@ -87,14 +87,16 @@ struct Report {
   std::vector<CheckResult> checks;
   std::vector<Section> sections;
   std::vector<Departure> departures;
-  std::vector<std::string> limits;                              ///< what was not tested
-  std::vector<std::pair<std::string, std::string>> provenance;  ///< machine, compiler, versions, hashes
+  std::vector<std::string> limits;  ///< what was not tested
+  /// machine, compiler, versions, hashes
+  std::vector<std::pair<std::string, std::string>> provenance;
   [[nodiscard]] bool passed() const;  ///< no failed check and every sabotage detected
 };
 
-/// report.json, pretty-printed; pictures as base64. Numbers with 17 digits; a non-finite number is a string.
+/// report.json, pretty-printed, with a schema version; pictures as base64. Numbers read back to the
+/// same bits (up to 17 digits); a non-finite one is the string "NaN", "Infinity" or "-Infinity".
 [[nodiscard]] std::string to_json(const Report& report);
-/// junit.xml: one test case per check, one per sabotage.
+/// junit.xml: one test case per check (skipped if not gated), one per sabotage.
 [[nodiscard]] std::string to_junit(const Report& report);
 /// One self-contained page that opens from file://.
 [[nodiscard]] std::string to_html(const Report& report);

@@ -1,0 +1,220 @@
+// node page_test.mjs CHROMIUM SAMPLE_FOLDER: opens the sample reports from file:// as a reader would.
+import assert from "node:assert/strict";
+import { mkdtempSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const { chromium } = createRequire(new URL("../../web/package.json", import.meta.url))("playwright-core");
+const [executablePath, samples] = process.argv.slice(2);
+assert(executablePath && samples, "usage: node page_test.mjs CHROMIUM SAMPLE_FOLDER");
+
+const profile = mkdtempSync(join(tmpdir(), "weft-page-"));
+const browser = await chromium.launchPersistentContext(profile, {
+  executablePath,
+  headless: true,
+  args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync"],
+});
+
+async function open(name, { width = 1200, colorScheme = "light" } = {}) {
+  const page = await browser.newPage();
+  const complaints = [];
+  page.on("console", (message) => {
+    if (["error", "warning"].includes(message.type())) complaints.push(message.text());
+  });
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  page.on("request", (request) => {
+    if (!/^(file|data):/.test(request.url())) complaints.push(`asked for ${request.url()}`);
+  });
+  await page.emulateMedia({ colorScheme });
+  await page.setViewportSize({ width, height: 900 });
+  await page.goto(pathToFileURL(resolve(samples, name, "index.html")).href);
+  await page.waitForSelector("#verdict", { timeout: 10_000 });
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  return { page, complaints };
+}
+
+/** Per chart: pixels that are not background, and pixels in the colour of the first series (axes and text are grey). */
+const inkPerChart = (page) => page.$$eval(".chart canvas", (canvases) => canvases.map((canvas) => {
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  const ink = { any: 0, blue: 0 };
+  for (let i = 0; i < data.length; i += 4) {
+    ink.any += data[i + 3] > 0 ? 1 : 0;
+    ink.blue += data[i + 3] > 200 && data[i + 2] - data[i] > 80 ? 1 : 0;
+  }
+  return ink;
+}));
+
+const visibleRows = (page) => page.locator(".checks tbody tr:visible");
+const sidewaysOverflow = (page) => page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+
+const tests = {
+  async "a failing report says so first, and then what to look at"() {
+    const { page, complaints } = await open("failing");
+    assert.equal(await page.textContent("#verdict"), "FAIL");
+    assert.match(await page.textContent(".sentence"), /2 of 12 checks fail; 1 of 14 sabotages was not noticed\./);
+    assert.match(await page.title(), /^FAIL: /);
+    assert.equal(await page.locator(".failure").count(), 2);
+    assert.match(await page.textContent(".failure >> nth=0"), /Energy never grows.*0\.031.*3\.1.*one damper missing.*not noticed.*Energy plot of hang/s);
+    assert.match(await page.textContent(".failure >> nth=1"), /NaN/);
+    const order = await page.$$eval(".checks tbody tr", (rows) => rows.map((row) => row.classList.contains("attention")));
+    assert.deepEqual(order.slice(0, 3), [true, true, false], "failed rows come first");
+    assert.deepEqual(complaints, []);
+  },
+
+  async "a passing report says PASS and lists no failure"() {
+    const { page, complaints } = await open("passing");
+    assert.equal(await page.textContent("#verdict"), "PASS");
+    assert.equal(await page.locator(".failures").count(), 0);
+    assert.match(await page.textContent(".sentence"), /All 10 checks hold; all 11 sabotages were noticed\./);
+    assert.deepEqual(complaints, []);
+  },
+
+  async "an empty report does not claim that anything was checked"() {
+    const { page, complaints } = await open("empty");
+    assert.match(await page.textContent(".sentence"), /Nothing was gated/);
+    assert.deepEqual(complaints, []);
+  },
+
+  async "every plot is drawn, also with numbers that are not finite"() {
+    const { page, complaints } = await open("failing");
+    const ink = await inkPerChart(page);
+    const drawn = { any: 2000, blue: 100 }; // pixels; axes and labels alone give about 4000, an empty canvas none
+    assert.equal(ink.length, 4);
+    assert(ink.every(({ any, blue }) => any > drawn.any && blue > drawn.blue), JSON.stringify(ink));
+    assert.match(await page.textContent("#section-2"), /Not drawn: 5 points/);
+    assert.deepEqual(complaints, []);
+  },
+
+  async "the cursor shows the value of each series"() {
+    const { page } = await open("failing");
+    const area = page.locator(".u-over").first();
+    await area.scrollIntoViewIfNeeded();
+    await area.hover({ position: { x: 200, y: 60 } });
+    await page.waitForTimeout(100);
+    const values = await page.locator(".u-legend").first().locator(".u-value").allTextContents();
+    assert.equal(values.length, 5);
+    assert(values.every((value) => /\d/.test(value)), values.join(" | "));
+  },
+
+  async "a series can be hidden from the keyboard"() {
+    const { page } = await open("failing");
+    const name = page.locator(".u-legend .u-series th[role=button]").first();
+    await name.focus();
+    await page.keyboard.press("Enter");
+    assert.equal(await name.getAttribute("aria-pressed"), "false");
+    await page.keyboard.press("Enter");
+    assert.equal(await name.getAttribute("aria-pressed"), "true");
+  },
+
+  async "filters by case, engine and verdict"() {
+    const { page } = await open("failing");
+    const all = await visibleRows(page).count();
+    assert.equal(all, 14);
+    await page.getByLabel("Verdict", { exact: true }).selectOption("info");
+    assert.equal(await visibleRows(page).count(), 2);
+    await page.getByLabel("Engine", { exact: true }).selectOption("bullet_soft float32");
+    assert.equal(await visibleRows(page).count(), 1);
+    assert.match(await page.textContent(".filters [role=status]"), /1 of 14 rows/);
+    await page.getByRole("button", { name: "Show all" }).click();
+    assert.equal(await visibleRows(page).count(), all);
+    await page.getByRole("button", { name: /^hang, bullet_soft float32/ }).click();
+    assert.equal(await visibleRows(page).count(), 2);
+  },
+
+  async "marks tight, loose and ungated rows"() {
+    const { page } = await open("failing");
+    assert.deepEqual((await page.locator(".checks .flag").allTextContents()).sort(), ["loose", "tight", "tight"]);
+    const info = page.locator(".checks tr.info").first();
+    assert.match(await info.textContent(), /not gated/);
+    assert.equal(await info.locator(".bar").count(), 0);
+  },
+
+  async "the reason of a bound is a bubble for mouse and keyboard"() {
+    const { page } = await open("passing");
+    await page.locator(".checks .basis").first().focus();
+    assert.match(await page.textContent("#tooltip"), /C h with p = 1/);
+    assert(await page.locator("#tooltip").isVisible());
+    await page.keyboard.press("Escape");
+    assert(!(await page.locator("#tooltip").isVisible()));
+  },
+
+  async "the reason of a bound is plain text on paper"() {
+    const { page } = await open("passing");
+    await page.emulateMedia({ media: "print" });
+    const reason = page.locator(".checks .print-only").first();
+    assert(await reason.isVisible());
+    assert.match(await reason.textContent(), /C h with p = 1/);
+  },
+
+  async "hostile text is shown, not run"() {
+    const { page } = await open("failing");
+    assert.equal(await page.evaluate(() => window.hacked), undefined);
+    assert.match(await page.textContent(".failure >> nth=1"), /<\/script><script>window\.hacked/);
+  },
+
+  async "pictures have alternative text and open large"() {
+    const { page } = await open("failing");
+    const images = await page.$$eval(".pictures img", (list) => list.map((image) => [image.alt, image.naturalWidth]));
+    assert.equal(images.length, 8);
+    assert(images.every(([alt, width]) => alt !== "" && width === 320));
+    await page.locator(".picture").first().click();
+    assert.match(await page.textContent("dialog [role=status]"), /1 of 4: reference/);
+    await page.keyboard.press("ArrowRight");
+    assert.match(await page.textContent("dialog [role=status]"), /2 of 4: bullet_soft/);
+    await page.keyboard.press("Escape");
+    await page.waitForSelector("dialog", { state: "detached" });
+  },
+
+  async "no sideways scrolling, from a phone to a desk"() {
+    for (const width of [320, 400, 800, 1200]) {
+      const { page, complaints } = await open("failing", { width });
+      assert.equal(await sidewaysOverflow(page), 0, `at ${width} px`);
+      assert.deepEqual(complaints, []);
+      await page.close();
+    }
+  },
+
+  async "text has contrast in light and dark"() {
+    const kReadable = 4.5; // WCAG 2.2, level AA, normal text
+    for (const colorScheme of ["light", "dark"]) {
+      const { page } = await open("failing", { colorScheme });
+      const ratios = await page.evaluate(() => {
+        const canvas = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
+        const luminance = (name) => {
+          canvas.fillStyle = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+          canvas.fillRect(0, 0, 1, 1);
+          const [r, g, b] = [...canvas.getImageData(0, 0, 1, 1).data].map((v) => {
+            const c = v / 255;
+            return c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
+          });
+          return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        };
+        const pairs = [["--text", "--ground"], ["--muted", "--ground"], ["--muted", "--card"], ["--muted", "--track"],
+          ["--accent", "--ground"], ["--pass", "--pass-ground"], ["--fail", "--fail-ground"], ["--fail", "--card"], ["--warn", "--warn-ground"]];
+        return pairs.map(([front, back]) => {
+          const [a, b] = [luminance(front), luminance(back)];
+          return [`${front} on ${back}`, (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05)];
+        });
+      });
+      for (const [pair, ratio] of ratios) assert(ratio >= kReadable, `${colorScheme}: ${pair} is ${ratio.toFixed(2)}`);
+      await page.close();
+    }
+  },
+};
+
+let failed = 0;
+for (const [claim, run] of Object.entries(tests)) {
+  try {
+    await run();
+    console.log(`ok    ${claim}`);
+  } catch (error) {
+    failed += 1;
+    console.log(`FAIL  ${claim}\n${error.stack}`);
+  }
+}
+await browser.close();
+rmSync(profile, { recursive: true, force: true });
+process.exit(failed === 0 ? 0 : 1);

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string_view>
+
+namespace weft::validation {
+
+/// The report page before it has data: the bytes of web/dist/report.html.
+[[nodiscard]] std::string_view page_template();
+
+}  // namespace weft::validation

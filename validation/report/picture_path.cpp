@@ -1,0 +1,38 @@
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include <weft/validation/report/picture_path.hpp>
+
+namespace weft::validation {
+namespace {
+
+// Titles are free text; a file name must not leave the folder or depend on the file system's
+// alphabet.
+std::string file_name_part(std::string_view title) {
+  constexpr std::size_t kLongest = 48;
+  std::string name;
+  for (const char c : title.substr(0, kLongest)) {
+    if (c >= 'A' && c <= 'Z') {
+      name += static_cast<char>(c - 'A' + 'a');
+    } else if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-') {
+      name += c;
+    } else if (!name.empty() && name.back() != '_') {
+      name += '_';
+    }
+  }
+  while (!name.empty() && name.back() == '_') name.pop_back();
+  return name.empty() ? "untitled" : name;
+}
+
+}  // namespace
+
+std::string picture_path(const Report& report, std::size_t section, std::size_t row,
+                         std::size_t picture) {
+  const Section& of = report.sections.at(section);
+  return fmt::format("pictures/{}-{}/{}-{}-{}.png", section + 1, file_name_part(of.id), row + 1,
+                     picture + 1,
+                     file_name_part(of.picture_rows.at(row).pictures.at(picture).title));
+}
+
+}  // namespace weft::validation

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include <weft/validation/report/report.hpp>
+
+namespace weft::validation {
+
+/// Where a picture's file is, relative to the report's folder:
+/// "pictures/2-drape_sphere/1-3-bullet_soft.png". Indices start at 0 and are valid ones; they keep
+/// names unique whatever the titles are. Only [a-z0-9_-] occurs.
+[[nodiscard]] std::string picture_path(const Report& report, std::size_t section, std::size_t row,
+                                       std::size_t picture);
+
+}  // namespace weft::validation

@@ -1,0 +1,43 @@
+#include <string_view>
+
+#include <weft/custom_forces/core/error.hpp>
+#include <weft/validation/report/page.hpp>
+#include <weft/validation/report/report.hpp>
+
+namespace weft::validation {
+namespace {
+
+// '<' occurs in JSON only inside strings, where \u003c means the same: no text can end the script
+// element
+// ("</script") or open a comment ("<!--").
+std::string without_markup(const std::string& json) {
+  std::string text;
+  text.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<') {
+      text += "\\u003c";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string to_html(const Report& report) {
+  constexpr std::string_view kSlot = "__WEFT_REPORT_JSON__";
+  const std::string_view page = page_template();
+  const std::size_t at = page.find(kSlot);
+  if (at == std::string_view::npos) {
+    throw Error(
+        "to_html: web/dist/report.html has no slot __WEFT_REPORT_JSON__, expected one; rebuild "
+        "web/");
+  }
+  std::string html(page.substr(0, at));
+  html += without_markup(to_json(report));
+  html += page.substr(at + kSlot.size());
+  return html;
+}
+
+}  // namespace weft::validation

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+
+#include <weft/validation/report/report.hpp>
+
+namespace weft::validation {
+
+/// Writes index.html, report.json, junit.xml and pictures/<...>.png into the folder, making it if
+/// needed. Each file is written under a temporary name and renamed, so a reader sees the old file
+/// or the new one, never a part; the page comes last. Files of an earlier report that this one does
+/// not have are left alone.
+/// @throws Error naming the path and the reason.
+void write_report(const Report& report, const std::filesystem::path& folder);
+
+}  // namespace weft::validation

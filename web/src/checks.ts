@@ -1,0 +1,146 @@
+import { allowed, basis, measured, ratioBar, sabotageItem, verdictPill } from "./check_parts";
+import { h, scrollBox } from "./dom";
+import { count } from "./format";
+import { needsAttention, undetected, unique, type Check, type Report } from "./report";
+
+interface Filter {
+  case: string;
+  engine: string;
+  verdict: string;
+}
+
+const ALL: Filter = { case: "", engine: "", verdict: "" };
+const VERDICTS: [string, string][] = [
+  ["", "any verdict"],
+  ["attention", "failed"],
+  ["pass", "passed"],
+  ["info", "not gated"],
+  ["tight", "tight bound"],
+  ["loose", "loose bound"],
+];
+
+function matches(check: Check, filter: Filter): boolean {
+  if (filter.case !== "" && check.case !== filter.case) return false;
+  if (filter.engine !== "" && check.engine !== filter.engine) return false;
+  switch (filter.verdict) {
+    case "": return true;
+    case "attention": return needsAttention(check);
+    case "tight":
+    case "loose": return check.flag === filter.verdict;
+    default: return check.verdict === filter.verdict;
+  }
+}
+
+function sabotageCell(check: Check): HTMLElement | null {
+  const total = check.sabotages.length;
+  if (total === 0) return null;
+  const missed = undetected(check).length;
+  return h("span", { class: missed > 0 ? "bad" : "" }, `${total - missed} of ${total}`);
+}
+
+function more(check: Check): HTMLElement | null {
+  const facts: [string, string][] = [
+    ["compared with", check.formula],
+    ["source", check.source],
+    ["bound", check.tolerance?.why ?? ""],
+    ["note", check.note],
+  ];
+  const shown = facts.filter(([, value]) => value !== "");
+  if (shown.length === 0 && check.sabotages.length === 0) return null;
+  return h("details", { "data-print-open": true },
+    h("summary", {}, "details"),
+    h("dl", { class: "more" }, shown.map(([term, value]) => [h("dt", {}, term), h("dd", {}, value)])),
+    check.sabotages.length > 0 && h("ul", { class: "sabotages" }, check.sabotages.map((s) => sabotageItem(s, check))));
+}
+
+function row(check: Check, sections: Map<string, string>): HTMLElement {
+  const target = sections.get(check.case);
+  return h("tr", { class: `${check.verdict} ${needsAttention(check) ? "attention" : ""}` },
+    h("td", {}, verdictPill(check.verdict)),
+    h("td", { class: "where" },
+      target === undefined ? check.case : h("a", { href: `#${target}` }, check.case),
+      h("span", { class: "muted small block" }, check.engine)),
+    h("th", { scope: "row", class: "claim" },
+      check.claim, h("span", { class: "muted small block" }, check.metric), more(check)),
+    h("td", { class: "number" }, measured(check)),
+    h("td", { class: "number" }, allowed(check)),
+    h("td", {}, ratioBar(check)),
+    h("td", {}, basis(check)),
+    h("td", {}, sabotageCell(check)));
+}
+
+function select(label: string, options: [string, string][]): HTMLSelectElement {
+  return h("select", { "aria-label": label },
+    options.map(([value, text]) => h("option", { value }, text)));
+}
+
+/** Cases against engines: where the numbers are and how many pass. */
+function matrix(report: Report, choose: (filter: Filter) => void): HTMLElement | null {
+  const cases = unique(report.checks.map((check) => check.case));
+  const engines = unique(report.checks.map((check) => check.engine));
+  if (cases.length < 2 || engines.length < 2) return null;
+  const cell = (name: string, engine: string): HTMLElement => {
+    const here = report.checks.filter((check) => check.case === name && check.engine === engine);
+    if (here.length === 0) return h("td", { class: "none" }, "·");
+    const gated = here.filter((check) => check.verdict !== "info");
+    const good = gated.filter((check) => check.verdict === "pass").length;
+    const state = here.some(needsAttention) ? "fail" : gated.length > 0 ? "pass" : "info";
+    const text = gated.length > 0 ? `${good}/${gated.length}` : "info";
+    const what = gated.length > 0 ? `${good} of ${count(gated.length, "check")} pass` : "measured, not gated";
+    const button = h("button", { type: "button", class: state, "aria-label": `${name}, ${engine}: ${what}; show them` }, text);
+    button.addEventListener("click", () => choose({ ...ALL, case: name, engine }));
+    return h("td", {}, button);
+  };
+  return scrollBox("Checks passed per case and engine", h("table", { class: "matrix" },
+    h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "case"), engines.map((engine) => h("th", { scope: "col" }, engine)))),
+    h("tbody", {}, cases.map((name) =>
+      h("tr", {}, h("th", { scope: "row" }, name), engines.map((engine) => cell(name, engine)))))));
+}
+
+export function renderChecks(report: Report, sections: Map<string, string>): HTMLElement {
+  const ordered = [...report.checks.filter(needsAttention), ...report.checks.filter((check) => !needsAttention(check))];
+  const rows = ordered.map((check) => ({ check, element: row(check, sections) }));
+  const named = (name: string, values: string[]): [string, string][] =>
+    [["", name], ...values.map((value): [string, string] => [value, value])];
+  const byCase = select("Case", named("any case", unique(report.checks.map((check) => check.case))));
+  const byEngine = select("Engine", named("any engine", unique(report.checks.map((check) => check.engine))));
+  const byVerdict = select("Verdict", VERDICTS);
+  const reset = h("button", { type: "button" }, "Show all");
+  const shown = h("span", { class: "muted", role: "status" });
+
+  const apply = (): void => {
+    const filter = { case: byCase.value, engine: byEngine.value, verdict: byVerdict.value };
+    let visible = 0;
+    for (const { check, element } of rows) {
+      element.hidden = !matches(check, filter);
+      visible += element.hidden ? 0 : 1;
+    }
+    shown.textContent = visible === rows.length ? count(visible, "row") : `${visible} of ${count(rows.length, "row")}`;
+    reset.disabled = visible === rows.length;
+  };
+  const box = h("section", { id: "checks", "aria-labelledby": "checks-title" });
+  const choose = (filter: Filter): void => {
+    [byCase.value, byEngine.value, byVerdict.value] = [filter.case, filter.engine, filter.verdict];
+    apply();
+    filters.scrollIntoView({ block: "start" });
+  };
+  for (const control of [byCase, byEngine, byVerdict]) control.addEventListener("change", apply);
+  reset.addEventListener("click", () => choose(ALL));
+
+  const heads = ["verdict", "case, engine", "claim, metric", "measured", "allowed", "ratio", "basis", "sabotages noticed"];
+  const table = h("table", { class: "checks" },
+    h("thead", {}, h("tr", {}, heads.map((head, i) => h("th", { scope: "col", class: i === 3 || i === 4 ? "number" : "" }, head)))),
+    h("tbody", {}, rows.map(({ element }) => element)));
+  const filters = h("div", { class: "filters" }, byCase, byEngine, byVerdict, reset, shown);
+  box.append(
+    h("h2", { id: "checks-title" }, "Checks"),
+    h("p", { class: "muted lead" },
+      "Each row compares one measured number with one bound that has a stated reason. The bar shows how much of the bound is used; " +
+      "above 0.5 the bound is tight, below 0.01 it is loose. Rows that are not gated are shown, but cannot fail. " +
+      "A sabotage is a deliberate mistake that the check must notice."));
+  const overview = matrix(report, choose);
+  if (overview) box.append(overview);
+  box.append(filters, scrollBox("Table of checks", table));
+  apply();
+  return box;
+}

@@ -1,0 +1,36 @@
+// Elements without a framework. Text is always set as text, never as markup.
+
+type Child = Node | string | null | false | Child[];
+type Attributes = Record<string, string | number | boolean | undefined>;
+
+export function h<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  attributes: Attributes = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === undefined || value === false) continue;
+    element.setAttribute(name, value === true ? "" : String(value));
+  }
+  append(element, children);
+  return element;
+}
+
+function append(element: HTMLElement, children: Child[]): void {
+  for (const child of children) {
+    if (child === null || child === false) continue;
+    if (Array.isArray(child)) append(element, child);
+    else element.append(child);
+  }
+}
+
+/** A box that scrolls sideways by itself; focusable, so that the arrow keys reach it. */
+export function scrollBox(label: string, child: HTMLElement): HTMLElement {
+  return h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": label }, child);
+}
+
+/** An id that is safe as a fragment whatever the text is. */
+export function anchor(kind: string, index: number): string {
+  return `${kind}-${index + 1}`;
+}

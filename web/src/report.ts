@@ -1,0 +1,111 @@
+// The data of the page, as validation/report/to_json.cpp writes it.
+
+/** JSON has no NaN and no infinities; they arrive as words. */
+export type Numeric = number | "NaN" | "Infinity" | "-Infinity";
+export type Verdict = "pass" | "fail" | "info";
+
+export interface Tolerance {
+  value: Numeric;
+  basis: string;
+  why: string;
+}
+
+export interface Sabotage {
+  name: string;
+  measured: Numeric;
+  detected: boolean;
+}
+
+export interface Check {
+  case: string;
+  engine: string;
+  claim: string;
+  metric: string;
+  unit: string;
+  formula: string;
+  source: string;
+  measured: Numeric;
+  tolerance: Tolerance | null;
+  ratio: Numeric | null;
+  flag: "" | "tight" | "loose";
+  verdict: Verdict;
+  note: string;
+  sabotages: Sabotage[];
+}
+
+export interface Series {
+  name: string;
+  x: Numeric[];
+  y: Numeric[];
+}
+
+export interface Plot {
+  title: string;
+  x_label: string;
+  y_label: string;
+  log_x: boolean;
+  log_y: boolean;
+  series: Series[];
+}
+
+export interface Picture {
+  title: string;
+  caption: string;
+  file: string;
+  png_base64: string;
+}
+
+export interface Section {
+  id: string;
+  summary: string;
+  picture_rows: { title: string; pictures: Picture[] }[];
+  plots: Plot[];
+  tables: { title: string; columns: string[]; rows: string[][] }[];
+  scene_text: string;
+}
+
+export interface Report {
+  schema: string;
+  schema_version: number;
+  title: string;
+  passed: boolean;
+  summary: {
+    checks_passed: number;
+    checks_failed: number;
+    checks_not_gated: number;
+    sabotages: number;
+    sabotages_detected: number;
+  };
+  checks: Check[];
+  sections: Section[];
+  departures: { engine: string; what: string; measured: string; reason: string }[];
+  limits: string[];
+  provenance: { name: string; value: string }[];
+}
+
+const SCHEMA_VERSION = 1;
+
+/** Reads the data slot; throws with one clear line if it is not a report this page knows. */
+export function readReport(): Report {
+  const text = document.getElementById("weft-report")?.textContent ?? "";
+  const report = JSON.parse(text) as Report;
+  if (report.schema !== "weft-report" || report.schema_version !== SCHEMA_VERSION) {
+    throw new Error(
+      `The data is ${report.schema} version ${report.schema_version}, expected weft-report version ${SCHEMA_VERSION}.`,
+    );
+  }
+  return report;
+}
+
+export function undetected(check: Check): Sabotage[] {
+  return check.sabotages.filter((sabotage) => !sabotage.detected);
+}
+
+/** A check that keeps the report from passing: its bound is broken, or it did not notice a sabotage. */
+export function needsAttention(check: Check): boolean {
+  return check.verdict === "fail" || undetected(check).length > 0;
+}
+
+export function unique(values: string[]): string[] {
+  return [...new Set(values)];
+}
