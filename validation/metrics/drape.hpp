@@ -16,12 +16,6 @@ struct DrapeSetup {
   std::optional<double> support_radius = std::nullopt;
   /// Cell of the raster [m]; none: cusick_cell_size of the specimen.
   std::optional<double> cell_size = std::nullopt;
-};                                        ///< against gravity, any length > 0 [-]
-Vector3<double> support_center{0, 0, 0};  ///< any point on the support's vertical axis [m]
-std::optional<double>
-    support_radius;  ///< of the disc or sphere under the cloth [m]; none: nothing to subtract
-std::optional<double> cell_size =
-    std::nullopt;  ///< of the raster [m]; none: cusick_cell_size of the specimen
 };
 
 /// Drape coefficient after Cusick (BS 5058, ISO 9073-9), for a specimen of any outline on a support
@@ -40,10 +34,10 @@ struct Drape {
 };
 
 /// Measures the drape of a mesh in the given positions. The specimen is the mesh's rest shape seen
-/// along its mean normal; all three areas are counted on rasters of one cell size. Shapes positions
-/// 3 x n [m], n as the mesh Errors   InvalidArgument for a setup out of its domain, a mesh without
-/// rest area, a support not smaller than the
-///          specimen, positions of another size
+/// along its mean normal; all three areas are counted on rasters of one cell size.
+/// Shapes   positions 3 x n [m], n as the mesh
+/// Errors   InvalidArgument for a setup out of its domain, a mesh without rest area, a support not
+///          smaller than the specimen, positions of another size
 [[nodiscard]] Drape measure_drape(const ClothMesh& mesh, ConstMatrix3XRef<double> positions,
                                   const DrapeSetup& setup);
 

@@ -17,21 +17,21 @@ struct RimSetup {
   Vector3<double> up{0, 1, 0};      ///< any length > 0 [-]
   Vector3<double> center{0, 0, 0};  ///< any point on the vertical axis [m]
   int num_angles = 720;             ///< samples of r(phi), >= 50 so that mode 24 is resolved
-  double prominence =
-      0.002;  ///< what a maximum must rise above its surroundings to count as a fold [m], >= 0
+  /// What a maximum must rise above its surroundings to count as a fold [m], >= 0.
+  double prominence = 0.002;
 };
 
 /// The rim of a draped cloth as a curve r(phi) around the vertical axis, and its folds.
 /// A specimen with corners has modes of its own, whatever its folds: a flat square has mode 4.
 /// Compare fold counts for round specimens, or with the spectrum of the flat specimen.
 struct RimFolds {
-  VectorX<double>
-      radii;  ///< r(phi_k) [m], phi_k = 2 pi k / num_angles; the outermost crossing of the rim
+  /// r(phi_k) [m], phi_k = 2 pi k / num_angles; the outermost crossing of the rim.
+  VectorX<double> radii;
   double mean_radius = 0.0;  ///< [m]
   /// Amplitude [m] of cos(m phi - phase) in r(phi), m = kFirstFoldMode ... kLastFoldMode.
   std::array<double, kLastFoldMode - kFirstFoldMode + 1> amplitudes{};
-  int dominant_mode =
-      0;  ///< mode of the largest amplitude: the fold count; the lowest one if several are equal
+  /// Mode of the largest amplitude: the fold count; the lowest one if several are equal.
+  int dominant_mode = 0;
   int num_maxima = 0;  ///< maxima of r(phi) with the asked prominence
 };
 
