@@ -14,7 +14,14 @@ step() {
   local name=$1 start=$SECONDS status=0
   shift
   printf '== %s\n' "$name"
-  (cd -- "$step_root" && "$@") || status=$?
+  set +e # and not '|| status=$?', which would switch -e off inside the command too
+  (
+    set -e
+    cd -- "$step_root"
+    "$@"
+  )
+  status=$?
+  set -e
   step_summary+=("$(printf '%6d s  %s' $((SECONDS - start)) "$name")")
   ((status == 0)) || fail "FAILED at: $name (exit status $status)" "$status"
 }
