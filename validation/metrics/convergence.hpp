@@ -5,10 +5,10 @@
 
 namespace weft::validation {
 
-/// Order p of errors that behave as C h^p: least-squares slope of ln error over ln step size, two
-/// levels or more. None if an error is not positive and finite: a slope through round-off or NaN is
-/// no order. Shapes   step_sizes > 0 (any unit), errors of the same number >= 2 Errors
-/// InvalidArgument for step sizes out of their domain or all equal
+/// Order p of errors that behave as C h^p: least-squares slope of ln error over ln step size.
+/// None if an error is not positive and finite: a slope through round-off or NaN is no order.
+/// Shapes   step_sizes > 0 (any unit), errors of the same number >= 2
+/// Errors   InvalidArgument for step sizes out of their domain or all equal
 [[nodiscard]] std::optional<double> observed_order(std::span<const double> step_sizes,
                                                    std::span<const double> errors);
 

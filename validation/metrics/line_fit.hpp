@@ -9,8 +9,8 @@ namespace weft::validation {
 struct LineFit {
   double slope = 0.0;
   double intercept = 0.0;
-  double r_squared =
-      0.0;  ///< share of the variance of y that the line explains [-]; 1 if y does not vary
+  /// Share of the variance of y that the line explains [-]; 1 if y does not vary.
+  double r_squared = 0.0;
 };
 
 /// Least-squares line through points. None with fewer than two different x, or if a number is not

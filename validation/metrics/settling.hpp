@@ -25,16 +25,16 @@ struct Settling {
 };
 
 /// Settling time of a series. A value that is not finite is not at rest.
-/// Shapes   times [s] strictly increasing, specific_kinetic_energies [m^2/s^2], the same number >=
-/// 1 Errors   InvalidArgument for series or a rule out of their domain
+/// Shapes   times [s] strictly increasing, specific_kinetic_energies [m^2/s^2]; as many, >= 1
+/// Errors   InvalidArgument for series or a rule out of their domain
 [[nodiscard]] Settling settling(std::span<const double> times,
                                 std::span<const double> specific_kinetic_energies,
                                 const SettlingRule& rule = {});
 
 /// Force that is left at rest, as a multiple of a node's weight: max |F_i| / (m_i g) over the nodes
-/// that are free to move [-]. NaN if a force is not finite; 0 if every node is pinned. Shapes
-/// forces 3 x n [N], masses n [kg] > 0, pinned sorted node indices; gravity |g| [m/s^2] > 0 Errors
-/// InvalidArgument for shapes that do not fit and values out of their domain
+/// that are free to move [-]. NaN if a force is not finite; 0 if every node is pinned.
+/// Shapes   forces 3 x n [N], masses n [kg] > 0, pinned sorted node indices, gravity [m/s^2] > 0
+/// Errors   InvalidArgument for shapes that do not fit and values out of their domain
 [[nodiscard]] double force_residual(ConstMatrix3XRef<double> forces, const VectorX<double>& masses,
                                     const std::vector<int>& pinned, double gravity);
 

@@ -20,10 +20,10 @@ struct ShadowRaster {
 [[nodiscard]] double cusick_cell_size(double specimen_area);
 
 /// Area of the parallel projection of a surface along the raster's direction [m^2]: cells whose
-/// centre lies in at least one projected triangle, edges included; what overlaps counts once. None
-/// if a position is not finite or the shadow would need more than kMaxShadowCells. Shapes positions
-/// 3 x n [m], triangles 3 x t Errors   InvalidArgument for a raster out of its domain and for node
-/// indices out of range
+/// centre lies in at least one projected triangle, edges included; what overlaps counts once.
+/// None if a position is not finite or the shadow would need more than kMaxShadowCells.
+/// Shapes   positions 3 x n [m], triangles 3 x t
+/// Errors   InvalidArgument for a raster out of its domain and for node indices out of range
 [[nodiscard]] std::optional<double> shadow_area(ConstMatrix3XRef<double> positions,
                                                 const Triangles& triangles,
                                                 const ShadowRaster& raster);
