@@ -18,7 +18,8 @@ enum class SurfaceStyle {
   kScalar,     ///< shaded, coloured by a value per node (strain, difference to another run...)
 };
 
-/// Values that colour a cloth: one number per node, mapped from [minimum, maximum] to the colour scale.
+/// Values that colour a cloth: one number per node, mapped from [minimum, maximum] to the colour
+/// scale.
 struct ScalarField {
   std::vector<Eigen::VectorXd> values;  ///< one vector per cloth, n each
   double minimum = 0.0;
@@ -53,6 +54,7 @@ class Renderer {
 };
 
 /// Largest relative length change of the "stretch" springs at each node [-], signed; n.
-[[nodiscard]] Eigen::VectorXd node_strain(const ClothMesh& mesh, ConstMatrix3XRef<double> positions);
+[[nodiscard]] Eigen::VectorXd node_strain(const ClothMesh& mesh,
+                                          ConstMatrix3XRef<double> positions);
 
 }  // namespace weft::scenes

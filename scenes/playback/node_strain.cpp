@@ -1,0 +1,29 @@
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <weft/custom_forces/core/error.hpp>
+#include <weft/scenes/playback/renderer.hpp>
+
+namespace weft::scenes {
+
+Eigen::VectorXd node_strain(const ClothMesh& mesh, ConstMatrix3XRef<double> positions) {
+  if (positions.cols() != mesh.num_nodes()) {
+    throw InvalidArgument(fmt::format("node_strain: positions = {} nodes, expected {} as the mesh",
+                                      positions.cols(), mesh.num_nodes()));
+  }
+  const Edges edges = mesh.edges_of({"stretch"});
+  const Eigen::VectorXd rest = edge_lengths(mesh.rest_positions, edges);
+  const Eigen::VectorXd length = edge_lengths(positions, edges);
+  Eigen::VectorXd strain = Eigen::VectorXd::Zero(mesh.num_nodes());
+  for (Eigen::Index e = 0; e < edges.cols(); ++e) {
+    const double value = length[e] / rest[e] - 1.0;
+    for (const int node : {edges(0, e), edges(1, e)}) {
+      // Written so that a NaN of a blown-up state stays visible instead of losing every comparison.
+      if (!(std::abs(value) <= std::abs(strain[node]))) strain[node] = value;
+    }
+  }
+  return strain;
+}
+
+}  // namespace weft::scenes

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <weft/scenes/playback/color_map.hpp>
+#include <weft/scenes/playback/gpu_mesh.hpp>
+#include <weft/scenes/playback/light_maps.hpp>
+#include <weft/scenes/playback/renderer.hpp>
+#include <weft/scenes/playback/sample_target.hpp>
+#include <weft/scenes/playback/view.hpp>
+
+namespace weft::scenes {
+
+/// Draws checked states of a scene: what goes into a picture, and in which order.
+class ScenePainter {
+ public:
+  explicit ScenePainter(const Scene& scene);
+
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const std::vector<ClothMesh>& meshes() const { return meshes_; }
+
+  /// scalar and map are given for SurfaceStyle::kScalar only.
+  [[nodiscard]] Image paint(const SceneState& state, const RenderOptions& options,
+                            const ScalarField* scalar, const ColorMap* map);
+
+ private:
+  /// What is the same for all tiles of a picture.
+  struct Picture;
+
+  void upload_cloths(const SceneState& state, const RenderOptions& options,
+                     const ScalarField* scalar, const ColorMap* map);
+  void upload_scale(const ColorMap& map);
+  void draw_casters(const ShaderProgram& program, const SceneState& state) const;
+  void draw_tile(const Picture& picture, const Tile& tile);
+  void draw_backdrop(const Picture& picture, const Tile& tile);
+  void draw_ground(const Picture& picture, const Tile& tile);
+  void draw_colliders(const Picture& picture) const;
+  void draw_cloths(const Picture& picture) const;
+  void set_common(const ShaderProgram& program, const Picture& picture, const Tile& tile) const;
+
+  Scene scene_;
+  std::vector<ClothMesh> meshes_;
+  Stage stage_;
+  std::unique_ptr<OffscreenContext> context_;
+  GlFunctions gl_;
+  ShaderProgram backdrop_program_;
+  ShaderProgram ground_program_;
+  ShaderProgram surface_program_;
+  LightMaps light_maps_;
+  SampleTarget target_;
+  GpuMesh ground_;
+  std::vector<GpuMesh> bodies_;
+  std::vector<GpuMesh> cloths_;
+  GLuint screen_ = 0;
+  GLuint scale_ = 0;
+};
+
+}  // namespace weft::scenes

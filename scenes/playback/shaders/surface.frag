@@ -1,0 +1,84 @@
+// Cloth and colliders.
+in vec3 v_position;
+in vec3 v_normal;
+in vec2 v_value;
+in vec3 v_extra;
+in vec2 v_sky;
+
+const int kCloth = 0;
+const int kScalar = 1;
+const int kWireframe = 2;
+const int kSolid = 3;
+const int kTwoTone = 4;
+
+uniform int u_mode;
+uniform vec3 u_eye;
+uniform vec3 u_front_color;
+uniform vec3 u_back_color;
+uniform vec3 u_no_value_color;
+uniform vec3 u_fill_direction;
+uniform vec3 u_rim_direction;
+uniform float u_line_width;  // [sample]
+uniform sampler2D u_scale;
+
+out vec4 o_color;
+
+vec3 albedo(bool front) {
+  if (u_mode == kScalar) {
+    if (v_value.y < 0.999) return u_no_value_color;
+    return texture(u_scale, vec2((v_value.x * 255.0 + 0.5) / 256.0, 0.5)).rgb;
+  }
+  if (u_mode == kTwoTone) {
+    // Eight octants of the body: shows every rotation. Widths from derivatives keep the borders smooth.
+    vec3 width = max(fwidth(v_extra), vec3(1e-6));
+    vec3 side = clamp(v_extra / width, -1.0, 1.0);
+    return mix(u_front_color, u_back_color, 0.5 + 0.5 * side.x * side.y * side.z);
+  }
+  if (u_mode == kWireframe) return vec3(0.88);
+  return front ? u_front_color : u_back_color;
+}
+
+float wire() {
+  vec3 distance = v_extra / max(fwidth(v_extra), vec3(1e-6));
+  float nearest = min(distance.x, min(distance.y, distance.z));
+  return clamp(0.5 * u_line_width + 0.5 - nearest, 0.0, 1.0);
+}
+
+void main() {
+  bool front = gl_FrontFacing;
+  vec3 normal = normalize(front ? v_normal : -v_normal);
+  vec3 view = normalize(u_eye - v_position);
+  float sky = front ? v_sky.x : v_sky.y;
+  vec3 color = albedo(front);
+
+  float key_facing = dot(normal, u_key_direction);
+  float key = max(key_facing, 0.0) * key_light(v_position, normal) * smoothstep(0.0, 0.12, key_facing);
+  float fill = max(0.35 + 0.65 * dot(normal, u_fill_direction), 0.0);
+  // Light from the floor reaches what looks down, less where the sky is hidden too.
+  float bounce = (0.5 - 0.5 * normal.y) * 0.6 + 0.1 * sky;
+  float glance = 1.0 - clamp(dot(normal, view), 0.0, 1.0);
+  float rim = max(dot(normal, u_rim_direction), 0.0);
+
+  vec3 light = vec3(0.36, 0.39, 0.43) * sky + vec3(1.02, 0.985, 0.93) * key +
+               vec3(0.13, 0.14, 0.16) * fill + vec3(0.15, 0.145, 0.14) * bounce +
+               vec3(0.20) * rim;
+  if (u_mode == kScalar) {
+    // Less contrast: the colour carries the number, the light only the shape.
+    light = mix(vec3(0.95), light, 0.60);
+    o_color = vec4(color * light, 1.0);
+    return;
+  }
+  if (u_mode == kWireframe) {
+    vec3 paper = color * mix(vec3(1.0), light, 0.45);
+    o_color = vec4(mix(paper, front ? u_front_color : u_back_color, wire()), 1.0);
+    return;
+  }
+  vec3 lit = color * light;
+  vec3 halfway = normalize(view + u_key_direction);
+  float shine = pow(max(dot(normal, halfway), 0.0), u_mode == kCloth ? 18.0 : 60.0);
+  lit += (u_mode == kCloth ? 0.045 : 0.16) * shine * key;
+  // Fibres that stand up catch light at grazing view: what makes cloth look like cloth.
+  float sheen = pow(glance, 4.0) * (u_mode == kCloth ? 0.16 : 0.06);
+  lit += sheen * mix(vec3(1.0), color, 0.4) * (0.5 * sky + 0.5 * rim + 0.3 * key);
+  o_color = vec4(lit, 1.0);
+}

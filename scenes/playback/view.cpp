@@ -1,0 +1,168 @@
+#include <weft/scenes/playback/view.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace weft::scenes {
+namespace {
+
+using Box = Eigen::AlignedBox3d;
+
+Box collider_box(const Collider& collider) {
+  Box box;
+  if (const auto* sphere = std::get_if<SphereShape>(&collider.shape)) {
+    box.extend(collider.position + Vector3<double>::Constant(sphere->radius));
+    box.extend(collider.position - Vector3<double>::Constant(sphere->radius));
+  } else if (const auto* shape = std::get_if<BoxShape>(&collider.shape)) {
+    const Vector3<double> half =
+        collider.orientation.toRotationMatrix().cwiseAbs() * shape->half_extents;
+    box.extend(collider.position + half);
+    box.extend(collider.position - half);
+  }
+  return box;
+}
+
+/// Height that a cloth will hardly fall below: it hangs from its lowest pin, or, if free, from its
+/// own height.
+double lowest_reach(const ClothMesh& mesh) {
+  double hold = mesh.rest_positions.row(1).minCoeff();
+  for (const int node : mesh.pinned) {
+    hold = std::max(hold, mesh.rest_positions(1, node));
+  }
+  const Vector3<double> low = mesh.rest_positions.rowwise().minCoeff();
+  const Vector3<double> high = mesh.rest_positions.rowwise().maxCoeff();
+  const double diagonal = (high - low).norm();
+  // A pinned cloth can stretch below its own length; a free one bends over what it falls on.
+  return hold - (mesh.pinned.empty() ? 0.6 : 1.1) * diagonal;
+}
+
+const Collider* find_plane(const Scene& scene) {
+  for (const Collider& collider : scene.colliders) {
+    if (std::holds_alternative<PlaneShape>(collider.shape)) return &collider;
+  }
+  return nullptr;
+}
+
+Vector3<double> up_vector(const Vector3<double>& forward) {
+  // A camera that looks straight down or up has no horizon; z takes the place of y then.
+  constexpr double kAlmostParallel = 0.999;
+  if (std::abs(forward.normalized().y()) > kAlmostParallel) return -Vector3<double>::UnitZ();
+  return Vector3<double>::UnitY();
+}
+
+}  // namespace
+
+Stage make_stage(const Scene& scene) {
+  Box box;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Cloth& cloth : scene.cloths) {
+    const ClothMesh mesh = make_mesh(cloth);
+    box.extend(mesh.rest_positions.rowwise().minCoeff());
+    box.extend(mesh.rest_positions.rowwise().maxCoeff());
+    lowest = std::min(lowest, lowest_reach(mesh));
+  }
+  for (const Collider& collider : scene.colliders) {
+    const Box bounds = collider_box(collider);
+    if (bounds.isEmpty()) continue;
+    box.extend(bounds);
+    lowest = std::min(lowest, bounds.min().y());
+  }
+  if (box.isEmpty()) {
+    box.extend(scene.camera.target + Vector3<double>::Constant(1.0));
+    box.extend(scene.camera.target - Vector3<double>::Constant(1.0));
+    lowest = box.min().y();
+  }
+  Stage stage;
+  const Collider* plane = find_plane(scene);
+  if (plane == nullptr) box.extend(Vector3<double>(box.center().x(), lowest, box.center().z()));
+  stage.center = box.center();
+  stage.radius = std::max(0.5 * box.diagonal().norm(), 1e-6);
+  stage.ground_is_collider = plane != nullptr;
+  stage.ground_position = {stage.center.x(), lowest, stage.center.z()};
+  if (plane != nullptr) {
+    // The foot of the centre on the plane: the ground's mesh is fine only around its middle.
+    const Vector3<double> normal = plane->orientation * Vector3<double>::UnitY();
+    const double height = normal.dot(stage.center - plane->position);
+    stage.ground_position = stage.center - height * normal;
+    stage.ground_orientation = plane->orientation;
+  }
+  return stage;
+}
+
+double state_radius(const Stage& stage, const SceneState& state) {
+  constexpr double kStep = 1.25;
+  const double largest = 8.0 * stage.radius;
+  double needed = stage.radius;
+  const auto include = [&](const Vector3<double>& x) {
+    const double distance = (x - stage.center).norm();
+    if (std::isfinite(distance) && distance <= largest) needed = std::max(needed, distance);
+  };
+  for (const ClothState& cloth : state.cloths) {
+    for (Eigen::Index i = 0; i < cloth.positions.cols(); ++i) include(cloth.positions.col(i));
+  }
+  for (const RigidState& rigid : state.rigids) include(rigid.position);
+  double radius = stage.radius;
+  while (radius < needed) radius *= kStep;
+  return radius;
+}
+
+StudioLights studio_lights(const Camera& camera) {
+  const Vector3<double> forward = (camera.target - camera.position).normalized();
+  const Vector3<double> right = forward.cross(up_vector(forward)).normalized();
+  const Vector3<double> up = Vector3<double>::UnitY();
+  const Vector3<double> ahead = up.cross(right).normalized();
+  StudioLights lights;
+  lights.key = (-0.30 * ahead - 0.85 * right + 1.10 * up).normalized().cast<float>();
+  lights.fill = (-0.80 * ahead + 0.80 * right + 0.25 * up).normalized().cast<float>();
+  lights.rim = (0.90 * ahead + 0.60 * right + 0.35 * up).normalized().cast<float>();
+  return lights;
+}
+
+View make_view(const Camera& camera, const Stage& stage, double aspect_ratio) {
+  const Vector3<double> eye = camera.position - stage.center;
+  const Vector3<double> back = (camera.position - camera.target).normalized();
+  const Vector3<double> right = up_vector(-back).cross(back).normalized();
+  const Vector3<double> up = back.cross(right);
+  Eigen::Matrix4d eye_from_world = Eigen::Matrix4d::Identity();
+  eye_from_world.block<1, 3>(0, 0) = right.transpose();
+  eye_from_world.block<1, 3>(1, 0) = up.transpose();
+  eye_from_world.block<1, 3>(2, 0) = back.transpose();
+  eye_from_world.block<3, 1>(0, 3) = -eye_from_world.block<3, 3>(0, 0) * eye;
+
+  // The near plane at 1/100 of the way leaves 1e-5 of the distance as depth resolution with 24
+  // bits.
+  const double distance = std::max(eye.norm(), stage.radius);
+  const double near = 0.01 * distance;
+  const double far = distance + 20.0 * stage.radius;
+  const double zoom = 1.0 / std::tan(0.5 * camera.field_of_view);
+  Eigen::Matrix4d clip_from_eye = Eigen::Matrix4d::Zero();
+  clip_from_eye(0, 0) = zoom / aspect_ratio;
+  clip_from_eye(1, 1) = zoom;
+  clip_from_eye(2, 2) = -(far + near) / (far - near);
+  clip_from_eye(2, 3) = -2.0 * far * near / (far - near);
+  clip_from_eye(3, 2) = -1.0;
+  return {(clip_from_eye * eye_from_world).cast<float>(), eye.cast<float>()};
+}
+
+Eigen::Matrix4f light_matrix(const Eigen::Vector3f& towards_light, double radius) {
+  const Eigen::Vector3f back = towards_light.normalized();
+  const Eigen::Vector3f helper =
+      std::abs(back.y()) < 0.9f ? Eigen::Vector3f::UnitY() : Eigen::Vector3f::UnitX();
+  const Eigen::Vector3f right = helper.cross(back).normalized();
+  const float scale = static_cast<float>(1.0 / radius);
+  Eigen::Matrix4f matrix = Eigen::Matrix4f::Identity();
+  matrix.block<1, 3>(0, 0) = scale * right.transpose();
+  matrix.block<1, 3>(1, 0) = scale * back.cross(right).transpose();
+  matrix.block<1, 3>(2, 0) = -scale * back.transpose();
+  return matrix;
+}
+
+double grid_cell(double radius) {
+  const double wanted = 0.2 * radius;
+  const double power = std::pow(10.0, std::floor(std::log10(wanted)));
+  const double digit = wanted / power;
+  return power * (digit < 1.5 ? 1.0 : digit < 3.5 ? 2.0 : digit < 7.5 ? 5.0 : 10.0);
+}
+
+}  // namespace weft::scenes
