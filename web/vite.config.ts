@@ -1,3 +1,4 @@
+import { readFileSync } from "node:fs";
 import { defineConfig, type Plugin } from "vite";
 
 // One file that opens from file://: a browser refuses to load module scripts from there, so the script becomes a
@@ -17,12 +18,19 @@ function singleFile(): Plugin {
         else continue;
         delete bundle[name];
       }
+      // uPlot goes into the page, so its notice does too; minifying drops the comments of the code.
+      const notice = readFileSync("node_modules/uplot/LICENSE", "utf8").trim();
       const html = String(page.source)
         .replace(/\s*<script type="module"[^>]*><\/script>/, "")
         .replace(/\s*<link rel="stylesheet"[^>]*>/, "")
+        .replace("<head>", () => `<!--\nThis page contains uPlot.\n${notice}\n-->\n<head>`)
         .replace("</head>", () => `<style>${style.trim()}</style>\n</head>`)
-        .replace("</body>", () => `<script>${script.trim().replaceAll("</script", "<\\/script")}</script>\n</body>`);
-      if (/<script[^>]* src=|<link[^>]* href="(?!data:)/.test(html)) throw new Error("single-file: a link is left");
+        .replace(
+          "</body>",
+          () => `<script>${script.trim().replaceAll("</script", "<\\/script")}</script>\n</body>`,
+        );
+      if (/<script[^>]* src=|<link[^>]* href="(?!data:)/.test(html))
+        throw new Error("single-file: a link is left");
       page.source = html;
     },
   };

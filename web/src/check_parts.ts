@@ -10,14 +10,20 @@ export function verdictPill(verdict: Verdict): HTMLElement {
 }
 
 export function measured(check: Check): HTMLElement {
-  return h("span", { "data-tip": exactQuantity(check.measured, check.unit), tabindex: 0 },
-    formatQuantity(check.measured, check.unit));
+  return h(
+    "span",
+    { "data-tip": exactQuantity(check.measured, check.unit), tabindex: 0 },
+    formatQuantity(check.measured, check.unit),
+  );
 }
 
 export function allowed(check: Check): HTMLElement | string {
   if (!check.tolerance) return "–";
-  return h("span", { "data-tip": exactQuantity(check.tolerance.value, check.unit), tabindex: 0 },
-    formatQuantity(check.tolerance.value, check.unit));
+  return h(
+    "span",
+    { "data-tip": exactQuantity(check.tolerance.value, check.unit), tabindex: 0 },
+    formatQuantity(check.tolerance.value, check.unit),
+  );
 }
 
 const FLAG_REASON = {
@@ -32,25 +38,47 @@ export function ratioBar(check: Check): HTMLElement | null {
   const share = Number.isFinite(ratio) ? Math.min(Math.max(ratio, 0), 1) : 1;
   const state = check.verdict === "fail" ? "fail" : check.flag || "pass";
   const fill = h("span", { class: "fill" });
-  fill.style.width = `${share * 100}%`;
-  return h("span", { class: `ratio ${state}` },
-    h("span", { class: "ratio-text" }, formatRatio(check),
-      check.flag !== "" && h("span", { class: `flag ${check.flag}`, tabindex: 0, "data-tip": FLAG_REASON[check.flag] }, check.flag)),
-    h("span", { class: "bar", "aria-hidden": "true" }, fill));
+  fill.style.width = share > 0 ? `max(2px, ${share * 100}%)` : "0";
+  return h(
+    "span",
+    { class: `ratio ${state}` },
+    h(
+      "span",
+      { class: "ratio-text" },
+      formatRatio(check),
+      check.flag !== "" &&
+        h(
+          "span",
+          { class: `flag ${check.flag}`, tabindex: 0, "data-tip": FLAG_REASON[check.flag] },
+          check.flag,
+        ),
+    ),
+    h("span", { class: "bar", "aria-hidden": "true" }, fill),
+  );
 }
 
 /** The kind of bound; its reason is a bubble on screen and plain text on paper. */
 export function basis(check: Check): HTMLElement | null {
   const tolerance = check.tolerance;
   if (!tolerance) return null;
-  return h("span", {},
+  return h(
+    "span",
+    {},
     h("span", { class: "basis", tabindex: 0, "data-tip": tolerance.why || undefined }, tolerance.basis),
-    h("span", { class: "print-only small" }, tolerance.why));
+    h("span", { class: "print-only small" }, tolerance.why),
+  );
 }
 
 export function sabotageItem(sabotage: Sabotage, check: Check): HTMLElement {
-  return h("li", { class: sabotage.detected ? "noticed" : "unnoticed" },
+  return h(
+    "li",
+    { class: sabotage.detected ? "noticed" : "unnoticed" },
     h("span", { class: "mark", "aria-hidden": "true" }, sabotage.detected ? "✓" : "✗"),
-    h("span", {}, `${sabotage.name}: ${formatQuantity(sabotage.measured, check.unit)}, `,
-      sabotage.detected ? "noticed" : h("strong", {}, "not noticed")));
+    h(
+      "span",
+      {},
+      `${sabotage.name}: ${formatQuantity(sabotage.measured, check.unit)}, `,
+      sabotage.detected ? "noticed" : h("strong", {}, "not noticed"),
+    ),
+  );
 }

@@ -1,5 +1,5 @@
 import { allowed, basis, measured, ratioBar, sabotageItem, verdictPill } from "./check_parts";
-import { h, scrollBox } from "./dom";
+import { h, scrollBox, tableHead } from "./dom";
 import { count } from "./format";
 import { needsAttention, undetected, unique, type Check, type Report } from "./report";
 
@@ -23,11 +23,15 @@ function matches(check: Check, filter: Filter): boolean {
   if (filter.case !== "" && check.case !== filter.case) return false;
   if (filter.engine !== "" && check.engine !== filter.engine) return false;
   switch (filter.verdict) {
-    case "": return true;
-    case "attention": return needsAttention(check);
+    case "":
+      return true;
+    case "attention":
+      return needsAttention(check);
     case "tight":
-    case "loose": return check.flag === filter.verdict;
-    default: return check.verdict === filter.verdict;
+    case "loose":
+      return check.flag === filter.verdict;
+    default:
+      return check.verdict === filter.verdict;
   }
 }
 
@@ -35,43 +39,76 @@ function sabotageCell(check: Check): HTMLElement | null {
   const total = check.sabotages.length;
   if (total === 0) return null;
   const missed = undetected(check).length;
-  return h("span", { class: missed > 0 ? "bad" : "" }, `${total - missed} of ${total}`);
+  return h(
+    "span",
+    { class: missed > 0 ? "bad" : "" },
+    `${total - missed}\u00a0of\u00a0${total}`,
+    h("span", { class: "muted small block" }, "noticed"),
+  );
 }
 
 function more(check: Check): HTMLElement | null {
   const facts: [string, string][] = [
-    ["compared with", check.formula],
+    ["against", check.formula],
     ["source", check.source],
     ["bound", check.tolerance?.why ?? ""],
     ["note", check.note],
   ];
   const shown = facts.filter(([, value]) => value !== "");
   if (shown.length === 0 && check.sabotages.length === 0) return null;
-  return h("details", { "data-print-open": true },
+  return h(
+    "details",
+    { "data-print-open": true },
     h("summary", {}, "details"),
-    h("dl", { class: "more" }, shown.map(([term, value]) => [h("dt", {}, term), h("dd", {}, value)])),
-    check.sabotages.length > 0 && h("ul", { class: "sabotages" }, check.sabotages.map((s) => sabotageItem(s, check))));
+    h(
+      "dl",
+      { class: "more" },
+      shown.map(([term, value]) => [h("dt", { class: term }, term), h("dd", { class: term }, value)]),
+    ),
+    check.sabotages.length > 0 &&
+      h(
+        "ul",
+        { class: "sabotages" },
+        check.sabotages.map((s) => sabotageItem(s, check)),
+      ),
+  );
 }
 
 function row(check: Check, sections: Map<string, string>): HTMLElement {
   const target = sections.get(check.case);
-  return h("tr", { class: `${check.verdict} ${needsAttention(check) ? "attention" : ""}` },
-    h("td", {}, verdictPill(check.verdict)),
-    h("td", { class: "where" },
+  const cell = (label: string, kind: string, ...content: (HTMLElement | string | null)[]): HTMLElement =>
+    h("td", { role: "cell", class: kind, "data-label": label }, content);
+  return h(
+    "tr",
+    { role: "row", class: `${check.verdict} ${needsAttention(check) ? "attention" : ""}` },
+    cell("", "", verdictPill(check.verdict)),
+    cell(
+      "",
+      "where",
       target === undefined ? check.case : h("a", { href: `#${target}` }, check.case),
-      h("span", { class: "muted small block" }, check.engine)),
-    h("th", { scope: "row", class: "claim" },
-      check.claim, h("span", { class: "muted small block" }, check.metric), more(check)),
-    h("td", { class: "number" }, measured(check)),
-    h("td", { class: "number" }, allowed(check)),
-    h("td", {}, ratioBar(check)),
-    h("td", {}, basis(check)),
-    h("td", {}, sabotageCell(check)));
+      h("span", { class: "muted small block" }, check.engine),
+    ),
+    h(
+      "th",
+      { scope: "row", role: "rowheader", class: "claim" },
+      check.claim,
+      h("span", { class: "muted small block" }, check.metric),
+      more(check),
+    ),
+    cell("measured", "number", measured(check)),
+    cell("allowed", "number", allowed(check)),
+    cell("ratio", "", ratioBar(check)),
+    cell("basis", "", basis(check)),
+    cell("sabotages", "", sabotageCell(check)),
+  );
 }
 
 function select(label: string, options: [string, string][]): HTMLSelectElement {
-  return h("select", { "aria-label": label },
-    options.map(([value, text]) => h("option", { value }, text)));
+  return h(
+    "select",
+    { "aria-label": label },
+    options.map(([value, text]) => h("option", { value }, text)),
+  );
 }
 
 /** Cases against engines: where the numbers are and how many pass. */
@@ -86,22 +123,47 @@ function matrix(report: Report, choose: (filter: Filter) => void): HTMLElement |
     const good = gated.filter((check) => check.verdict === "pass").length;
     const state = here.some(needsAttention) ? "fail" : gated.length > 0 ? "pass" : "info";
     const text = gated.length > 0 ? `${good}/${gated.length}` : "info";
-    const what = gated.length > 0 ? `${good} of ${count(gated.length, "check")} pass` : "measured, not gated";
-    const button = h("button", { type: "button", class: state, "aria-label": `${name}, ${engine}: ${what}; show them` }, text);
+    const what = gated.length > 0 ? "checks pass" : "rows, not gated";
+    const button = h(
+      "button",
+      { type: "button", class: state, "aria-label": `${text} ${what}: ${name}, ${engine}; show them` },
+      text,
+    );
     button.addEventListener("click", () => choose({ ...ALL, case: name, engine }));
     return h("td", {}, button);
   };
-  return scrollBox("Checks passed per case and engine", h("table", { class: "matrix" },
-    h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "case"), engines.map((engine) => h("th", { scope: "col" }, engine)))),
-    h("tbody", {}, cases.map((name) =>
-      h("tr", {}, h("th", { scope: "row" }, name), engines.map((engine) => cell(name, engine)))))));
+  return scrollBox(
+    "Checks passed per case and engine",
+    h(
+      "table",
+      { class: "matrix" },
+      tableHead(["case", ...engines]),
+      h(
+        "tbody",
+        {},
+        cases.map((name) =>
+          h(
+            "tr",
+            {},
+            h("th", { scope: "row" }, name),
+            engines.map((engine) => cell(name, engine)),
+          ),
+        ),
+      ),
+    ),
+  );
 }
 
 export function renderChecks(report: Report, sections: Map<string, string>): HTMLElement {
-  const ordered = [...report.checks.filter(needsAttention), ...report.checks.filter((check) => !needsAttention(check))];
+  const ordered = [
+    ...report.checks.filter(needsAttention),
+    ...report.checks.filter((check) => !needsAttention(check)),
+  ];
   const rows = ordered.map((check) => ({ check, element: row(check, sections) }));
-  const named = (name: string, values: string[]): [string, string][] =>
-    [["", name], ...values.map((value): [string, string] => [value, value])];
+  const named = (name: string, values: string[]): [string, string][] => [
+    ["", name],
+    ...values.map((value): [string, string] => [value, value]),
+  ];
   const byCase = select("Case", named("any case", unique(report.checks.map((check) => check.case))));
   const byEngine = select("Engine", named("any engine", unique(report.checks.map((check) => check.engine))));
   const byVerdict = select("Verdict", VERDICTS);
@@ -115,7 +177,8 @@ export function renderChecks(report: Report, sections: Map<string, string>): HTM
       element.hidden = !matches(check, filter);
       visible += element.hidden ? 0 : 1;
     }
-    shown.textContent = visible === rows.length ? count(visible, "row") : `${visible} of ${count(rows.length, "row")}`;
+    shown.textContent =
+      visible === rows.length ? count(visible, "row") : `${visible} of ${count(rows.length, "row")}`;
     reset.disabled = visible === rows.length;
   };
   const box = h("section", { id: "checks", "aria-labelledby": "checks-title" });
@@ -127,17 +190,38 @@ export function renderChecks(report: Report, sections: Map<string, string>): HTM
   for (const control of [byCase, byEngine, byVerdict]) control.addEventListener("change", apply);
   reset.addEventListener("click", () => choose(ALL));
 
-  const heads = ["verdict", "case, engine", "claim, metric", "measured", "allowed", "ratio", "basis", "sabotages noticed"];
-  const table = h("table", { class: "checks" },
-    h("thead", {}, h("tr", {}, heads.map((head, i) => h("th", { scope: "col", class: i === 3 || i === 4 ? "number" : "" }, head)))),
-    h("tbody", {}, rows.map(({ element }) => element)));
+  const heads = [
+    "verdict",
+    "case, engine",
+    "claim, metric",
+    "measured",
+    "allowed",
+    "ratio",
+    "basis",
+    "sabotages",
+  ];
+  // The roles are spelled out because narrow screens stack the cells, and a stacked table is no table to a browser.
+  const table = h(
+    "table",
+    { class: "checks", role: "table" },
+    tableHead(heads, (i) => (i === 3 || i === 4 ? "number" : "")),
+    h(
+      "tbody",
+      { role: "rowgroup" },
+      rows.map(({ element }) => element),
+    ),
+  );
   const filters = h("div", { class: "filters" }, byCase, byEngine, byVerdict, reset, shown);
   box.append(
     h("h2", { id: "checks-title" }, "Checks"),
-    h("p", { class: "muted lead" },
+    h(
+      "p",
+      { class: "muted lead" },
       "Each row compares one measured number with one bound that has a stated reason. The bar shows how much of the bound is used; " +
-      "above 0.5 the bound is tight, below 0.01 it is loose. Rows that are not gated are shown, but cannot fail. " +
-      "A sabotage is a deliberate mistake that the check must notice."));
+        "above 0.5 the bound is tight, below 0.01 it is loose. Rows that are not gated are shown, but cannot fail. " +
+        "A sabotage is a deliberate mistake that the check must notice.",
+    ),
+  );
   const overview = matrix(report, choose);
   if (overview) box.append(overview);
   box.append(filters, scrollBox("Table of checks", table));

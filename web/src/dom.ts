@@ -25,6 +25,14 @@ function append(element: HTMLElement, children: Child[]): void {
   }
 }
 
+/** The head of a table; kind gives the class of a column. */
+export function tableHead(names: string[], kind: (column: number) => string = () => ""): HTMLElement {
+  const cells = names.map((name, i) =>
+    h("th", { scope: "col", role: "columnheader", class: kind(i) || undefined }, name),
+  );
+  return h("thead", { role: "rowgroup" }, h("tr", { role: "row" }, cells));
+}
+
 /** A box that scrolls sideways by itself; focusable, so that the arrow keys reach it. */
 export function scrollBox(label: string, child: HTMLElement): HTMLElement {
   return h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": label }, child);

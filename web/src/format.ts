@@ -1,7 +1,17 @@
 import type { Check, Numeric } from "./report";
 
 const SUPERSCRIPTS: Record<string, string> = {
-  "-": "⁻", "0": "⁰", "1": "¹", "2": "²", "3": "³", "4": "⁴", "5": "⁵", "6": "⁶", "7": "⁷", "8": "⁸", "9": "⁹",
+  "-": "⁻",
+  "0": "⁰",
+  "1": "¹",
+  "2": "²",
+  "3": "³",
+  "4": "⁴",
+  "5": "⁵",
+  "6": "⁶",
+  "7": "⁷",
+  "8": "⁸",
+  "9": "⁹",
 };
 
 /** Words become the numbers they name. */
@@ -28,6 +38,7 @@ export function formatNumber(value: Numeric | number, digits = 3): string {
 /** The number with its unit; a dimensionless one stands alone. */
 export function formatQuantity(value: Numeric, unit: string): string {
   const text = formatNumber(value);
+  if (!Number.isFinite(toNumber(value))) return text;
   return unit === "" || unit === "1" ? text : `${text}\u00a0${unit}`;
 }
 

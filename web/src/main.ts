@@ -13,16 +13,24 @@ import { installTooltips } from "./tooltip";
 import { renderFailures, renderVerdict } from "./verdict";
 
 function navigation(report: Report, anchors: Map<string, string>): HTMLElement {
-  const link = (id: string, text: string, state = ""): HTMLElement => h("li", {}, h("a", { href: `#${id}`, class: state }, text));
-  return h("nav", { "aria-label": "Contents" }, h("ul", {},
-    link("checks", "Checks"),
-    report.sections.map((section) => {
-      const bad = report.checks.some((check) => check.case === section.id && needsAttention(check));
-      return link(anchors.get(section.id) ?? "cases", section.id, bad ? "bad" : "");
-    }),
-    report.departures.length > 0 && link("departures", "Known departures"),
-    report.limits.length > 0 && link("limits", "Not tested"),
-    report.provenance.length > 0 && link("provenance", "Provenance")));
+  const link = (id: string, text: string, state = ""): HTMLElement =>
+    h("li", {}, h("a", { href: `#${id}`, class: state }, text));
+  return h(
+    "nav",
+    { "aria-label": "Contents" },
+    h(
+      "ul",
+      {},
+      link("checks", "Checks"),
+      report.sections.map((section) => {
+        const bad = report.checks.some((check) => check.case === section.id && needsAttention(check));
+        return link(anchors.get(section.id) ?? "cases", section.id, bad ? "bad" : "");
+      }),
+      report.departures.length > 0 && link("departures", "Known departures"),
+      report.limits.length > 0 && link("limits", "Not tested"),
+      report.provenance.length > 0 && link("provenance", "Provenance"),
+    ),
+  );
 }
 
 function followColours(): void {
@@ -30,7 +38,9 @@ function followColours(): void {
   const opened: HTMLDetailsElement[] = [];
   window.addEventListener("beforeprint", () => {
     document.documentElement.dataset["print"] = "";
-    for (const details of document.querySelectorAll<HTMLDetailsElement>("details[data-print-open]:not([open])")) {
+    for (const details of document.querySelectorAll<HTMLDetailsElement>(
+      "details[data-print-open]:not([open])",
+    )) {
       details.open = true;
       opened.push(details);
     }
@@ -72,7 +82,9 @@ if (page) {
     show(page, readReport());
   } catch (error) {
     // Said on the page and not only in the console: who opens a broken report must not see a blank sheet.
-    page.replaceChildren(h("p", { class: "broken", role: "alert" }, `This report cannot be shown. ${String(error)}`));
+    page.replaceChildren(
+      h("p", { class: "broken", role: "alert" }, `This report cannot be shown. ${String(error)}`),
+    );
     throw error;
   }
 }

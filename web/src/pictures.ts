@@ -17,8 +17,12 @@ function openLarge(pictures: Picture[], rowTitle: string, start: number): void {
   const close = h("button", { type: "button" }, "Close");
   const previous = h("button", { type: "button", "aria-label": "Previous picture" }, "←");
   const next = h("button", { type: "button", "aria-label": "Next picture" }, "→");
-  const dialog = h("dialog", { class: "large", "aria-label": rowTitle || "Picture" },
-    image, h("div", { class: "large-bar" }, previous, next, caption, close));
+  const dialog = h(
+    "dialog",
+    { class: "large", "aria-label": rowTitle || "Picture" },
+    image,
+    h("div", { class: "large-bar" }, previous, next, caption, close),
+  );
   const show = (index: number): void => {
     at = (index + pictures.length) % pictures.length;
     const picture = pictures[at];
@@ -46,12 +50,28 @@ function openLarge(pictures: Picture[], rowTitle: string, start: number): void {
 export function renderPictureRow(title: string, pictures: Picture[]): HTMLElement {
   const figure = (picture: Picture, index: number): HTMLElement => {
     const image = h("img", { src: source(picture), alt: altText(picture, title), decoding: "async" });
-    const open = h("button", { type: "button", class: "picture", "aria-label": `Enlarge: ${altText(picture, title)}` }, image);
+    const open = h(
+      "button",
+      { type: "button", class: "picture", "aria-label": `Enlarge: ${altText(picture, title)}` },
+      image,
+    );
     open.addEventListener("click", () => openLarge(pictures, title, index));
-    return h("figure", {}, open,
-      h("figcaption", {}, h("b", {}, picture.title), picture.caption !== "" && h("span", { class: "muted block" }, picture.caption)));
+    return h(
+      "figure",
+      {},
+      open,
+      h(
+        "figcaption",
+        {},
+        h("b", {}, picture.title),
+        picture.caption !== "" && h("span", { class: "muted block" }, picture.caption),
+      ),
+    );
   };
-  return h("div", { class: "picture-row" },
+  return h(
+    "div",
+    { class: "picture-row" },
     title !== "" && h("h4", {}, title),
-    h("div", { class: "pictures" }, pictures.map(figure)));
+    h("div", { class: "pictures" }, pictures.map(figure)),
+  );
 }

@@ -1,12 +1,13 @@
 import uPlot from "uplot";
 
-import { h, scrollBox } from "./dom";
+import { h, scrollBox, tableHead } from "./dom";
 import { count, formatNumber, toNumber } from "./format";
 import type { Plot, Series } from "./report";
 import { mergeSeries, type Rows } from "./series";
 
 const COLOURS = 8; // --series-1 .. --series-8 in style.css
 const DASHES = [[], [8, 4], [2, 3], [10, 3, 2, 3], [5, 5], [14, 4]];
+const BORDERS = ["solid", "dashed", "dotted", "dashed", "dotted", "dashed"]; // the nearest CSS has to DASHES
 const HEIGHT = 280;
 const live: uPlot[] = [];
 
@@ -57,6 +58,11 @@ function paddedScale(log: boolean): uPlot.Scale {
       return [touchesZero ? 0 : low - margin, high + margin];
     },
   };
+}
+
+/** How the legend marks a series; uPlot counts x as series 0. */
+function borderOf(series: number): string {
+  return BORDERS[(series - 1) % BORDERS.length] ?? "solid";
 }
 
 function lineOf(series: Series, index: number, scattered: boolean): uPlot.Series {
@@ -118,7 +124,7 @@ function draw(box: HTMLElement, plot: Plot, rows: Rows): void {
         ...plot.series.map((series, i) => lineOf(series, i, rows.scattered[i] ?? false)),
       ],
       cursor: { dataIdx: nearestPoint(rows), points: { size: 7 } },
-      legend: { live: true },
+      legend: { live: true, markers: { width: 2, dash: (_chart, i) => borderOf(i) } },
       hooks: {
         setSeries: [
           (self, index) => {
@@ -152,17 +158,19 @@ function valuesTable(plot: Plot): HTMLElement {
     const lowest = finite.reduce((a, b) => Math.min(a, b), Infinity);
     const highest = finite.reduce((a, b) => Math.max(a, b), -Infinity);
     const cell = (text: string): HTMLElement => h("td", { class: "number" }, text);
-    return h("tr", {}, h("th", { scope: "row" }, series.name),
+    return h(
+      "tr",
+      {},
+      h("th", { scope: "row" }, series.name),
       cell(String(values.length)),
       cell(finite.length > 0 ? formatNumber(lowest, 4) : "–"),
       cell(finite.length > 0 ? formatNumber(highest, 4) : "–"),
       cell(series.y.length > 0 ? formatNumber(series.y[series.y.length - 1] ?? "NaN", 4) : "–"),
-      cell(String(values.length - finite.length)));
+      cell(String(values.length - finite.length)),
+    );
   };
   const heads = ["series", "points", "lowest", "highest", "last", "not finite"];
-  const table = h("table", {},
-    h("thead", {}, h("tr", {}, heads.map((head) => h("th", { scope: "col" }, head)))),
-    h("tbody", {}, plot.series.map(row)));
+  const table = h("table", {}, tableHead(heads), h("tbody", {}, plot.series.map(row)));
   return h("details", {}, h("summary", {}, "In numbers"), scrollBox(`${plot.title} in numbers`, table));
 }
 
@@ -171,11 +179,22 @@ export function renderPlot(plot: Plot): { element: HTMLElement; start: () => voi
   const rows = mergeSeries(plot);
   const empty = !rows.ys.some((column) => column.some((value) => typeof value === "number"));
   const box = h("div", { class: "chart" }, empty && h("p", { class: "muted" }, "No finite values to draw."));
-  const reason = plot.log_x || plot.log_y ? "not finite, or not positive on a logarithmic axis" : "not finite";
-  const element = h("figure", { class: "plot" },
+  const reason =
+    plot.log_x || plot.log_y ? "not finite, or not positive on a logarithmic axis" : "not finite";
+  const element = h(
+    "figure",
+    { class: "plot" },
     h("figcaption", {}, plot.title),
     box,
-    rows.hidden > 0 && !empty && h("p", { class: "muted small" }, `Not drawn: ${count(rows.hidden, "point")}, ${reason}.`),
-    valuesTable(plot));
-  return { element, start: () => { if (!empty) draw(box, plot, rows); } };
+    rows.hidden > 0 &&
+      !empty &&
+      h("p", { class: "muted small" }, `Not drawn: ${count(rows.hidden, "point")}, ${reason}.`),
+    valuesTable(plot),
+  );
+  return {
+    element,
+    start: () => {
+      if (!empty) draw(box, plot, rows);
+    },
+  };
 }

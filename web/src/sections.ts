@@ -1,4 +1,4 @@
-import { anchor, h, scrollBox } from "./dom";
+import { anchor, h, scrollBox, tableHead } from "./dom";
 import { count } from "./format";
 import { renderPictureRow } from "./pictures";
 import { renderPlot } from "./plot";
@@ -19,13 +19,34 @@ function looksNumeric(text: string): boolean {
 }
 
 function renderTable(table: Section["tables"][number]): HTMLElement {
-  const numeric = table.columns.map((_, column) => table.rows.length > 0 && table.rows.every((row) => looksNumeric(row[column] ?? "")));
+  const numeric = table.columns.map(
+    (_, column) => table.rows.length > 0 && table.rows.every((row) => looksNumeric(row[column] ?? "")),
+  );
   const alignment = (column: number): string => (numeric[column] ? "number" : "");
-  return h("div", { class: "data" },
+  return h(
+    "div",
+    { class: "data" },
     h("h4", {}, table.title),
-    scrollBox(table.title, h("table", {},
-      h("thead", {}, h("tr", {}, table.columns.map((name, i) => h("th", { scope: "col", class: alignment(i) }, name)))),
-      h("tbody", {}, table.rows.map((row) => h("tr", {}, row.map((cell, i) => h("td", { class: alignment(i) }, cell))))))));
+    scrollBox(
+      table.title,
+      h(
+        "table",
+        {},
+        tableHead(table.columns, alignment),
+        h(
+          "tbody",
+          {},
+          table.rows.map((row) =>
+            h(
+              "tr",
+              {},
+              row.map((cell, i) => h("td", { class: alignment(i) }, cell)),
+            ),
+          ),
+        ),
+      ),
+    ),
+  );
 }
 
 function standing(report: Report, section: Section): HTMLElement | null {
@@ -33,20 +54,36 @@ function standing(report: Report, section: Section): HTMLElement | null {
   if (own.length === 0) return null;
   const passed = own.filter((check) => check.verdict === "pass").length;
   const bad = report.checks.some((check) => check.case === section.id && needsAttention(check));
-  return h("span", { class: `pill ${bad ? "fail" : "pass"}` }, `${bad ? "✗" : "✓"} ${passed} of ${count(own.length, "check")}`);
+  return h(
+    "span",
+    { class: `pill ${bad ? "fail" : "pass"}` },
+    `${bad ? "✗" : "✓"} ${passed} of ${count(own.length, "check")}`,
+  );
 }
 
 function renderSection(report: Report, section: Section, id: string): Rendered {
   const plots = section.plots.map(renderPlot);
-  const element = h("section", { id, class: "section", "aria-labelledby": `${id}-title` },
+  const element = h(
+    "section",
+    { id, class: "section", "aria-labelledby": `${id}-title` },
     h("h3", { id: `${id}-title` }, section.id, standing(report, section)),
     section.summary !== "" && h("p", { class: "lead" }, section.summary),
     section.picture_rows.map((row) => renderPictureRow(row.title, row.pictures)),
-    plots.length > 0 && h("div", { class: "plots" }, plots.map((plot) => plot.element)),
+    plots.length > 0 &&
+      h(
+        "div",
+        { class: "plots" },
+        plots.map((plot) => plot.element),
+      ),
     section.tables.map(renderTable),
-    section.scene_text !== "" && h("details", { class: "scene" },
-      h("summary", {}, "Scene as it was run"),
-      h("pre", { tabindex: 0 }, section.scene_text)));
+    section.scene_text !== "" &&
+      h(
+        "details",
+        { class: "scene" },
+        h("summary", {}, "Scene as it was run"),
+        h("pre", { tabindex: 0 }, section.scene_text),
+      ),
+  );
   return { element, start: () => plots.forEach((plot) => plot.start()) };
 }
 
@@ -55,11 +92,18 @@ export function renderSections(report: Report): Rendered | null {
   if (report.sections.length === 0) return null;
   const parts = report.sections.map((section, i) => renderSection(report, section, anchor("section", i)));
   const hasPlots = report.sections.some((section) => section.plots.length > 0);
-  const element = h("section", { id: "cases", "aria-labelledby": "cases-title" },
+  const element = h(
+    "section",
+    { id: "cases", "aria-labelledby": "cases-title" },
     h("h2", { id: "cases-title" }, "Case by case"),
-    hasPlots && h("p", { class: "muted lead screen-only" },
-      "Plots: drag to zoom, double-click to reset, choose a name in the legend to hide its line. ",
-      "Pictures: choose one to enlarge it, then flip through its row with the arrow keys."),
-    parts.map((part) => part.element));
+    hasPlots &&
+      h(
+        "p",
+        { class: "muted lead screen-only" },
+        "Plots: drag to zoom, double-click to reset, choose a name in the legend to hide its line. ",
+        "Pictures: choose one to enlarge it, then flip through its row with the arrow keys.",
+      ),
+    parts.map((part) => part.element),
+  );
   return { element, start: () => parts.forEach((part) => part.start()) };
 }
