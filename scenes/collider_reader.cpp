@@ -1,0 +1,107 @@
+#include <array>
+#include <cmath>
+
+#include <weft/scenes/quantity.hpp>
+#include <weft/scenes/scene_reader.hpp>
+#include <weft/scenes/scene_words.hpp>
+
+namespace weft::scenes {
+namespace {
+
+constexpr std::array<std::string_view, 3> kOrientationKeys = {"axis", "angle", "quaternion"};
+
+/// A quaternion this close to unit length is taken as it is, so that a written scene reads back to
+/// the same bits. Above the rounding of a normalised one (a few 1e-16), below anything visible.
+constexpr double kUnitTolerance = 1e-12;
+
+Eigen::Quaterniond read_quaternion(const TomlValue& value) {
+  const std::vector<TomlValue> parts = value.items("four numbers [w, x, y, z]", 4);
+  const Eigen::Quaterniond q(parts[0].quantity("1"), parts[1].quantity("1"), parts[2].quantity("1"),
+                             parts[3].quantity("1"));
+  const double norm = q.norm();
+  if (!std::isfinite(norm) || norm == 0)
+    value.fail("has no length, expected four numbers [w, x, y, z]");
+  return std::abs(norm - 1) <= kUnitTolerance ? q : q.normalized();
+}
+
+Eigen::Quaterniond read_orientation(const TomlTable& table) {
+  table.allow(kOrientationKeys);
+  if (const auto quaternion = table.find("quaternion")) {
+    if (table.has("axis") || table.has("angle")) {
+      quaternion->fail("axis or angle is given too, expected either axis and angle or quaternion");
+    }
+    return read_quaternion(*quaternion);
+  }
+  const TomlValue axis_value = table.require("axis", "a vector such as [0, 1, 0]");
+  const Vector3<double> axis = axis_value.vector("1");
+  const double norm = axis.norm();
+  if (!std::isfinite(norm) || norm == 0) {
+    axis_value.fail("has no direction, expected a vector such as [0, 1, 0]");
+  }
+  const double angle = table.require("angle", expected_quantity("rad")).quantity("rad");
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis / norm)).normalized();
+}
+
+Vector3<double> read_half_extents(const TomlValue& value, const std::string& expected) {
+  Vector3<double> half;
+  const std::vector<TomlValue> edges = value.items(expected, 3);
+  for (int axis = 0; axis < 3; ++axis) {
+    half[axis] = 0.5 * edges[static_cast<std::size_t>(axis)].positive("m");
+  }
+  return half;
+}
+
+Shape read_shape(const TomlTable& table, std::string_view word) {
+  std::vector<std::string_view> keys = {"name",     "shape", "position", "orientation",
+                                        "friction", "mass",  "velocity", "angular_velocity"};
+  if (word == "sphere") {
+    keys.push_back("radius");
+    table.allow(keys);
+    return SphereShape{table.require("radius", expected_quantity("m")).positive("m")};
+  }
+  if (word == "box") {
+    keys.push_back("size");
+    table.allow(keys);
+    const std::string expected = "three edge lengths such as [\"1 m\", \"1 m\", \"1 m\"]";
+    return BoxShape{read_half_extents(table.require("size", expected), expected)};
+  }
+  table.allow(keys);
+  return PlaneShape{};
+}
+
+void read_motion(const TomlTable& table, Collider& collider) {
+  if (const auto mass = table.find("mass")) {
+    if (std::holds_alternative<PlaneShape>(collider.shape)) {
+      mass->fail("a plane cannot move, expected no mass");
+    }
+    collider.mass = mass->positive("kg");
+  }
+  for (const std::string_view key : {"velocity", "angular_velocity"}) {
+    const std::optional<TomlValue> value = table.find(key);
+    if (value && !collider.mass) value->fail("a fixed body cannot move, expected a mass as well");
+  }
+  if (const auto value = table.find("velocity")) collider.velocity = value->vector("m/s");
+  if (const auto value = table.find("angular_velocity")) {
+    collider.angular_velocity = value->vector("rad/s");
+  }
+}
+
+}  // namespace
+
+Collider read_collider(const TomlTable& table) {
+  Collider collider;
+  const TomlValue shape = table.require("shape", "one of sphere, box, plane");
+  const std::string_view word = kShapeWords[shape.choice(kShapeWords, "shape")];
+  collider.shape = read_shape(table, word);
+  collider.name = table.require("name", "a name such as \"ball\"").identifier();
+  if (const auto value = table.find("position")) collider.position = value->vector("m");
+  if (const auto value = table.find("orientation")) {
+    collider.orientation =
+        read_orientation(value->table("a table such as { axis = [0, 1, 0], angle = \"30 deg\" }"));
+  }
+  if (const auto value = table.find("friction")) collider.friction = value->non_negative("1");
+  read_motion(table, collider);
+  return collider;
+}
+
+}  // namespace weft::scenes

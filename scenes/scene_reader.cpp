@@ -1,0 +1,165 @@
+#include <weft/scenes/scene_reader.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <fmt/format.h>
+
+#include <weft/scenes/quantity.hpp>
+#include <weft/scenes/scene_words.hpp>
+
+namespace weft::scenes {
+namespace {
+
+constexpr int kMaxPositionIterations = 100'000;
+
+/// frame_interval / time_step may differ from a whole number by this share [-]: far above the
+/// rounding of both, and after kMaxSteps steps the recording is still only 1/100 of a step off.
+constexpr double kWholeStepTolerance = 1e-9;
+
+constexpr std::array<std::string_view, 9> kRootKeys = {
+    "schema", "name", "summary", "world", "cloth", "collider", "bullet", "reference", "camera"};
+constexpr std::array<std::string_view, 4> kWorldKeys = {"gravity", "time_step", "duration",
+                                                        "frame_interval"};
+constexpr std::array<std::string_view, 1> kBulletKeys = {"position_iterations"};
+constexpr std::array<std::string_view, 3> kReferenceKeys = {"integrator", "contact", "step_guard"};
+constexpr std::array<std::string_view, 3> kCameraKeys = {"position", "target", "field_of_view"};
+
+void check_schema(const TomlTable& root) {
+  const std::string expected = fmt::format("schema = \"{}\"", kSchema);
+  const TomlValue schema = root.require("schema", expected);
+  if (schema.text() != kSchema)
+    schema.fail(fmt::format("unknown version, expected \"{}\"", kSchema));
+}
+
+std::string read_name(const TomlTable& root) {
+  const TomlValue value = root.require("name", "a name such as \"drape_sphere\"");
+  const std::string name = value.identifier();
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  if (!std::all_of(name.begin(), name.end(), allowed)) {
+    value.fail("expected lower-case letters, digits and '_' only");
+  }
+  return name;
+}
+
+void check_steps(const World& world, const TomlTable& table) {
+  const TomlValue duration = table.require("duration", "");
+  if (world.duration < world.time_step) {
+    duration.fail(
+        fmt::format("expected at least one time step, {}", format_quantity(world.time_step, "s")));
+  }
+  const double num_steps = world.duration / world.time_step;
+  if (num_steps > kMaxSteps) {
+    duration.fail(fmt::format("makes {:.3g} time steps of {}, expected at most {}", num_steps,
+                              format_quantity(world.time_step, "s"), kMaxSteps));
+  }
+  const double ratio = world.frame_interval / world.time_step;
+  const double whole = std::round(ratio);
+  if (whole >= 1 && std::abs(ratio - whole) <= kWholeStepTolerance * whole) return;
+  const std::string message =
+      fmt::format("is {:.6g} time steps, expected a whole number of them, {} each", ratio,
+                  format_quantity(world.time_step, "s"));
+  if (const std::optional<TomlValue> interval = table.find("frame_interval")) {
+    interval->fail(message);
+  }
+  table.fail(fmt::format("frame_interval, by default {}, {}",
+                         format_quantity(world.frame_interval, "s"), message));
+}
+
+BulletSettings read_bullet(const TomlTable& table) {
+  table.allow(kBulletKeys);
+  BulletSettings settings;
+  if (const auto value = table.find("position_iterations")) {
+    settings.position_iterations = value->integer(1, kMaxPositionIterations);
+  }
+  return settings;
+}
+
+ReferenceSettings read_reference(const TomlTable& table) {
+  table.allow(kReferenceKeys);
+  ReferenceSettings settings;
+  if (const auto value = table.find("integrator")) {
+    settings.integrator = static_cast<Integrator>(value->choice(kIntegratorWords, "integrator"));
+  }
+  if (const auto value = table.find("contact")) {
+    settings.contact = static_cast<ContactModel>(value->choice(kContactWords, "contact model"));
+  }
+  if (const auto value = table.find("step_guard")) {
+    settings.step_guard = static_cast<StepGuard>(value->choice(kStepGuardWords, "step guard"));
+  }
+  return settings;
+}
+
+Camera read_camera(const TomlTable& table) {
+  table.allow(kCameraKeys);
+  Camera camera;
+  if (const auto value = table.find("position")) camera.position = value->vector("m");
+  if (const auto value = table.find("target")) camera.target = value->vector("m");
+  if (const auto value = table.find("field_of_view")) {
+    camera.field_of_view = value->positive("rad");
+    if (camera.field_of_view >= std::numbers::pi) value->fail("expected an angle < 180 deg");
+  }
+  if (camera.position == camera.target) table.fail("position = target, expected two points");
+  return camera;
+}
+
+void read_bodies(const TomlTable& root, Scene& scene) {
+  std::set<std::string> names;
+  const auto claim = [&](const TomlTable& table, const std::string& name) {
+    if (!names.insert(name).second) {
+      table.require("name", "").fail("another body has this name, expected a name of its own");
+    }
+  };
+  long long num_nodes = 0;
+  for (const TomlTable& table : root.tables("cloth")) {
+    const Cloth& cloth = scene.cloths.emplace_back(read_cloth(table, scene.world));
+    claim(table, cloth.name);
+    num_nodes += static_cast<long long>(cloth.grid.nodes[0]) * cloth.grid.nodes[1];
+    if (num_nodes > kMaxNodes) {
+      table.fail(fmt::format("the cloths have {} nodes in all, expected at most {}", num_nodes,
+                             kMaxNodes));
+    }
+  }
+  if (scene.cloths.empty()) root.fail("no cloth, expected at least one table [[cloth]]");
+  for (const TomlTable& table : root.tables("collider")) {
+    scene.colliders.push_back(read_collider(table));
+    claim(table, scene.colliders.back().name);
+  }
+}
+
+}  // namespace
+
+World read_world(const TomlTable& table) {
+  table.allow(kWorldKeys);
+  World world;
+  if (const auto value = table.find("gravity")) world.gravity = value->vector("m/s^2");
+  world.time_step = table.require("time_step", expected_quantity("s", "1/100")).positive("s");
+  world.duration = table.require("duration", expected_quantity("s")).positive("s");
+  if (const auto value = table.find("frame_interval")) world.frame_interval = value->positive("s");
+  check_steps(world, table);
+  return world;
+}
+
+Scene read_scene(const TomlTable& root) {
+  check_schema(root);
+  root.allow(kRootKeys);
+  Scene scene;
+  scene.name = read_name(root);
+  if (const auto value = root.find("summary")) scene.summary = value->text();
+  const std::string world = "a table [world] with time_step and duration";
+  scene.world = read_world(root.require("world", world).table(world));
+  read_bodies(root, scene);
+  if (const auto value = root.find("bullet")) scene.bullet = read_bullet(value->table("a table"));
+  if (const auto value = root.find("reference")) {
+    scene.reference = read_reference(value->table("a table"));
+  }
+  if (const auto value = root.find("camera")) scene.camera = read_camera(value->table("a table"));
+  return scene;
+}
+
+}  // namespace weft::scenes

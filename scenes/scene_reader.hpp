@@ -1,0 +1,23 @@
+#pragma once
+
+#include <weft/scenes/scene.hpp>
+#include <weft/scenes/toml_reader.hpp>
+
+namespace weft::scenes {
+
+/// The parts of the reader, one per kind of table. All throw SceneError.
+
+inline constexpr int kMaxSteps = 10'000'000;  ///< of a whole run
+inline constexpr int kMaxNodes = 1'000'000;   ///< of all cloths together
+
+[[nodiscard]] Scene read_scene(const TomlTable& root);
+[[nodiscard]] World read_world(const TomlTable& table);
+[[nodiscard]] Cloth read_cloth(const TomlTable& table, const World& world);
+[[nodiscard]] Collider read_collider(const TomlTable& table);
+/// cloth: the grid says which edge sets there are; world: gravity, if the law names no
+/// acceleration.
+[[nodiscard]] forces::LawSpecification read_law(const TomlTable& table, const ClothGrid& grid,
+                                                const World& world);
+[[nodiscard]] std::vector<Pin> read_pins(const TomlValue& value, const Cloth& cloth);
+
+}  // namespace weft::scenes

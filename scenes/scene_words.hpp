@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace weft::scenes {
+
+/// The words of the scene format for enumerations and variants, in the order of their C++ values,
+/// for the reader and the writer.
+
+inline constexpr std::string_view kSchema = "weft-scene/1";
+
+inline constexpr std::array<std::string_view, 3> kStencilWords = {"24-neighbour", "12-neighbour",
+                                                                  "8-neighbour"};
+inline constexpr std::array<std::string_view, 2> kLumpingWords = {"area", "uniform"};
+inline constexpr std::array<std::string_view, 3> kShapeWords = {"sphere", "box", "plane"};
+inline constexpr std::array<std::string_view, 4> kIntegratorWords = {
+    "explicit_euler", "modified_euler", "velocity_verlet", "runge_kutta_4"};
+inline constexpr std::array<std::string_view, 2> kContactWords = {"projection", "impulse"};
+inline constexpr std::array<std::string_view, 3> kStepGuardWords = {"report", "refuse", "substep"};
+inline constexpr std::array<std::string_view, 4> kCornerWords = {"-u-v", "+u-v", "-u+v", "+u+v"};
+inline constexpr std::array<std::string_view, 4> kEdgeWords = {"-u", "+u", "-v", "+v"};
+
+}  // namespace weft::scenes

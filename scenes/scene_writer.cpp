@@ -1,0 +1,187 @@
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include <weft/custom_forces/registry.hpp>
+#include <weft/scenes/quantity.hpp>
+#include <weft/scenes/scene_file.hpp>
+#include <weft/scenes/scene_words.hpp>
+
+namespace weft::scenes {
+namespace {
+
+/// TOML number that reads back to the same bits: a decimal point or exponent keeps it a float.
+std::string number_text(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string value_text(double value, std::string_view unit) {
+  if (!std::isfinite(value)) {
+    throw InvalidArgument(
+        fmt::format("write_scene: a value = {} [{}], expected finite", value, unit));
+  }
+  return unit == "1" ? number_text(value) : "\"" + format_quantity(value, unit) + "\"";
+}
+
+std::string vector_text(const Vector3<double>& vector, std::string_view unit) {
+  return fmt::format("[{}, {}, {}]", value_text(vector.x(), unit), value_text(vector.y(), unit),
+                     value_text(vector.z(), unit));
+}
+
+std::string toml_string(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20U || byte == 0x7FU) {
+      result += fmt::format("\\u{:04X}", byte);
+    } else {
+      if (c == '"' || c == '\\') result += '\\';
+      result += c;
+    }
+  }
+  return result + "\"";
+}
+
+void line(std::string& out, std::string_view key, const std::string& value) {
+  out += fmt::format("{} = {}\n", key, value);
+}
+
+template <class Words, class Enum>
+std::string word(const Words& words, Enum value) {
+  return toml_string(words.at(static_cast<std::size_t>(value)));
+}
+
+/// 0 for the first, 1 for the last row or column.
+int side_index(int side) {
+  if (side != 0 && side != -1) {
+    throw InvalidArgument(
+        fmt::format("write_scene: pin side = {}, expected 0 (first) or -1 (last)", side));
+  }
+  return -side;
+}
+
+std::string pin_text(const CornerPin& pin) {
+  const int index = side_index(pin.u) + 2 * side_index(pin.v);
+  return fmt::format("{{ corner = {} }}", word(kCornerWords, index));
+}
+
+std::string pin_text(const EdgePin& pin) {
+  return fmt::format("{{ edge = {} }}", word(kEdgeWords, 2 * pin.axis + side_index(pin.side)));
+}
+
+std::string pin_text(const BoxPin& pin) {
+  return fmt::format("{{ box = {{ min = {}, max = {} }} }}", vector_text(pin.minimum, "m"),
+                     vector_text(pin.maximum, "m"));
+}
+
+void write_law(std::string& out, const forces::LawSpecification& law) {
+  const forces::LawInfo* info = forces::find_law(law.law);
+  if (info == nullptr) {
+    throw InvalidArgument("write_scene: law = '" + law.law + "', expected a registered law");
+  }
+  out += "\n[[cloth.law]]\n";
+  line(out, "law", toml_string(law.law));
+  if (!law.edge_sets.empty()) {
+    std::string sets;
+    for (const std::string& set : law.edge_sets)
+      sets += (sets.empty() ? "" : ", ") + toml_string(set);
+    line(out, "edge_sets", "[" + sets + "]");
+  }
+  const forces::LawSpecification full = forces::checked(law);
+  for (const forces::ParameterInfo& parameter : info->parameters) {
+    const std::vector<double>& values = full.parameters.at(std::string(parameter.name));
+    line(
+        out, parameter.name,
+        parameter.size == 3
+            ? vector_text(Vector3<double>(values.at(0), values.at(1), values.at(2)), parameter.unit)
+            : value_text(values.at(0), parameter.unit));
+  }
+}
+
+void write_cloth(std::string& out, const Cloth& cloth) {
+  const ClothGrid& grid = cloth.grid;
+  out += "\n[[cloth]]\n";
+  line(out, "name", toml_string(cloth.name));
+  line(out, "grid",
+       fmt::format("{{ nodes = [{}, {}], size = [{}, {}], stencil = {} }}", grid.nodes[0],
+                   grid.nodes[1], value_text(grid.size[0], "m"), value_text(grid.size[1], "m"),
+                   word(kStencilWords, grid.stencil)));
+  line(out, "center", vector_text(grid.center, "m"));
+  line(out, "u_axis", vector_text(grid.u_axis, "1"));
+  line(out, "v_axis", vector_text(grid.v_axis, "1"));
+  line(out, "mass", value_text(grid.total_mass, "kg"));
+  line(out, "mass_lumping", word(kLumpingWords, grid.lumping));
+  line(out, "velocity", vector_text(cloth.velocity, "m/s"));
+  line(out, "collision_margin", value_text(cloth.collision_margin, "m"));
+  line(out, "friction", value_text(cloth.friction, "1"));
+  std::string pins;
+  for (const Pin& pin : cloth.pins) {
+    pins += (pins.empty() ? "" : ", ") + std::visit([](const auto& p) { return pin_text(p); }, pin);
+  }
+  line(out, "pin", "[" + pins + "]");
+  for (const forces::LawSpecification& law : cloth.laws) write_law(out, law);
+}
+
+void write_shape(std::string& out, const SphereShape& sphere) {
+  line(out, "radius", value_text(sphere.radius, "m"));
+}
+
+void write_shape(std::string& out, const BoxShape& box) {
+  line(out, "size", vector_text(2.0 * box.half_extents, "m"));
+}
+
+void write_shape(std::string&, const PlaneShape&) {}
+
+void write_collider(std::string& out, const Collider& collider) {
+  out += "\n[[collider]]\n";
+  line(out, "name", toml_string(collider.name));
+  line(out, "shape", word(kShapeWords, collider.shape.index()));
+  std::visit([&](const auto& shape) { write_shape(out, shape); }, collider.shape);
+  line(out, "position", vector_text(collider.position, "m"));
+  const Eigen::Quaterniond& q = collider.orientation;
+  // As a quaternion: axis and angle would not read back to the same bits.
+  line(out, "orientation",
+       fmt::format("{{ quaternion = [{}, {}, {}, {}] }}", value_text(q.w(), "1"),
+                   value_text(q.x(), "1"), value_text(q.y(), "1"), value_text(q.z(), "1")));
+  line(out, "friction", value_text(collider.friction, "1"));
+  if (!collider.mass) return;
+  line(out, "mass", value_text(*collider.mass, "kg"));
+  line(out, "velocity", vector_text(collider.velocity, "m/s"));
+  line(out, "angular_velocity", vector_text(collider.angular_velocity, "rad/s"));
+}
+
+void write_settings(std::string& out, const Scene& scene) {
+  out += "\n[bullet]\n";
+  line(out, "position_iterations", std::to_string(scene.bullet.position_iterations));
+  out += "\n[reference]\n";
+  line(out, "integrator", word(kIntegratorWords, scene.reference.integrator));
+  line(out, "contact", word(kContactWords, scene.reference.contact));
+  line(out, "step_guard", word(kStepGuardWords, scene.reference.step_guard));
+  out += "\n[camera]\n";
+  line(out, "position", vector_text(scene.camera.position, "m"));
+  line(out, "target", vector_text(scene.camera.target, "m"));
+  line(out, "field_of_view", value_text(scene.camera.field_of_view, "rad"));
+}
+
+}  // namespace
+
+std::string write_scene(const Scene& scene) {
+  std::string out;
+  line(out, "schema", toml_string(kSchema));
+  line(out, "name", toml_string(scene.name));
+  line(out, "summary", toml_string(scene.summary));
+  out += "\n[world]\n";
+  line(out, "gravity", vector_text(scene.world.gravity, "m/s^2"));
+  line(out, "time_step", value_text(scene.world.time_step, "s"));
+  line(out, "duration", value_text(scene.world.duration, "s"));
+  line(out, "frame_interval", value_text(scene.world.frame_interval, "s"));
+  for (const Cloth& cloth : scene.cloths) write_cloth(out, cloth);
+  for (const Collider& collider : scene.colliders) write_collider(out, collider);
+  write_settings(out, scene);
+  return out;
+}
+
+}  // namespace weft::scenes
