@@ -58,8 +58,9 @@ void apply(ContactProblem& problem, Contact& contact, const Vector3<double>& cha
   rigid.angular_impulse -= torque;
 }
 
-/// One visit: the normal part first, then friction under the cone that this normal part allows. The
-/// friction step jt <- cone(jt - ut / mobility) stands still exactly where Coulomb's law holds.
+/// One visit; returns how much it changed the impulse [N s]. The normal part first, then friction
+/// under the cone that this normal part allows. The friction step jt <- cone(jt - ut / mobility)
+/// stands still exactly where Coulomb's law holds.
 double visit(ContactProblem& problem, Contact& contact, const Response& response) {
   const Vector3<double>& n = contact.normal;
   const double old_normal = n.dot(contact.impulse);
@@ -80,6 +81,13 @@ double visit(ContactProblem& problem, Contact& contact, const Response& response
   return std::abs(new_normal - old_normal) + (new_tangent - old_tangent).norm();
 }
 
+/// Sum of the speeds that a relative velocity is the difference of [m/s].
+double speed_scale(const ContactProblem& problem, const Contact& contact) {
+  const ContactRigid& rigid = problem.rigids[contact.rigid];
+  return problem.points[contact.point].velocity.norm() + rigid.velocity.norm() +
+         rigid.angular_velocity.norm() * contact.lever.norm() + std::abs(contact.target_speed);
+}
+
 }  // namespace
 
 Vector3<double> relative_velocity(const ContactProblem& problem, const Contact& contact) {
@@ -97,16 +105,17 @@ SweepReport solve_contacts(ContactProblem& problem) {
     responses.push_back(response_of(problem, contact));
   }
   report.converged = false;
+  double scale = 0.0;  // largest velocity seen: what rounding errors are relative to [m/s]
   while (report.sweeps < kMaxSweeps && !report.converged) {
     double largest_change = 0.0;
-    double largest_impulse = 0.0;
     for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
       Contact& contact = problem.contacts[c];
-      largest_change = std::max(largest_change, visit(problem, contact, responses[c]));
-      largest_impulse = std::max(largest_impulse, contact.impulse.norm());
+      const double mobility = responses[c].tangential_mobility;
+      scale = std::max(scale, speed_scale(problem, contact) + mobility * contact.impulse.norm());
+      largest_change = std::max(largest_change, mobility * visit(problem, contact, responses[c]));
     }
     ++report.sweeps;
-    report.converged = largest_change <= kImpulseTolerance * largest_impulse;
+    report.converged = largest_change <= kSweepTolerance * scale;
   }
   return report;
 }

@@ -51,16 +51,16 @@ struct ContactProblem {
 
 struct SweepReport {
   int sweeps = 0;         ///< passes over all contacts
-  bool converged = true;  ///< the last pass changed no impulse by more than kImpulseTolerance
+  bool converged = true;  ///< the last one changed no velocity by more than kSweepTolerance
 };
 
-/// Largest change of an impulse in the last sweep, relative to the largest impulse [-]. 1e-13 is
-/// some hundred roundings: two-way contacts are then as exact as one-way ones, for a few sweeps
-/// more.
-inline constexpr double kImpulseTolerance = 1e-13;
-/// A light ball under many heavy nodes converges slowly; beyond this the outcome says "not
-/// converged".
-inline constexpr int kMaxSweeps = 2000;
+/// Change of a relative velocity in one visit at which sweeps stop, relative to the largest
+/// velocity that takes part [-]: some hundred roundings. Momentum is exact after any number of
+/// sweeps.
+inline constexpr double kSweepTolerance = 1e-13;
+/// A light ball squeezed by many heavy nodes needs about a thousand sweeps; beyond this the outcome
+/// says "not converged".
+inline constexpr int kMaxSweeps = 10000;
 
 /// Gauss-Seidel over the contacts in their order, with accumulated impulses. No regularisation: a
 /// contact that can stick has exactly no slip, one that slips has exactly friction x normal

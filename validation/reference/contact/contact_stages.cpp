@@ -101,10 +101,10 @@ Vector3<double> position_stage_lever(const System& system, const SystemStep& ste
   return point - centre;
 }
 
-/// Linearises every surface at the predicted end of the step. False: nothing new, the solution
-/// stands.
+/// Linearises every surface at the predicted end of the step, or only those of new contacts.
+/// False: nothing new, the solution stands.
 bool linearise(const System& system, const PositionStage& options, const SystemStep& step,
-               Stage& stage) {
+               bool only_new, Stage& stage) {
   std::vector<Pose> poses;
   for (std::size_t k = 0; k < system.colliders.size(); ++k) {
     RigidMotion motion = step.rigids[k];
@@ -126,6 +126,8 @@ bool linearise(const System& system, const PositionStage& options, const SystemS
       contact->lever = position_stage_lever(system, step, k, b, node);
       contact->friction = options.friction ? combined_friction(system, k, b) : 0.0;
       changed = true;
+    } else if (only_new) {
+      return;
     } else if (!contact->impulse.isZero(0.0) || depth > 0.0) {
       changed |= (surface.normal - contact->normal).norm() > kNormalTolerance;
     }
@@ -178,13 +180,13 @@ ContactOutcome run_position_stage(const System& system, const PositionStage& opt
   int passes = 0;
   int sweeps = 0;
   bool converged = true;
-  bool changed = linearise(system, options, step, stage);
+  bool changed = linearise(system, options, step, false, stage);
   while (changed && passes < kMaxPasses) {
     const SweepReport report = solve_contacts(stage.problem);
     ++passes;
     sweeps += report.sweeps;
     converged = report.converged;
-    changed = linearise(system, options, step, stage);
+    changed = linearise(system, options, step, passes >= kSmoothPasses, stage);
   }
   ContactOutcome outcome = outcome_of(stage.problem);
   outcome.passes = passes;

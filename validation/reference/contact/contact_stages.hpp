@@ -25,8 +25,11 @@ struct PositionStage {
                                                 SystemStep& step);
 
 /// Passes over the linearised surface. The error of the normal shrinks by (distance per step /
-/// radius) per pass; ten are far more than any step short enough to be of use needs.
-inline constexpr int kMaxPasses = 10;
+/// radius) per pass, so ten are far more than any step short enough to be of use needs on a smooth
+/// surface. At an edge of a box a normal may flip for ever; from the tenth pass on the planes found
+/// so far stay, each of which keeps its node outside, and only new contacts are added.
+inline constexpr int kSmoothPasses = 10;
+inline constexpr int kMaxPasses = 20;
 /// Change of a normal that counts as standing still [-]: thousand roundings.
 inline constexpr double kNormalTolerance = 1e-12;
 /// A node this close to its margin touches [m]: above the rounding of coordinates below 1e5 m,
