@@ -19,7 +19,8 @@ Eigen::VectorXd node_strain(const ClothMesh& mesh, ConstMatrix3XRef<double> posi
   for (Eigen::Index e = 0; e < edges.cols(); ++e) {
     const double value = length[e] / rest[e] - 1.0;
     for (const int node : {edges(0, e), edges(1, e)}) {
-      // Written so that a NaN of a blown-up state stays visible instead of losing every comparison.
+      // A NaN of a blown-up state is kept, instead of losing every comparison.
+      if (std::isnan(strain[node])) continue;
       if (!(std::abs(value) <= std::abs(strain[node]))) strain[node] = value;
     }
   }

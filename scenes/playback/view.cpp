@@ -113,7 +113,7 @@ StudioLights studio_lights(const Camera& camera) {
   const Vector3<double> up = Vector3<double>::UnitY();
   const Vector3<double> ahead = up.cross(right).normalized();
   StudioLights lights;
-  lights.key = (-0.30 * ahead - 0.85 * right + 1.10 * up).normalized().cast<float>();
+  lights.key = (-0.25 * ahead - 1.00 * right + 0.95 * up).normalized().cast<float>();
   lights.fill = (-0.80 * ahead + 0.80 * right + 0.25 * up).normalized().cast<float>();
   lights.rim = (0.90 * ahead + 0.60 * right + 0.35 * up).normalized().cast<float>();
   return lights;

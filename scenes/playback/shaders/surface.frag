@@ -52,15 +52,19 @@ void main() {
   vec3 color = albedo(front);
 
   float key_facing = dot(normal, u_key_direction);
-  float key = max(key_facing, 0.0) * key_light(v_position, normal) * smoothstep(0.0, 0.12, key_facing);
+  float reached = key_light(v_position, key_facing < 0.0 ? -normal : normal);
+  float key = max(key_facing, 0.0) * reached * smoothstep(0.0, 0.12, key_facing);
+  // Cloth is thin: some light comes through from the other side.
+  bool is_thin = u_mode == kCloth || u_mode == kScalar;
+  float through = is_thin ? 0.38 * max(-key_facing, 0.0) * reached : 0.0;
   float fill = max(0.35 + 0.65 * dot(normal, u_fill_direction), 0.0);
   // Light from the floor reaches what looks down, less where the sky is hidden too.
   float bounce = (0.5 - 0.5 * normal.y) * 0.6 + 0.1 * sky;
   float glance = 1.0 - clamp(dot(normal, view), 0.0, 1.0);
   float rim = max(dot(normal, u_rim_direction), 0.0);
 
-  vec3 light = vec3(0.36, 0.39, 0.43) * sky + vec3(1.02, 0.985, 0.93) * key +
-               vec3(0.13, 0.14, 0.16) * fill + vec3(0.15, 0.145, 0.14) * bounce +
+  vec3 light = vec3(0.34, 0.365, 0.40) * sky + vec3(1.10, 1.06, 1.00) * (key + through) +
+               vec3(0.10, 0.11, 0.13) * fill + vec3(0.26, 0.25, 0.24) * bounce +
                vec3(0.20) * rim;
   if (u_mode == kScalar) {
     // Less contrast: the colour carries the number, the light only the shape.
