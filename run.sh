@@ -17,7 +17,7 @@ esac
 
 output=(--output "$step_root/weft-report")
 for argument in "$@"; do
-  case $argument in --output | --output=*) output=() ;; esac
+  case $argument in --output | --output=* | -o*) output=() ;; esac
 done
 
 step "set up" tools/setup.sh build
