@@ -121,7 +121,7 @@ SurfaceMesh box_surface(const Vector3<double>& half_extents) {
 }
 
 SurfaceMesh ground_surface(double extent) {
-  constexpr int kDivisions = 112;
+  constexpr int kDivisions = 72;
   SurfaceMesh mesh;
   const auto spread = [&](double part) {
     const double t = 2.0 * part - 1.0;
