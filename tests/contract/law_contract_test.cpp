@@ -1,0 +1,90 @@
+// Every law of the registry against the claims of its row. A new row is tested without a new line
+// here. What each check means stands in the headers of the checks; sabotage_test.cpp shows that
+// each of them can fail.
+
+#include <ostream>
+
+#include "tests/contract/derivative_checks.hpp"
+#include "tests/contract/energy_checks.hpp"
+#include "tests/contract/invariance_checks.hpp"
+#include "tests/contract/order_checks.hpp"
+#include "tests/contract/velocity_checks.hpp"
+
+namespace weft::contract {
+
+void PrintTo(const Subject& subject, std::ostream* out) {
+  *out << subject.name;
+}
+
+namespace {
+
+using forces::LawTraits;
+
+class AnyLaw : public testing::TestWithParam<Subject> {};
+class InternalLaw : public testing::TestWithParam<Subject> {};
+class EnergyLaw : public testing::TestWithParam<Subject> {};
+class EnergylessLaw : public testing::TestWithParam<Subject> {};
+class DissipativeLaw : public testing::TestWithParam<Subject> {};
+class EdgeLaw : public testing::TestWithParam<Subject> {};
+class ForceLevelLaw : public testing::TestWithParam<Subject> {};
+class VelocityLevelLaw : public testing::TestWithParam<Subject> {};
+
+std::string name_of(const testing::TestParamInfo<Subject>& info) {
+  return info.param.name;
+}
+
+#define WEFT_FOR_LAWS(Suite, claim)                     \
+  GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Suite); \
+  INSTANTIATE_TEST_SUITE_P(Registry, Suite, testing::ValuesIn(subjects_that(claim)), name_of)
+
+WEFT_FOR_LAWS(AnyLaw, [](const LawTraits&) { return true; });
+WEFT_FOR_LAWS(InternalLaw, [](const LawTraits& t) { return t.internal; });
+WEFT_FOR_LAWS(EnergyLaw, [](const LawTraits& t) { return t.has_energy; });
+WEFT_FOR_LAWS(EnergylessLaw, [](const LawTraits& t) { return !t.has_energy; });
+WEFT_FOR_LAWS(DissipativeLaw, [](const LawTraits& t) { return t.dissipative; });
+WEFT_FOR_LAWS(EdgeLaw, [](const LawTraits& t) { return t.uses_edges; });
+WEFT_FOR_LAWS(ForceLevelLaw,
+              [](const LawTraits& t) { return t.level == LawTraits::Level::kForce; });
+WEFT_FOR_LAWS(VelocityLevelLaw,
+              [](const LawTraits& t) { return t.level == LawTraits::Level::kVelocity; });
+
+#define WEFT_CHECK(Suite, Claim, check)    \
+  TEST_P(Suite, Claim) {                   \
+    EXPECT_TRUE(holds(check(GetParam()))); \
+  }
+#define WEFT_CHECK_SCALARS(Suite, Claim, check)                \
+  TEST_P(Suite, Claim) {                                       \
+    EXPECT_TRUE(holds(check<float>(GetParam()))) << "float";   \
+    EXPECT_TRUE(holds(check<double>(GetParam()))) << "double"; \
+  }
+
+WEFT_CHECK(EnergyLaw, ForceIsMinusTheEnergyGradient, force_is_minus_energy_gradient)
+WEFT_CHECK(EnergyLaw, StiffnessIsSymmetric, stiffness_is_symmetric)
+WEFT_CHECK(EnergylessLaw, EnergyIsZero, energy_is_zero)
+WEFT_CHECK(DissipativeLaw, PowerIsNeverPositive, power_is_never_positive)
+
+WEFT_CHECK_SCALARS(InternalLaw, NetForceIsZero, net_force_is_zero)
+WEFT_CHECK_SCALARS(InternalLaw, NetTorqueIsZero, net_torque_is_zero)
+WEFT_CHECK_SCALARS(InternalLaw, ForceTurnsWithTheBody, force_turns_with_the_body)
+WEFT_CHECK_SCALARS(InternalLaw, RigidMotionAddsNoForce, rigid_motion_adds_no_force)
+WEFT_CHECK_SCALARS(InternalLaw, RestShapeIsFreeOfForce, rest_shape_is_free_of_force)
+
+WEFT_CHECK(VelocityLevelLaw, AdvanceSolvesTheEquation, advance_solves_the_equation)
+WEFT_CHECK_SCALARS(VelocityLevelLaw, TwoHalfStepsAreOne, two_half_steps_are_one)
+WEFT_CHECK_SCALARS(ForceLevelLaw, AdvanceChangesNothing, advance_changes_nothing)
+
+WEFT_CHECK(AnyLaw, PowerIsAccountedFor, power_is_accounted_for)
+WEFT_CHECK(AnyLaw, StiffnessIsTheDerivative, stiffness_is_the_derivative)
+WEFT_CHECK(AnyLaw, StiffnessIsTheDifference, stiffness_is_the_difference)
+WEFT_CHECK(AnyLaw, DampingIsTheDerivative, damping_is_the_derivative)
+WEFT_CHECK(AnyLaw, DampingIsTheDifference, damping_is_the_difference)
+WEFT_CHECK(AnyLaw, FloatAgreesWithDouble, float_agrees_with_double)
+WEFT_CHECK_SCALARS(AnyLaw, EdgeOrderDoesNotMatter, edge_order_does_not_matter)
+WEFT_CHECK_SCALARS(AnyLaw, NodeOrderDoesNotMatter, node_order_does_not_matter)
+WEFT_CHECK_SCALARS(AnyLaw, CallsRepeatBitForBit, calls_repeat_bit_for_bit)
+WEFT_CHECK_SCALARS(AnyLaw, ResultsAreAdded, results_are_added)
+WEFT_CHECK_SCALARS(AnyLaw, TwoNodesSuffice, two_nodes_suffice)
+WEFT_CHECK_SCALARS(EdgeLaw, NoEdgesNoForce, no_edges_no_force)
+
+}  // namespace
+}  // namespace weft::contract
