@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -12,26 +12,40 @@
 
 namespace weft::scenes {
 
-/// How node values are stored: in the precision the engine computed them in, so that nothing is lost.
+/// How node values are stored: in the precision the engine computed them in, so that nothing is
+/// lost.
 enum class StoredPrecision { kFloat32, kFloat64 };
 
-/// Where a recording comes from: engine, precision, versions, compiler, flags, command line... key -> text.
+/// Frames are committed together, when there are so many of them or so many bytes, whichever comes
+/// first.
+struct ChunkLimits {
+  int frames = 64;                  ///< >= 1
+  std::size_t bytes = 1024 * 1024;  ///< uncompressed
+};
+
+/// Where a recording comes from: engine, precision, versions, compiler, flags, command line... key
+/// -> text.
 using Provenance = std::map<std::string, std::string>;
 
-/// Writes a recording (SQLite database, zstd-compressed frames). Readable by others while it is being written;
-/// after a crash everything up to the last committed chunk is there.
+/// Writes a recording (SQLite database, zstd-compressed frames). Readable by others while it is
+/// being written; after a crash everything up to the last committed chunk is there.
 class RecordingWriter {
  public:
-  /// Creates path; the scene's resolved text goes inside. Throws Error if the file exists or cannot be made.
-  RecordingWriter(const std::filesystem::path& path, const Scene& scene, const Provenance& provenance,
-                  StoredPrecision precision);
+  /// Creates path; the scene's resolved text goes inside. Throws Error if the file exists or cannot
+  /// be made.
+  RecordingWriter(const std::filesystem::path& path, const Scene& scene,
+                  const Provenance& provenance, StoredPrecision precision,
+                  const ChunkLimits& limits = {});
   ~RecordingWriter();  ///< an unfinished recording stays readable and says that it is unfinished
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
+  /// Throws InvalidArgument for other bodies than the scene's and for a time that does not grow;
+  /// positions and velocities may be anything, also not finite.
   void add_frame(const SceneState& state);
-  /// A named scalar over time, e.g. ("kinetic_energy_J", 0.5, 1.25).
+  /// A named scalar over time, e.g. ("kinetic_energy_J", 0.5, 1.25); the value may be NaN.
   void add_metric(const std::string& name, double time, double value);
+  /// Commits at once, together with the frames so far.
   void set_blow_up(const BlowUp& blow_up);
   /// Writes what is left, marks the recording finished and returns its content hash.
   std::string finish();
@@ -41,7 +55,8 @@ class RecordingWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Reads a recording. Throws Error that names the file for anything that is not a readable recording.
+/// Reads a recording. Throws Error that names the file for anything that is not a readable
+/// recording. Sees what was committed when it was made. Not for several threads at once.
 class RecordingReader {
  public:
   explicit RecordingReader(const std::filesystem::path& path);
@@ -54,7 +69,8 @@ class RecordingReader {
   [[nodiscard]] const Provenance& provenance() const;
   [[nodiscard]] StoredPrecision precision() const;
   [[nodiscard]] bool finished() const;
-  [[nodiscard]] std::string content_hash() const;  ///< of what is stored now; equal to finish()'s when finished
+  [[nodiscard]] std::string content_hash()
+      const;  ///< of what is stored now; equal to finish()'s when finished
   [[nodiscard]] std::optional<BlowUp> blow_up() const;
 
   [[nodiscard]] int num_frames() const;

@@ -1,0 +1,84 @@
+#include <weft/scenes/recording/chunk_codec.hpp>
+
+#include <fmt/core.h>
+#include <zstd.h>
+
+#include <weft/custom_forces/core/error.hpp>
+
+namespace weft::scenes {
+namespace {
+
+/// zstd's default: higher levels gain a few percent of size for a multiple of the time.
+constexpr int kCompressionLevel = 3;
+
+/// Replaces each frame but the first by its XOR with the frame before it: bits that do not change
+/// become zero.
+void subtract_previous(std::vector<std::byte>& raw, std::size_t frame_bytes) {
+  for (std::size_t i = raw.size(); i-- > frame_bytes;) {
+    raw[i] ^= raw[i - frame_bytes];
+  }
+}
+
+void add_previous(std::vector<std::byte>& raw, std::size_t frame_bytes) {
+  for (std::size_t i = frame_bytes; i < raw.size(); ++i) {
+    raw[i] ^= raw[i - frame_bytes];
+  }
+}
+
+/// Byte k of scalar i goes to place k * num_scalars + i.
+std::vector<std::byte> shuffle(const std::vector<std::byte>& from, std::size_t scalar_bytes) {
+  std::vector<std::byte> to(from.size());
+  const std::size_t num_scalars = from.size() / scalar_bytes;
+  for (std::size_t k = 0; k < scalar_bytes; ++k) {
+    for (std::size_t i = 0; i < num_scalars; ++i) {
+      to[k * num_scalars + i] = from[i * scalar_bytes + k];
+    }
+  }
+  return to;
+}
+
+std::vector<std::byte> unshuffle(const std::vector<std::byte>& from, std::size_t scalar_bytes) {
+  std::vector<std::byte> to(from.size());
+  const std::size_t num_scalars = from.size() / scalar_bytes;
+  for (std::size_t k = 0; k < scalar_bytes; ++k) {
+    for (std::size_t i = 0; i < num_scalars; ++i) {
+      to[i * scalar_bytes + k] = from[k * num_scalars + i];
+    }
+  }
+  return to;
+}
+
+}  // namespace
+
+std::vector<std::byte> compress_chunk(std::span<const std::byte> raw, std::size_t frame_bytes,
+                                      std::size_t scalar_bytes) {
+  std::vector<std::byte> bytes(raw.begin(), raw.end());
+  subtract_previous(bytes, frame_bytes);
+  bytes = shuffle(bytes, scalar_bytes);
+  std::vector<std::byte> data(ZSTD_compressBound(bytes.size()));
+  const std::size_t size =
+      ZSTD_compress(data.data(), data.size(), bytes.data(), bytes.size(), kCompressionLevel);
+  if (ZSTD_isError(size) != 0) {
+    throw Error(fmt::format("cannot compress: {}", ZSTD_getErrorName(size)));
+  }
+  data.resize(size);
+  return data;
+}
+
+std::vector<std::byte> decompress_chunk(std::span<const std::byte> data, std::size_t raw_bytes,
+                                        std::size_t frame_bytes, std::size_t scalar_bytes) {
+  // Asked before memory is reserved, so that a wrong number cannot ask for all of it.
+  if (ZSTD_getFrameContentSize(data.data(), data.size()) != raw_bytes) {
+    throw Error(fmt::format("not {} compressed bytes", raw_bytes));
+  }
+  std::vector<std::byte> bytes(raw_bytes);
+  const std::size_t size = ZSTD_decompress(bytes.data(), bytes.size(), data.data(), data.size());
+  if (ZSTD_isError(size) != 0 || size != raw_bytes) {
+    throw Error("cannot decompress");
+  }
+  bytes = unshuffle(bytes, scalar_bytes);
+  add_previous(bytes, frame_bytes);
+  return bytes;
+}
+
+}  // namespace weft::scenes

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <weft/custom_forces/core/error.hpp>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace weft::scenes {
+
+/// What SQLite refused to do. what() is "file: doing: SQLite's message".
+class DatabaseError : public Error {
+ public:
+  DatabaseError(const std::string& message, int code) : Error(message), code_(code) {}
+  [[nodiscard]] int code() const { return code_; }  ///< SQLite's primary result code
+
+ private:
+  int code_;
+};
+
+/// One prepared SQL statement. Parameters count from 1, columns from 0, as in SQLite.
+/// Column getters throw Error if the stored type is another one: a damaged file must not be
+/// silently converted.
+class Statement {
+ public:
+  Statement(sqlite3* connection, std::string_view sql, std::string file);
+
+  Statement& bind(int parameter, std::int64_t value);
+  Statement& bind(int parameter, double value);  ///< NaN becomes NULL (SQLite has no NaN)
+  Statement& bind(int parameter, std::string_view value);
+  Statement& bind(int parameter, std::span<const std::byte> value);
+
+  /// Goes to the next row; false at the end.
+  bool step();
+  /// Runs a statement that returns no rows, and makes it ready for the next bind().
+  void run();
+
+  [[nodiscard]] std::int64_t integer(int column) const;
+  [[nodiscard]] double real(int column) const;  ///< NULL reads as NaN
+  [[nodiscard]] std::string text(int column) const;
+  [[nodiscard]] std::vector<std::byte> blob(int column) const;
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  void check(int code) const;
+  void require_type(int column, int type) const;
+
+  sqlite3* connection_;
+  std::string file_;
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+};
+
+/// A connection to a SQLite database file.
+class Database {
+ public:
+  enum class Access {
+    kReadWrite,          ///< the file must exist
+    kReadOnly,           ///< with locks, together with a writer
+    kReadOnlyUnlocked,   ///< no locks, no shared memory: a crashed recording in a read-only folder
+    kReadOnlyImmutable,  ///< no locks and no journal: a file that nobody writes
+  };
+  Database(const std::filesystem::path& path, Access access);
+
+  void execute(const std::string& sql);
+  [[nodiscard]] Statement prepare(std::string_view sql) const;
+  /// First column of the first row.
+  [[nodiscard]] std::int64_t query_integer(std::string_view sql) const;
+  [[nodiscard]] std::string query_text(std::string_view sql) const;
+
+ private:
+  struct Close {
+    void operator()(sqlite3* connection) const;
+  };
+  std::string file_;
+  std::unique_ptr<sqlite3, Close> connection_;
+};
+
+}  // namespace weft::scenes

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <weft/scenes/recording/frame_codec.hpp>
+#include <weft/scenes/recording/stream_hash.hpp>
+
+/// What writer and reader agree on; docs/recording_format.md is the same for people.
+namespace weft::scenes {
+
+inline constexpr std::int64_t kApplicationId = 0x57454654;  // "WEFT" in ASCII
+inline constexpr std::int64_t kFormatVersion = 1;           // SQLite's user_version
+
+/// Statements that make the tables. Their comments stay in the file: ".schema" explains it.
+extern const std::string_view kTableSchema;
+inline constexpr std::string_view kProvenancePrefix = "provenance.";
+
+using Meta = std::map<std::string, std::string>;
+
+/// A row of table chunk without the data, and the times of its frames.
+struct ChunkEntry {
+  std::int64_t id = 0;
+  std::int64_t first_frame = 0;
+  std::int64_t raw_bytes = 0;
+  std::string codec;
+  std::string hash;           ///< of the column data
+  std::vector<double> times;  ///< [s]
+};
+
+/// Everything of a recording that is small: covered by one hash, read whole when it is opened.
+struct Header {
+  Meta meta;
+  std::string scene_text;
+  std::vector<RecordedBody> bodies;
+  std::optional<BlowUp> blow_up;
+};
+
+/// Over everything in the header except meta.meta_hash itself.
+[[nodiscard]] std::string header_hash(const Header& header);
+/// Continues the running hash of tables chunk and frame.
+void add_to_index_hash(StreamHash& hash, const ChunkEntry& chunk);
+/// Continues the running hash of table metric.
+void add_to_metric_hash(StreamHash& hash, std::string_view name, double time, double value);
+
+/// The hash that names the content: scene, precision, frames and blow-up; not the chunks,
+/// compression, provenance.
+class ContentHash {
+ public:
+  ContentHash(std::string_view scene_text, StoredPrecision precision);
+  void add_frame(double time, std::span<const std::byte> frame);
+  /// With what ends the content; more frames may follow.
+  [[nodiscard]] std::string hex(const std::optional<BlowUp>& blow_up) const;
+
+ private:
+  StreamHash hash_;
+  std::int64_t num_frames_ = 0;
+};
+
+}  // namespace weft::scenes

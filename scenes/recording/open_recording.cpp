@@ -1,0 +1,209 @@
+#include <weft/scenes/recording/open_recording.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+#include <fmt/core.h>
+#include <sqlite3.h>
+
+#include <weft/custom_forces/core/error.hpp>
+
+namespace weft::scenes {
+namespace {
+
+constexpr std::string_view kSqliteMagic("SQLite format 3\0", 16);
+constexpr std::size_t kSqliteHeaderBytes = 100;
+
+std::uint32_t big_endian(const char* from, std::size_t count) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    value = value << 8 | static_cast<unsigned char>(from[i]);
+  }
+  return value;
+}
+
+std::uintmax_t size_or_zero(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  return error ? 0 : size;
+}
+
+std::filesystem::path log_path(const std::filesystem::path& path) {
+  return path.string() + "-wal";
+}
+
+/// Bytes that the file must have according to its own header (SQLite file format, section 1.3), 0
+/// if unknown.
+std::uintmax_t promised_size(const std::array<char, kSqliteHeaderBytes>& header) {
+  const std::uint32_t page = big_endian(&header[16], 2);
+  const bool size_is_valid = std::memcmp(&header[24], &header[92], 4) == 0;
+  return size_is_valid ? std::uintmax_t{page == 1 ? 65536 : page} * big_endian(&header[28], 4) : 0;
+}
+
+/// Clear words for what SQLite would answer with "disk image is malformed", or not at all.
+void check_file(const std::filesystem::path& path, const std::string& file) {
+  if (!std::filesystem::exists(path)) {
+    throw Error(fmt::format("{}: no such file", file));
+  }
+  if (!std::filesystem::is_regular_file(path)) {
+    throw Error(fmt::format("{}: not a file", file));
+  }
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) {
+    throw Error(fmt::format("{}: cannot be read", file));
+  }
+  std::array<char, kSqliteHeaderBytes> header{};
+  stream.read(header.data(), header.size());
+  const auto count = static_cast<std::size_t>(stream.gcount());
+  if (count == 0) {
+    throw Error(fmt::format("{}: is empty, not a Weft recording", file));
+  }
+  if (std::string_view(header.data(), std::min(count, kSqliteMagic.size())) != kSqliteMagic) {
+    throw Error(fmt::format("{}: not a Weft recording", file));
+  }
+  // In this order: with a log the file may be behind its header; without, header and size agree.
+  const bool has_log = size_or_zero(log_path(path)) > 0;
+  const std::uintmax_t size = size_or_zero(path);
+  const std::uintmax_t promised = promised_size(header);
+  if (count < header.size() || (!has_log && size < promised)) {
+    throw Error(fmt::format("{}: truncated, {} of {} bytes", file, size,
+                            std::max<std::uintmax_t>(promised, kSqliteHeaderBytes)));
+  }
+}
+
+/// Whether the file can be had at all is known only after the first access.
+Database open_and_touch(const std::filesystem::path& path, Database::Access access) {
+  Database database(path, access);
+  (void)database.query_integer("PRAGMA application_id");
+  (void)database.query_integer("SELECT count(*) FROM sqlite_master");
+  return database;
+}
+
+Database open_database(const std::filesystem::path& path) {
+  try {
+    return open_and_touch(path, Database::Access::kReadOnly);
+  } catch (const DatabaseError& error) {
+    if (error.code() != SQLITE_CANTOPEN && error.code() != SQLITE_READONLY) {
+      throw;
+    }
+  }
+  // A folder without write access: SQLite cannot make the index beside a log. Nobody writes here,
+  // so none is needed.
+  const bool has_log = size_or_zero(log_path(path)) > 0;
+  return open_and_touch(
+      path, has_log ? Database::Access::kReadOnlyUnlocked : Database::Access::kReadOnlyImmutable);
+}
+
+void check_tables(const Database& database, const std::string& file) {
+  for (const char* table : {"meta", "scene", "body", "chunk", "frame", "metric", "event"}) {
+    Statement find = database.prepare("SELECT type FROM sqlite_master WHERE name = ?");
+    find.bind(1, std::string_view(table));
+    if (!find.step() || find.text(0) != "table") {  // a view could run any query
+      throw Error(fmt::format("{}: has no table '{}': the file is damaged", file, table));
+    }
+  }
+}
+
+[[noreturn]] void damaged(const std::string& file, std::string_view what) {
+  throw Error(fmt::format("{}: {}: the file is damaged", file, what));
+}
+
+std::vector<RecordedBody> read_bodies(const Database& database, const std::string& file) {
+  std::vector<RecordedBody> bodies;
+  Statement rows = database.prepare("SELECT id, name, kind, nodes FROM body ORDER BY id");
+  while (rows.step()) {
+    const std::string kind = rows.text(2);
+    const std::int64_t nodes = rows.integer(3);
+    const bool is_known = kind == "cloth" || kind == "rigid";
+    if (rows.integer(0) != static_cast<std::int64_t>(bodies.size()) || !is_known || nodes < 1 ||
+        nodes > std::numeric_limits<int>::max()) {
+      damaged(file, "table body is not consistent");
+    }
+    bodies.push_back({rows.text(1), kind == "cloth", static_cast<int>(nodes)});
+  }
+  return bodies;
+}
+
+std::optional<BlowUp> read_blow_up(const Database& database) {
+  Statement rows = database.prepare(
+      "SELECT step, time_s, body, node, reason FROM event WHERE kind = 'blow_up' ORDER BY id");
+  if (!rows.step()) {
+    return std::nullopt;
+  }
+  return BlowUp{static_cast<int>(rows.integer(0)), rows.real(1), rows.text(2),
+                static_cast<int>(rows.integer(3)), rows.text(4)};
+}
+
+}  // namespace
+
+Database open_recording(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  check_file(path, file);
+  Database database = open_database(path);
+  if (database.query_integer("PRAGMA application_id") != kApplicationId) {
+    throw Error(fmt::format("{}: not a Weft recording but another application's database", file));
+  }
+  const std::int64_t version = database.query_integer("PRAGMA user_version");
+  if (version != kFormatVersion) {
+    throw Error(fmt::format("{}: recording format version {}, this program reads version {}{}",
+                            file, version, kFormatVersion,
+                            version > kFormatVersion ? "; a newer Weft is needed" : ""));
+  }
+  check_tables(database, file);
+  return database;
+}
+
+Header read_header(const Database& database, const std::string& file) {
+  Header header;
+  Statement rows = database.prepare("SELECT key, value FROM meta ORDER BY key");
+  while (rows.step()) {
+    header.meta[rows.text(0)] = rows.text(1);
+  }
+  header.scene_text = database.query_text("SELECT text FROM scene");
+  header.bodies = read_bodies(database, file);
+  header.blow_up = read_blow_up(database);
+  const auto stored = header.meta.find("meta_hash");
+  if (stored == header.meta.end() || stored->second != header_hash(header)) {
+    damaged(file, "tables meta, scene, body and event do not have their hash");
+  }
+  return header;
+}
+
+RecordingIndex read_index(const Database& database, const Header& header, const FrameCodec& codec,
+                          const std::string& file) {
+  RecordingIndex index;
+  StreamHash hash;
+  Statement chunks = database.prepare(
+      "SELECT id, first_frame, num_frames, codec, raw_bytes, hash FROM chunk ORDER BY id");
+  Statement times = database.prepare("SELECT id, time_s, chunk FROM frame ORDER BY id");
+  while (chunks.step()) {
+    ChunkEntry chunk{chunks.integer(0), chunks.integer(1), chunks.integer(4),
+                     chunks.text(3),    chunks.text(5),    {}};
+    const std::int64_t num_frames = chunks.integer(2);
+    for (std::int64_t i = 0; i < num_frames; ++i) {
+      if (!times.step() || times.integer(0) != static_cast<std::int64_t>(index.times.size()) ||
+          times.integer(2) != chunk.id) {
+        damaged(file, fmt::format("frames of chunk {} are not consistent", chunk.id));
+      }
+      chunk.times.push_back(times.real(1));
+      index.times.push_back(chunk.times.back());
+      index.chunk_of.push_back(index.chunks.size());
+    }
+    const auto first = static_cast<std::int64_t>(index.times.size() - chunk.times.size());
+    const std::size_t raw_bytes = chunk.times.size() * codec.frame_bytes();
+    if (chunk.first_frame != first || static_cast<std::size_t>(chunk.raw_bytes) != raw_bytes) {
+      damaged(file, fmt::format("chunk {} is not consistent", chunk.id));
+    }
+    add_to_index_hash(hash, chunk);
+    index.chunks.push_back(std::move(chunk));
+  }
+  if (times.step() || hash.hex() != header.meta.at("index_hash")) {
+    damaged(file, "tables chunk and frame do not have their hash");
+  }
+  return index;
+}
+
+}  // namespace weft::scenes

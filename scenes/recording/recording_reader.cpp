@@ -1,0 +1,237 @@
+#include <limits>
+#include <optional>
+#include <set>
+
+#include <fmt/core.h>
+
+#include <weft/custom_forces/core/error.hpp>
+#include <weft/scenes/recording/chunk_codec.hpp>
+#include <weft/scenes/recording/open_recording.hpp>
+#include <weft/scenes/recording/recording.hpp>
+#include <weft/scenes/scene_file.hpp>
+
+namespace weft::scenes {
+namespace {
+
+struct MetricRow {
+  std::string name;
+  RecordingReader::Sample sample;
+};
+
+/// The part of the meta table that the hash vouches for; its absence is a writer's fault.
+const std::string& meta_value(const Header& header, const std::string& key,
+                              const std::string& file) {
+  const auto found = header.meta.find(key);
+  if (found == header.meta.end()) {
+    throw Error(fmt::format("{}: has no '{}' in table meta", file, key));
+  }
+  return found->second;
+}
+
+StoredPrecision read_precision(const Header& header, const std::string& file) {
+  const std::string& text = meta_value(header, "precision", file);
+  if (text != "float32" && text != "float64") {
+    throw Error(fmt::format("{}: precision = '{}', expected float32 or float64", file, text));
+  }
+  return text == "float64" ? StoredPrecision::kFloat64 : StoredPrecision::kFloat32;
+}
+
+}  // namespace
+
+struct RecordingReader::Impl {
+  explicit Impl(const std::filesystem::path& the_path);
+
+  /// A finished recording keeps its connection. While one is being written it is opened anew for
+  /// each chunk: a connection at rest would keep the writer from removing its log at the end.
+  template <class Read>
+  auto with_database(const Read& read) const {
+    return kept ? read(*kept) : read(open_recording(path));
+  }
+
+  std::vector<std::byte> read_chunk(const ChunkEntry& chunk) const;
+  /// Decoded bytes of a frame's chunk; the last chunk is remembered.
+  std::span<const std::byte> frame_bytes(int frame) const;
+  const std::vector<MetricRow>& metric_rows() const;
+  std::string compute_content_hash() const;
+
+  std::filesystem::path path;
+  std::string file;
+  std::optional<Database> kept;
+  Header header;
+  FrameCodec codec{{}, StoredPrecision::kFloat64};
+  RecordingIndex index;
+  Provenance provenance;
+
+  // Computed when first asked for.
+  mutable std::optional<Scene> scene;
+  mutable std::optional<std::size_t> cached_chunk;
+  mutable std::vector<std::byte> cached_bytes;
+  mutable std::optional<std::vector<MetricRow>> metrics;
+  mutable std::string content_hash;
+};
+
+RecordingReader::Impl::Impl(const std::filesystem::path& the_path)
+    : path(the_path), file(the_path.string()), kept(open_recording(the_path)) {
+  kept->execute("BEGIN");  // one moment of a recording that may be growing
+  header = read_header(*kept, file);
+  codec = FrameCodec(header.bodies, read_precision(header, file));
+  index = read_index(*kept, header, codec, file);
+  kept->execute("COMMIT");
+  for (const auto& [key, value] : header.meta) {
+    if (key.starts_with(kProvenancePrefix)) {
+      provenance[key.substr(kProvenancePrefix.size())] = value;
+    }
+  }
+  if (meta_value(header, "finished", file) != "yes") {
+    kept.reset();
+  }
+}
+
+std::vector<std::byte> RecordingReader::Impl::read_chunk(const ChunkEntry& chunk) const {
+  try {
+    const std::vector<std::byte> data = with_database([&](const Database& database) {
+      Statement row = database.prepare("SELECT data FROM chunk WHERE id = ?");
+      row.bind(1, chunk.id);
+      if (!row.step()) {
+        throw Error(file + ": no such chunk");
+      }
+      return row.blob(0);
+    });
+    StreamHash hash;
+    hash.add(data);
+    if (hash.hex() != chunk.hash) {
+      throw Error(file + ": data does not have its hash");
+    }
+    if (chunk.codec != kCodecName) {
+      throw Error(fmt::format("{}: unknown codec '{}'", file, chunk.codec));
+    }
+    return decompress_chunk(data, static_cast<std::size_t>(chunk.raw_bytes), codec.frame_bytes(),
+                            codec.scalar_bytes());
+  } catch (const Error& error) {
+    const auto last = chunk.first_frame + static_cast<std::int64_t>(chunk.times.size()) - 1;
+    throw Error(fmt::format("{} (chunk {}, frames {} to {})", error.what(), chunk.id,
+                            chunk.first_frame, last));
+  }
+}
+
+std::span<const std::byte> RecordingReader::Impl::frame_bytes(int frame) const {
+  if (frame < 0 || static_cast<std::size_t>(frame) >= index.times.size()) {
+    throw InvalidArgument(fmt::format("{}: frame = {}, expected 0 to {}", file, frame,
+                                      static_cast<int>(index.times.size()) - 1));
+  }
+  const std::size_t chunk = index.chunk_of[static_cast<std::size_t>(frame)];
+  if (cached_chunk != chunk) {
+    cached_chunk.reset();
+    cached_bytes = read_chunk(index.chunks[chunk]);
+    cached_chunk = chunk;
+  }
+  const auto place = static_cast<std::size_t>(frame - index.chunks[chunk].first_frame);
+  return std::span(cached_bytes).subspan(place * codec.frame_bytes(), codec.frame_bytes());
+}
+
+const std::vector<MetricRow>& RecordingReader::Impl::metric_rows() const {
+  if (metrics) {
+    return *metrics;
+  }
+  std::vector<MetricRow> found;
+  StreamHash hash;
+  with_database([&](const Database& database) {
+    Statement select =
+        database.prepare("SELECT name, time_s, value FROM metric WHERE id <= ? ORDER BY id");
+    select.bind(1, std::int64_t{std::stoll(meta_value(header, "num_metrics", file))});
+    while (select.step()) {
+      found.push_back({select.text(0), {select.real(1), select.real(2)}});
+      const MetricRow& row = found.back();
+      add_to_metric_hash(hash, row.name, row.sample.time, row.sample.value);
+    }
+    return 0;
+  });
+  if (hash.hex() != meta_value(header, "metric_hash", file)) {
+    throw Error(file + ": table metric does not have its hash: the file is damaged");
+  }
+  metrics = std::move(found);
+  return *metrics;
+}
+
+std::string RecordingReader::Impl::compute_content_hash() const {
+  ContentHash hash(header.scene_text, codec.precision());
+  for (std::size_t i = 0; i < index.times.size(); ++i) {
+    hash.add_frame(index.times[i], frame_bytes(static_cast<int>(i)));
+  }
+  const std::string found = hash.hex(header.blow_up);
+  if (found != meta_value(header, "content_hash", file)) {
+    throw Error(file + ": the content does not have its hash: the file is damaged");
+  }
+  return found;
+}
+
+RecordingReader::RecordingReader(const std::filesystem::path& path)
+    : impl_(std::make_unique<Impl>(path)) {}
+RecordingReader::~RecordingReader() = default;
+
+const Scene& RecordingReader::scene() const {
+  if (!impl_->scene) {
+    impl_->scene = read_scene_text(impl_->header.scene_text, impl_->file);
+  }
+  return *impl_->scene;
+}
+
+const std::string& RecordingReader::scene_text() const {
+  return impl_->header.scene_text;
+}
+const Provenance& RecordingReader::provenance() const {
+  return impl_->provenance;
+}
+StoredPrecision RecordingReader::precision() const {
+  return impl_->codec.precision();
+}
+bool RecordingReader::finished() const {
+  return impl_->header.meta.at("finished") == "yes";
+}
+std::optional<BlowUp> RecordingReader::blow_up() const {
+  return impl_->header.blow_up;
+}
+int RecordingReader::num_frames() const {
+  return static_cast<int>(impl_->index.times.size());
+}
+
+std::string RecordingReader::content_hash() const {
+  if (impl_->content_hash.empty()) {
+    impl_->content_hash = impl_->compute_content_hash();
+  }
+  return impl_->content_hash;
+}
+
+double RecordingReader::frame_time(int frame) const {
+  if (frame < 0 || frame >= num_frames()) {
+    throw InvalidArgument(
+        fmt::format("{}: frame = {}, expected 0 to {}", impl_->file, frame, num_frames() - 1));
+  }
+  return impl_->index.times[static_cast<std::size_t>(frame)];
+}
+
+SceneState RecordingReader::frame(int frame) const {
+  SceneState state = impl_->codec.decode(impl_->frame_bytes(frame));
+  state.time = frame_time(frame);
+  return state;
+}
+
+std::vector<std::string> RecordingReader::metric_names() const {
+  std::set<std::string> names;
+  for (const MetricRow& row : impl_->metric_rows()) {
+    names.insert(row.name);
+  }
+  return {names.begin(), names.end()};
+}
+
+std::vector<RecordingReader::Sample> RecordingReader::metric(const std::string& name) const {
+  std::vector<Sample> samples;
+  for (const MetricRow& row : impl_->metric_rows()) {
+    if (row.name == name) {
+      samples.push_back(row.sample);
+    }
+  }
+  return samples;
+}
+
+}  // namespace weft::scenes

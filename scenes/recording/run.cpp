@@ -1,0 +1,83 @@
+#include <weft/scenes/recording/run.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <fmt/core.h>
+
+#include <weft/custom_forces/core/error.hpp>
+
+namespace weft::scenes {
+namespace {
+
+/// How far frame_interval / time_step may be from a whole number [-]. Both come from decimal texts,
+/// so their quotient is wrong by rounding only: a few eps times the number of steps; 1e-9 covers a
+/// million steps per frame.
+constexpr double kWholeNumberTolerance = 1e-9;
+
+/// More steps than a step counter holds are a mistake in the scene.
+constexpr double kMaxSteps = std::numeric_limits<int>::max();
+
+int count_steps(const char* name, double interval, double time_step) {
+  const double count = interval / time_step;
+  if (!(interval > 0) || !(time_step > 0) || !(count < kMaxSteps)) {
+    throw InvalidArgument(
+        fmt::format("record_run: {} = {} [s] with time_step = {} [s], expected > 0 "
+                    "and fewer than 2^31 steps",
+                    name, interval, time_step));
+  }
+  return static_cast<int>(std::llround(count));
+}
+
+int steps_per_frame(const World& world) {
+  const int steps = count_steps("frame_interval", world.frame_interval, world.time_step);
+  const double count = world.frame_interval / world.time_step;
+  if (steps < 1 || std::abs(count - steps) > kWholeNumberTolerance * count) {
+    throw InvalidArgument(fmt::format(
+        "record_run: frame_interval = {} [s], expected a whole number of time steps of {} [s]",
+        world.frame_interval, world.time_step));
+  }
+  return steps;
+}
+
+void write_frame(const Simulator& simulator, double time, RecordingWriter& writer,
+                 RunSummary& summary) {
+  SceneState state = simulator.state();
+  state.time = time;
+  writer.add_frame(state);
+  ++summary.frames;
+}
+
+}  // namespace
+
+RunSummary record_run(Simulator& simulator, const Scene& scene, RecordingWriter& writer,
+                      const std::function<void(const StepReport&)>& progress) {
+  const int num_steps = count_steps("duration", scene.world.duration, scene.world.time_step);
+  const int frame_steps = steps_per_frame(scene.world);
+  RunSummary summary;
+  simulator.load(scene);
+  write_frame(simulator, simulator.state().time, writer, summary);
+  using Clock = std::chrono::steady_clock;
+  Clock::duration engine{};
+  while (summary.steps < num_steps && !summary.blow_up) {
+    const Clock::time_point start = Clock::now();
+    const StepReport report = simulator.step(scene.world.time_step);
+    engine += Clock::now() - start;
+    ++summary.steps;
+    summary.blow_up = report.blow_up;
+    if (summary.steps % frame_steps == 0 || summary.blow_up) {
+      write_frame(simulator, report.time, writer, summary);
+    }
+    if (progress) {
+      progress(report);
+    }
+  }
+  if (summary.blow_up) {
+    writer.set_blow_up(*summary.blow_up);
+  }
+  summary.engine_seconds = std::chrono::duration<double>(engine).count();
+  return summary;
+}
+
+}  // namespace weft::scenes

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include <weft/scenes/recording/recording.hpp>
+#include <weft/scenes/simulator.hpp>
+
+namespace weft::scenes {
+
+/// What came of a run.
+struct RunSummary {
+  int steps = 0;   ///< taken, the one that blew up included
+  int frames = 0;  ///< written, the initial one included
+  std::optional<BlowUp> blow_up;
+  double engine_seconds = 0.0;  ///< [s] wall time in Simulator::step alone
+};
+
+/// Runs the scene for world.duration in steps of world.time_step, and writes the initial state and
+/// then a frame every world.frame_interval. A blow-up ends the run; it is recorded, with the state
+/// after it as last frame. Frame times are the engine's own. The recording is left unfinished, so
+/// that metrics can follow. progress, if there is one, is called after every step. Throws
+/// InvalidArgument if the times are not positive or frame_interval is not a whole number of steps,
+/// and what load() and the writer throw.
+[[nodiscard]] RunSummary record_run(Simulator& simulator, const Scene& scene,
+                                    RecordingWriter& writer,
+                                    const std::function<void(const StepReport&)>& progress);
+
+}  // namespace weft::scenes
