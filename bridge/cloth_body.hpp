@@ -29,7 +29,7 @@ struct ClothSettings {
   /// the depth as well, so that a node leaves the surface with up to the speed it came with.
   /// Bullet's default for fixed bodies is 0.1.
   double contact_hardness = 0.1;
-  std::vector<LinkSet> links;  ///< none: all tension comes from attached laws
+  std::vector<LinkSet> links = {};  ///< none: all tension comes from attached laws
   double time_step =
       0.01;  ///< [s] the step the world will take; only the links' stiffness depends on it
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <weft/custom_forces/core/dual.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
 namespace weft::forces {
@@ -26,5 +27,9 @@ class Gravity final : public ForceLaw<Scalar> {
  private:
   Vector3<Scalar> acceleration_;  ///< [m/s^2]
 };
+
+extern template class Gravity<float>;
+extern template class Gravity<double>;
+extern template class Gravity<Dual>;
 
 }  // namespace weft::forces

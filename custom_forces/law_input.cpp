@@ -30,6 +30,13 @@ Vector3<double> law_vector(const LawSpecification& specification, std::string_vi
 }
 
 Edges law_edges(const LawSpecification& specification, const ClothMesh& mesh) {
+  for (const std::string& name : specification.edge_sets) {
+    if (mesh.has_edge_set(name)) continue;
+    std::string known;
+    for (const EdgeSet& set : mesh.edge_sets) known += (known.empty() ? "" : ", ") + set.name;
+    throw InvalidArgument(specification.law + ": edge_sets = '" + name +
+                          "', expected sets of the mesh: " + known);
+  }
   if (!specification.edge_sets.empty()) return mesh.edges_of(specification.edge_sets);
   std::vector<std::string> all;
   for (const EdgeSet& set : mesh.edge_sets) all.push_back(set.name);

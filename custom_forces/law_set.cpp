@@ -42,14 +42,23 @@ bool is_separate(const ForceLaw<Scalar>& law, typename LawSet<Scalar>::VelocityL
 }
 
 template <class Scalar>
-void check_shapes(const State<Scalar>& state, Eigen::Index columns) {
+void check_shapes(const State<Scalar>& state, Eigen::Index result_columns,
+                  Eigen::Index direction_columns) {
   const Eigen::Index n = state.positions.cols();
-  if (state.velocities.cols() != n || state.masses.size() != n || columns != n) {
+  if (state.velocities.cols() != n || state.masses.size() != n || result_columns != n ||
+      direction_columns != n) {
     throw InvalidArgument("law set: positions 3 x " + std::to_string(n) + ", velocities 3 x " +
                           std::to_string(state.velocities.cols()) + ", masses " +
                           std::to_string(state.masses.size()) + ", result 3 x " +
-                          std::to_string(columns) + ", expected the same number of nodes");
+                          std::to_string(result_columns) + ", direction 3 x " +
+                          std::to_string(direction_columns) +
+                          ", expected the same number of nodes");
   }
+}
+
+template <class Scalar>
+void check_shapes(const State<Scalar>& state, Eigen::Index result_columns) {
+  check_shapes(state, result_columns, state.positions.cols());
 }
 
 }  // namespace
@@ -78,7 +87,7 @@ template <class Scalar>
 void LawSet<Scalar>::add_stiffness_product(const State<Scalar>& state,
                                            ConstMatrix3XRef<Scalar> displacements,
                                            Matrix3XRef<Scalar> product) {
-  check_shapes(state, product.cols());
+  check_shapes(state, product.cols(), displacements.cols());
   for (const auto& law : laws_) {
     law->add_stiffness_product(state, displacements, scratch_, product);
   }
@@ -88,7 +97,7 @@ template <class Scalar>
 void LawSet<Scalar>::add_damping_product(const State<Scalar>& state,
                                          ConstMatrix3XRef<Scalar> velocity_changes,
                                          Matrix3XRef<Scalar> product) {
-  check_shapes(state, product.cols());
+  check_shapes(state, product.cols(), velocity_changes.cols());
   for (const auto& law : laws_) {
     law->add_damping_product(state, velocity_changes, scratch_, product);
   }

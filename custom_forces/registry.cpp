@@ -1,8 +1,10 @@
 #include <weft/custom_forces/registry.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 
 #include <weft/custom_forces/core/error.hpp>
@@ -98,6 +100,12 @@ void check_names(const LawSpecification& specification, const LawInfo& info) {
                             "' is unknown, expected one of: " + known);
     }
   }
+  for (auto name = specification.edge_sets.begin(); name != specification.edge_sets.end(); ++name) {
+    if (std::find(specification.edge_sets.begin(), name, *name) != name) {
+      throw InvalidArgument(specification.law + ": edge_sets names '" + *name +
+                            "' twice, expected each set once");
+    }
+  }
   if (!info.traits.uses_edges && !specification.edge_sets.empty()) {
     throw InvalidArgument(specification.law + ": edge_sets = '" + specification.edge_sets.front() +
                           "', expected none, for this law acts on nodes");
@@ -144,7 +152,16 @@ LawSpecification checked(const LawSpecification& specification) {
 template <>
 std::unique_ptr<ForceLaw<float>> make_law<float>(const LawSpecification& specification,
                                                  const ClothMesh& mesh) {
-  return find_row(specification.law).make_float(checked(specification), mesh);
+  const Row& row = find_row(specification.law);
+  const LawSpecification values = checked(specification);
+  for (const ParameterInfo& parameter : row.info->parameters) {
+    for (const double value : values.parameters.find(parameter.name)->second) {
+      if (std::abs(value) > double{std::numeric_limits<float>::max()}) {
+        refuse(specification, parameter, number(value), "a single-precision number");
+      }
+    }
+  }
+  return row.make_float(values, mesh);
 }
 
 template <>

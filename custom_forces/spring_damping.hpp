@@ -1,5 +1,6 @@
 #pragma once
 
+#include <weft/custom_forces/core/dual.hpp>
 #include <weft/custom_forces/element_assembly.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
@@ -39,5 +40,9 @@ class SpringDamping final : public ForceLaw<Scalar> {
   VectorX<Scalar> rest_lengths_;  ///< [m]
   Scalar damping_;                ///< [N s/m]
 };
+
+extern template class SpringDamping<float>;
+extern template class SpringDamping<double>;
+extern template class SpringDamping<Dual>;
 
 }  // namespace weft::forces

@@ -24,7 +24,9 @@ template <class Scalar>
 const LawInfo Tension<Scalar>::kInfo{
     .id = "tension",
     .summary = "Linear springs along edges",
-    .formula = "f_i = k (l - l0) u, f_j = -f_i, E = k (l - l0)^2 / 2",
+    .formula =
+        "f_i = k' (l - l0) u, f_j = -f_i, E = k' (l - l0)^2 / 2, "
+        "k' = k if l >= l0, else ratio k",
     .source = "Werth 2008: tension constant times (length minus rest length)",
     .traits = {.internal = true, .has_energy = true, .uses_edges = true},
     .parameters = kParameters};

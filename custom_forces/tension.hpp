@@ -1,5 +1,6 @@
 #pragma once
 
+#include <weft/custom_forces/core/dual.hpp>
 #include <weft/custom_forces/element_assembly.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
@@ -44,5 +45,9 @@ class Tension final : public ForceLaw<Scalar> {
   Scalar stiffness_;              ///< [N/m]
   Scalar compression_ratio_;      ///< [-]
 };
+
+extern template class Tension<float>;
+extern template class Tension<double>;
+extern template class Tension<Dual>;
 
 }  // namespace weft::forces

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <weft/custom_forces/core/dual.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
 namespace weft::forces {
@@ -33,5 +34,9 @@ class VelocityDamping final : public ForceLaw<Scalar> {
  private:
   Scalar rate_;  ///< [1/s]
 };
+
+extern template class VelocityDamping<float>;
+extern template class VelocityDamping<double>;
+extern template class VelocityDamping<Dual>;
 
 }  // namespace weft::forces

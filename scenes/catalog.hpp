@@ -16,8 +16,8 @@ struct CatalogEntry {
 [[nodiscard]] std::span<const CatalogEntry> scene_catalog();
 [[nodiscard]] const CatalogEntry* find_catalog_scene(std::string_view name);
 
-/// A catalog name, or else a path of a scene file. Throws SceneError, and InvalidArgument with a suggestion for a
-/// name that is neither.
+/// A catalog name, or else a path of a scene file. Throws SceneError, and InvalidArgument with a
+/// suggestion for a name that is neither.
 [[nodiscard]] Scene load_scene(const std::string& name_or_path);
 
 }  // namespace weft::scenes

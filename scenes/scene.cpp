@@ -1,6 +1,7 @@
 #include <weft/scenes/scene.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 #include <weft/custom_forces/core/error.hpp>
 
@@ -43,6 +44,16 @@ ClothMesh make_mesh(const Cloth& cloth) {
     if (pinned[static_cast<std::size_t>(node)]) mesh.pinned.push_back(node);
   }
   return mesh;
+}
+
+Scene with_bullets_time_step(Scene scene) {
+  World& world = scene.world;
+  const double num_steps = std::round(world.duration / world.time_step);
+  const double steps_per_frame = std::round(world.frame_interval / world.time_step);
+  world.time_step = static_cast<double>(static_cast<float>(world.time_step));
+  world.duration = num_steps * world.time_step;
+  world.frame_interval = steps_per_frame * world.time_step;
+  return scene;
 }
 
 }  // namespace weft::scenes

@@ -20,7 +20,7 @@ struct World {
   Vector3<double> gravity{0, -9.81, 0};  ///< [m/s^2]
   double time_step = 0.01;               ///< [s]
   double duration = 1.0;                 ///< [s]
-  double frame_interval = 0.02;          ///< [s] between recorded frames; a whole number of time steps
+  double frame_interval = 0.02;  ///< [s] between recorded frames; a whole number of time steps
 };
 
 /// Which grid nodes a pin holds.
@@ -44,7 +44,8 @@ struct Cloth {
   std::vector<Pin> pins;
   Vector3<double> velocity{0, 0, 0};  ///< [m/s] of every free node at the start
   double collision_margin = 0.01;     ///< [m] distance at which the cloth rests on a surface, >= 0
-  double friction = 0.5;              ///< Coulomb coefficient of the cloth [-]; with a collider: the product of both
+  double friction =
+      0.5;  ///< Coulomb coefficient of the cloth [-]; with a collider: the product of both
   std::vector<forces::LawSpecification> laws;
 };
 
@@ -62,12 +63,12 @@ using Shape = std::variant<SphereShape, BoxShape, PlaneShape>;
 struct Collider {
   std::string name;
   Shape shape;
-  Vector3<double> position{0, 0, 0};                                    ///< [m]
+  Vector3<double> position{0, 0, 0};  ///< [m]
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-  double friction = 1.0;                                                ///< [-]
-  std::optional<double> mass;                                           ///< [kg]; none: fixed
-  Vector3<double> velocity{0, 0, 0};                                    ///< [m/s], dynamic bodies only
-  Vector3<double> angular_velocity{0, 0, 0};                            ///< [rad/s], dynamic bodies only
+  double friction = 1.0;                      ///< [-]
+  std::optional<double> mass = std::nullopt;  ///< [kg]; none: fixed
+  Vector3<double> velocity{0, 0, 0};          ///< [m/s], dynamic bodies only
+  Vector3<double> angular_velocity{0, 0, 0};  ///< [rad/s], dynamic bodies only
 };
 
 /// Settings of Bullet's own solver, for the engines that use it.
@@ -107,5 +108,10 @@ struct Scene {
 /// Mesh of a cloth with its pins resolved to node indices.
 /// Throws InvalidArgument if a pin holds no node.
 [[nodiscard]] ClothMesh make_mesh(const Cloth& cloth);
+
+/// The scene with the time step that Bullet takes, which it rounds to single precision in both
+/// builds; duration and frame interval keep their numbers of steps. Engines that are to be compared
+/// must take the same step.
+[[nodiscard]] Scene with_bullets_time_step(Scene scene);
 
 }  // namespace weft::scenes

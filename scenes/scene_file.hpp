@@ -28,7 +28,8 @@ class SceneError : public InvalidArgument {
 /// The same for a text; name stands for the file in messages.
 [[nodiscard]] Scene read_scene_text(std::string_view text, const std::string& name);
 
-/// The resolved scene: TOML with every default written out, which reads back to the same scene, bit for bit.
+/// The resolved scene: TOML with every default written out, which reads back to the same scene, bit
+/// for bit.
 [[nodiscard]] std::string write_scene(const Scene& scene);
 
 }  // namespace weft::scenes

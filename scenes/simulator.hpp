@@ -46,9 +46,9 @@ struct RigidState {
 
 /// State of everything that can move, bodies in the order of the scene.
 struct SceneState {
-  double time = 0.0;                ///< [s]
-  std::vector<ClothState> cloths;   ///< as Scene::cloths
-  std::vector<RigidState> rigids;   ///< as Scene::colliders, fixed ones too
+  double time = 0.0;               ///< [s]
+  std::vector<ClothState> cloths;  ///< as Scene::cloths
+  std::vector<RigidState> rigids;  ///< as Scene::colliders, fixed ones too
 };
 
 /// The port: every engine that can run a scene. Cross-validation is a loop over simulators.

@@ -11,6 +11,8 @@ namespace {
 
 class ReferenceSimulator final : public Simulator {
  public:
+  explicit ReferenceSimulator(LawFilter filter) : filter_(std::move(filter)) {}
+
   void load(const Scene& scene) override;
   [[nodiscard]] StepReport step(double time_step) override;
   [[nodiscard]] const SceneState& state() const override { return state_; }
@@ -18,17 +20,18 @@ class ReferenceSimulator final : public Simulator {
  private:
   void read_state();
 
+  LawFilter filter_;
   std::unique_ptr<reference::SpringSolver> solver_;
   SceneState state_;
   StepReport report_;
 };
 
-reference::Body make_body(const Cloth& cloth) {
+reference::Body make_body(const Cloth& cloth, const LawFilter& filter) {
   reference::Body body;
   body.name = cloth.name;
   body.mesh = make_mesh(cloth);
   for (const forces::LawSpecification& law : cloth.laws) {
-    body.laws.add(forces::make_law<double>(law, body.mesh));
+    body.laws.add(filter(forces::make_law<double>(law, body.mesh)));
   }
   body.positions = body.mesh.rest_positions;
   body.velocities = cloth.velocity.replicate(1, body.mesh.num_nodes());
@@ -88,7 +91,7 @@ reference::GuardPolicy to_reference(StepGuard guard) {
 void ReferenceSimulator::load(const Scene& scene) {
   reference::System system;
   system.gravity = scene.world.gravity;
-  for (const Cloth& cloth : scene.cloths) system.bodies.push_back(make_body(cloth));
+  for (const Cloth& cloth : scene.cloths) system.bodies.push_back(make_body(cloth, filter_));
   for (const Collider& collider : scene.colliders) {
     system.colliders.push_back(make_collider(collider));
   }
@@ -140,7 +143,11 @@ StepReport ReferenceSimulator::step(double time_step) {
 }  // namespace
 
 std::unique_ptr<Simulator> make_reference() {
-  return std::make_unique<ReferenceSimulator>();
+  return make_reference([](std::unique_ptr<forces::ForceLaw<double>> law) { return law; });
+}
+
+std::unique_ptr<Simulator> make_reference(LawFilter filter) {
+  return std::make_unique<ReferenceSimulator>(std::move(filter));
 }
 
 }  // namespace weft::scenes

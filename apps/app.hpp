@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace weft::app {
+
+/// Exit codes of the weft command.
+inline constexpr int kOk = 0;
+inline constexpr int kCaseFailed = 1;  ///< a validation case failed, or a simulation blew up
+inline constexpr int kBadInput = 2;    ///< command line, scene file, recording or output place
+
+/// Each command adds its options to the parser and returns what to do once they are parsed.
+using Action = std::function<int()>;
+
+/// The words the program was started with, for a command that hands over to another executable.
+struct CommandLine {
+  std::vector<std::string> words;
+  std::filesystem::path executable;  ///< the file that runs
+};
+
+[[nodiscard]] Action add_list_command(CLI::App& parser);
+[[nodiscard]] Action add_run_command(CLI::App& parser, const CommandLine& command_line);
+[[nodiscard]] Action add_validate_command(CLI::App& parser, const CommandLine& command_line);
+[[nodiscard]] Action add_render_command(CLI::App& parser);
+[[nodiscard]] Action add_check_command(CLI::App& parser);
+
+}  // namespace weft::app

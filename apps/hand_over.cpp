@@ -1,0 +1,34 @@
+#include "apps/hand_over.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstring>
+
+#include <weft/custom_forces/core/error.hpp>
+
+namespace weft::app {
+
+std::filesystem::path executable_for(const CommandLine& command_line,
+                                     scenes::StoredPrecision precision) {
+  const char* name = precision == scenes::StoredPrecision::kFloat32 ? "weft" : "weft-float64";
+  return command_line.executable.parent_path() / name;
+}
+
+void hand_over(const CommandLine& command_line, scenes::StoredPrecision precision) {
+  const std::filesystem::path other = executable_for(command_line, precision);
+  if (other == command_line.executable) {
+    throw Error("run: this program was built without Bullet, expected --engine reference");
+  }
+  std::vector<std::string> words = command_line.words;
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  std::fflush(nullptr);
+  execv(other.c_str(), arguments.data());
+  throw Error(other.string() + ": cannot be started (" + std::strerror(errno) +
+              "), expected the program for Bullet's other precision beside " +
+              command_line.executable.string());
+}
+
+}  // namespace weft::app

@@ -1,0 +1,167 @@
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/core.h>
+#include <tbb/global_control.h>
+#include <CLI/CLI.hpp>
+
+#include <weft/custom_forces/core/error.hpp>
+#include <weft/scenes/catalog.hpp>
+#include <weft/scenes/engines/engine_table.hpp>
+#include <weft/scenes/quantity.hpp>
+#include <weft/scenes/recording/recording.hpp>
+#include <weft/scenes/recording/run.hpp>
+#include <weft/scenes/scene_file.hpp>
+
+#include "apps/app.hpp"
+#include "apps/hand_over.hpp"
+#include "apps/progress_bar.hpp"
+#include "apps/provenance.hpp"
+
+namespace weft::app {
+namespace {
+
+struct RunOptions {
+  std::string scene;
+  std::string engine = "reference";
+  std::string precision;
+  std::string output;
+  std::string duration;
+  std::string time_step;
+  std::string integrator;
+  bool bullet_time_step = false;
+  bool force = false;
+  int threads = 0;
+};
+
+scenes::StoredPrecision requested_precision(const RunOptions& options) {
+  if (options.engine == "reference") {
+    if (options.precision == "float32") {
+      throw InvalidArgument("--precision float32: the reference solver has only float64");
+    }
+    return scenes::StoredPrecision::kFloat64;
+  }
+  return options.precision == "float64" ? scenes::StoredPrecision::kFloat64
+                                        : scenes::StoredPrecision::kFloat32;
+}
+
+double time_option(const char* option, const std::string& text) {
+  try {
+    return scenes::parse_quantity(text, "s");
+  } catch (const scenes::UnitError& error) {
+    throw InvalidArgument(fmt::format("{} \"{}\": {}", option, text, error.what()));
+  }
+}
+
+scenes::Scene requested_scene(const RunOptions& options) {
+  scenes::Scene scene = scenes::load_scene(options.scene);
+  if (!options.duration.empty()) {
+    scene.world.duration = time_option("--duration", options.duration);
+  }
+  if (!options.time_step.empty()) {
+    scene.world.time_step = time_option("--time-step", options.time_step);
+  }
+  if (options.integrator == "explicit_euler") {
+    scene.reference.integrator = scenes::Integrator::kExplicitEuler;
+  } else if (options.integrator == "modified_euler") {
+    scene.reference.integrator = scenes::Integrator::kModifiedEuler;
+  } else if (options.integrator == "velocity_verlet") {
+    scene.reference.integrator = scenes::Integrator::kVelocityVerlet;
+  } else if (options.integrator == "runge_kutta_4") {
+    scene.reference.integrator = scenes::Integrator::kRungeKutta4;
+  }
+  // The edited scene must hold to the same rules as a file.
+  scene = scenes::read_scene_text(scenes::write_scene(scene), options.scene);
+  if (options.bullet_time_step) scene = scenes::with_bullets_time_step(std::move(scene));
+  return scene;
+}
+
+void remove_recording(const std::filesystem::path& path) {
+  for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
+    std::error_code ignored;
+    std::filesystem::remove(path.string() + suffix, ignored);
+  }
+}
+
+int report(const scenes::RunSummary& summary, const std::string& output, const std::string& hash,
+           double simulated) {
+  fmt::print("{}: {} steps, {} frames, {:.2f} s simulated in {:.2f} s\ncontent hash {}\n", output,
+             summary.steps, summary.frames, simulated, summary.engine_seconds, hash);
+  if (!summary.blow_up) return kOk;
+  fmt::print("blew up at step {}, t = {:.6g} s, body '{}', node {}: {}\n", summary.blow_up->step,
+             summary.blow_up->time, summary.blow_up->body, summary.blow_up->node,
+             summary.blow_up->reason);
+  return kCaseFailed;
+}
+
+int run(const RunOptions& options, const CommandLine& command_line) {
+  const scenes::StoredPrecision precision = requested_precision(options);
+  const scenes::Scene scene = requested_scene(options);
+  const scenes::EngineInfo* engine = scenes::find_engine(options.engine, precision);
+  if (!engine) hand_over(command_line, precision);
+
+  const std::string output = options.output.empty()
+                                 ? fmt::format("{}_{}_{}.weftrec", scene.name, options.engine,
+                                               scenes::to_string(precision))
+                                 : options.output;
+  if (options.force) remove_recording(output);
+
+  std::optional<tbb::global_control> thread_limit;
+  if (options.threads > 0) {
+    thread_limit.emplace(tbb::global_control::max_allowed_parallelism,
+                         static_cast<std::size_t>(options.threads));
+  }
+  scenes::Provenance provenance = build_provenance();
+  provenance["engine"] = options.engine;
+  provenance["precision"] = scenes::to_string(precision);
+  provenance["threads"] = options.threads > 0 ? std::to_string(options.threads) : "all";
+
+  scenes::RecordingWriter writer(output, scene, provenance, precision);
+  try {
+    const std::unique_ptr<scenes::Simulator> simulator = engine->make();
+    ProgressBar progress(scene.name);
+    const scenes::RunSummary summary = scenes::record_run(
+        *simulator, scene, writer,
+        [&](const scenes::StepReport& step) { progress.update(step.time / scene.world.duration); });
+    const std::string hash = writer.finish();
+    return report(summary, output, hash, simulator->state().time);
+  } catch (...) {
+    remove_recording(output);
+    throw;
+  }
+}
+
+}  // namespace
+
+Action add_run_command(CLI::App& parser, const CommandLine& command_line) {
+  CLI::App* command = parser.add_subcommand("run", "Simulate a scene and record it");
+  auto options = std::make_shared<RunOptions>();
+  command->add_option("SCENE", options->scene, "Catalog name or scene file")->required();
+  command->add_option("-e,--engine", options->engine, "Which engine simulates")
+      ->check(CLI::IsMember({"bullet_soft", "bullet_forces", "reference"}))
+      ->capture_default_str();
+  command
+      ->add_option("-p,--precision", options->precision,
+                   "float32 or float64; of Bullet (default float32), the reference has float64")
+      ->check(CLI::IsMember({"float32", "float64"}));
+  command->add_option("-o,--output", options->output,
+                      "Recording to write (default SCENE_ENGINE_PRECISION.weftrec)");
+  command->add_flag("-f,--force", options->force, "Replace an existing recording");
+  command->add_option("--duration", options->duration, "Instead of the scene's, e.g. \"2 s\"");
+  command->add_option("--time-step", options->time_step,
+                      "Instead of the scene's, e.g. \"1/200 s\"");
+  command
+      ->add_option("--integrator", options->integrator, "Of the reference, instead of the scene's")
+      ->check(
+          CLI::IsMember({"explicit_euler", "modified_euler", "velocity_verlet", "runge_kutta_4"}));
+  command->add_flag("--bullet-time-step", options->bullet_time_step,
+                    "Round the time step to single precision, as Bullet does");
+  command
+      ->add_option("-j,--threads", options->threads,
+                   "Threads of the force laws (default: all); changes no bit of the result")
+      ->check(CLI::Range(1, 1024));
+  return [options, command_line] { return run(*options, command_line); };
+}
+
+}  // namespace weft::app

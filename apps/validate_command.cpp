@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include <weft/scenes/engines/engine_table.hpp>
+#include <weft/validation/cases.hpp>
+#include <weft/validation/report/write.hpp>
+#include <weft/validation/suite.hpp>
+
+#include "apps/app.hpp"
+#include "apps/hand_over.hpp"
+#include "apps/progress_bar.hpp"
+#include "apps/provenance.hpp"
+
+namespace weft::app {
+namespace {
+
+struct ValidateOptions {
+  std::vector<std::string> cases;
+  std::string output = "weft-report";
+  int jobs = 0;
+  bool no_pictures = false;
+};
+
+void print_table(const validation::Report& report) {
+  fmt::print("{:<16} {:<22} {:<52} {:>11} {:>11}  {}\n", "case", "engine", "metric", "measured",
+             "allowed", "verdict");
+  for (const validation::CheckResult& check : report.checks) {
+    const bool caught = std::all_of(check.sabotages.begin(), check.sabotages.end(),
+                                    [](const auto& sabotage) { return sabotage.detected; });
+    const char* verdict = check.verdict == validation::Verdict::kPass   ? "pass"
+                          : check.verdict == validation::Verdict::kInfo ? "info"
+                                                                        : "FAIL";
+    const std::string metric =
+        check.unit == "1" ? check.metric : fmt::format("{} [{}]", check.metric, check.unit);
+    fmt::print("{:<16} {:<22} {:<52} {:>11.3g} {:>11}  {}{}\n", check.case_id, check.engine, metric,
+               check.measured,
+               check.tolerance ? fmt::format("{:.3g}", check.tolerance->value) : std::string("-"),
+               verdict, caught ? "" : " (a sabotage went unnoticed)");
+  }
+}
+
+int validate(const ValidateOptions& options, const CommandLine& command_line) {
+  const bool with_bullet = scenes::bullet_description() != "none";
+  validation::SuiteOptions suite;
+  suite.weft = executable_for(command_line, scenes::StoredPrecision::kFloat32);
+  suite.folder = std::filesystem::path(options.output) / "runs";
+  suite.case_ids = options.cases;
+  suite.jobs = options.jobs > 0
+                   ? options.jobs
+                   : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  suite.cases = {.pictures = !options.no_pictures, .bullet = with_bullet};
+
+  validation::Report report;
+  {
+    std::optional<ProgressBar> bar;
+    std::string stage;
+    report = validation::run_suite(suite, [&](const std::string& what, double fraction) {
+      const std::string now = what.substr(0, what.find(' '));
+      if (now != stage) bar.emplace(now);
+      stage = now;
+      bar->update(fraction);
+    });
+  }
+  for (const auto& [key, value] : build_provenance()) report.provenance.emplace_back(key, value);
+  validation::write_report(report, options.output);
+  print_table(report);
+
+  std::size_t num_sabotages = 0;
+  for (const validation::CheckResult& check : report.checks)
+    num_sabotages += check.sabotages.size();
+  fmt::print(
+      "\n{}: {} checks, {} sabotages\nReport: {}\n", report.passed() ? "PASS" : "FAIL",
+      report.checks.size(), num_sabotages,
+      (std::filesystem::absolute(options.output) / "index.html").lexically_normal().string());
+  return report.passed() ? kOk : kCaseFailed;
+}
+
+}  // namespace
+
+Action add_validate_command(CLI::App& parser, const CommandLine& command_line) {
+  CLI::App* command = parser.add_subcommand(
+      "validate", "Compare every engine with the reference and with theory, write a report");
+  auto options = std::make_shared<ValidateOptions>();
+  std::string known;
+  for (const validation::CaseInfo& info : validation::all_cases()) {
+    known += (known.empty() ? "" : ", ") + std::string(info.id);
+  }
+  command->add_option("CASE", options->cases, "Which cases (default: all): " + known);
+  command->add_option("-o,--output", options->output, "Folder of the report")
+      ->capture_default_str();
+  command->add_option("-j,--jobs", options->jobs, "Simulations at a time (default: one per core)")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--no-pictures", options->no_pictures, "Numbers and plots only");
+  return [options, command_line] { return validate(*options, command_line); };
+}
+
+}  // namespace weft::app

@@ -1,0 +1,68 @@
+// The weft command: parse, call the library, print.
+#include <cstdio>
+#include <exception>
+#include <map>
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include <weft/custom_forces/core/error.hpp>
+
+#include "apps/app.hpp"
+
+namespace {
+
+constexpr const char* kFooter = R"(Examples:
+  weft list                                  what scenes there are
+  weft run drape_sphere -o drape.weftrec     simulate and record, with the reference solver
+  weft run drape_sphere --engine bullet_forces --precision float64 -o drape.weftrec
+  weft render drape.weftrec -o drape.png     a picture of the last frame
+  weft check my_scene.toml                   is this scene file right?
+  weft validate -o report                    every case in every engine, as report/index.html
+
+A SCENE is a name from `weft list` or the path of a scene file (TOML).
+Exit codes: 0 ok; 1 a case failed or a simulation blew up; 2 bad input.)";
+
+int run(int argc, char** argv) {
+  using namespace weft::app;
+  CLI::App parser("weft: validated cloth for the Bullet physics engine");
+  parser.footer(kFooter);
+  parser.require_subcommand(1);
+  parser.set_version_flag("--version", "weft " WEFT_VERSION);
+  parser.get_formatter()->column_width(36);
+
+  CommandLine command_line;
+  command_line.words.assign(argv, argv + argc);
+  command_line.executable = std::filesystem::read_symlink("/proc/self/exe");
+
+  // Actions by subcommand, in the order in which --help lists them.
+  std::map<std::string, Action> actions;
+  actions["list"] = add_list_command(parser);
+  actions["run"] = add_run_command(parser, command_line);
+  actions["render"] = add_render_command(parser);
+  actions["check"] = add_check_command(parser);
+  actions["validate"] = add_validate_command(parser, command_line);
+
+  try {
+    parser.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return parser.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "weft: {}\nTry: weft --help\n", error.what());
+    return kBadInput;
+  }
+  return actions.at(parser.get_subcommands().front()->get_name())();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const weft::Error& error) {
+    fmt::print(stderr, "weft: {}\n", error.what());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "weft: {}\n", error.what());
+  }
+  return weft::app::kBadInput;
+}

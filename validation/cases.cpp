@@ -1,0 +1,35 @@
+#include <weft/validation/cases.hpp>
+
+#include <array>
+
+#include <weft/validation/cases/analytic_cases.hpp>
+#include <weft/validation/cases/scene_cases.hpp>
+
+namespace weft::validation {
+
+std::span<const CaseInfo> all_cases() {
+  static constexpr std::array kCases = {
+      CaseInfo{"drape_sphere", "The classic cloth falls over a sphere and drapes", &plan_scene,
+               &evaluate_scene},
+      CaseInfo{"hang", "A cloth swings from two corners: step for step the same equations",
+               &plan_scene, &evaluate_scene},
+      CaseInfo{"drop_ground", "A cloth slides over the ground and stops", &plan_scene,
+               &evaluate_scene},
+      CaseInfo{"drop_box", "A cloth falls over the edges of a box", &plan_scene, &evaluate_scene},
+      CaseInfo{"ball_on_cloth", "A ball falls on a pinned cloth: both move", &plan_scene,
+               &evaluate_scene},
+      CaseInfo{"oscillator", "Four integrators against their own exact recurrence", nullptr,
+               &evaluate_oscillator},
+      CaseInfo{"observed_orders", "The error falls with the step as each integrator promises",
+               nullptr, &evaluate_observed_orders},
+      CaseInfo{"hanging_chain", "Static drop of a chain of masses and springs", nullptr,
+               &evaluate_hanging_chain},
+      CaseInfo{"explosion", "Explicit Euler explodes, and is reported as data", &plan_explosion,
+               &evaluate_explosion},
+      CaseInfo{"determinism", "The same bits for any number of threads", &plan_determinism,
+               &evaluate_determinism},
+  };
+  return kCases;
+}
+
+}  // namespace weft::validation

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <span>
+
+#include <weft/validation/cases/case.hpp>
+
+namespace weft::validation {
+
+/// Every validation case, in the order of the report. A new case is one file under cases/ and one
+/// row here.
+[[nodiscard]] std::span<const CaseInfo> all_cases();
+
+}  // namespace weft::validation

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <weft/validation/cases/case.hpp>
+
+namespace weft::validation {
+
+/// Cases with a closed form, evaluated in this process with the reference solver.
+void evaluate_oscillator(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+void evaluate_observed_orders(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+void evaluate_hanging_chain(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+
+}  // namespace weft::validation

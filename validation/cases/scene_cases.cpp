@@ -1,0 +1,121 @@
+#include <weft/validation/cases/scene_cases.hpp>
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <weft/scenes/catalog.hpp>
+#include <weft/validation/cases/scene_gates.hpp>
+#include <weft/validation/cases/scene_section.hpp>
+
+namespace weft::validation {
+namespace {
+
+const History* find_history(const std::vector<History>& histories, const EngineChoice& engine) {
+  for (const History& history : histories) {
+    if (history.engine.engine == engine.engine && history.engine.precision == engine.precision) {
+      return &history;
+    }
+  }
+  return nullptr;
+}
+
+const char* metric_text(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kLargestDistance:
+      return "largest node distance";
+    case Quantity::kRmsDistance:
+      return "RMS node distance / cloth size";
+    case Quantity::kRigidDistance:
+      return "largest distance of the rigid body";
+    case Quantity::kDepth:
+      break;
+  }
+  return "deepest node below a surface";
+}
+
+SabotageResult try_sabotage(const SceneGate& gate, const Sabotage& sabotage,
+                            const SceneMetrics& metrics, const History& history) {
+  const Frames wrong = run_sabotaged(metrics.scene(), sabotage, gate.end);
+  // A depth belongs to one run, so there the wrong run is judged; a distance belongs to the pair.
+  const bool alone = gate.quantity == Quantity::kDepth;
+  const double measured =
+      metrics.largest(gate.quantity, alone ? wrong : history.frames, wrong, gate.begin, gate.end);
+  return {sabotage.name, measured, judge(measured, gate.tolerance) == Verdict::kFail};
+}
+
+CheckResult check_gate(const CaseInfo& info, const SceneGate& gate, const SceneMetrics& metrics,
+                       const History& history, const Frames& reference) {
+  CheckResult check;
+  check.case_id = info.id;
+  check.engine = gate.engine.title();
+  check.claim = gate.claim;
+  check.metric =
+      gate.begin == gate.end
+          ? fmt::format("{} at {:g} s", metric_text(gate.quantity), gate.end)
+          : fmt::format("{}, {:g} to {:g} s", metric_text(gate.quantity), gate.begin, gate.end);
+  check.unit = unit_of(gate.quantity);
+  check.source = gate.quantity == Quantity::kDepth ? "signed distance to the collider's surface"
+                                                   : "reference solver, modified Euler, same step";
+  check.tolerance = gate.tolerance;
+  check.note = gate.note;
+  if (!history.failure.empty()) {
+    check.measured = std::nan("");
+    check.verdict = Verdict::kFail;
+    check.note = history.failure;
+    return check;
+  }
+  check.measured = metrics.largest(gate.quantity, history.frames, reference, gate.begin, gate.end);
+  check.verdict = judge(check.measured, gate.tolerance);
+  for (const Sabotage& sabotage : gate.sabotages) {
+    check.sabotages.push_back(try_sabotage(gate, sabotage, metrics, history));
+  }
+  return check;
+}
+
+void add_departures(const CaseInfo& info, const SceneMetrics& metrics,
+                    const std::vector<History>& histories, Report& report) {
+  const History& reference = histories.back();
+  for (const History& history : histories) {
+    if (history.engine.engine != "bullet_soft" || history.frames.empty()) continue;
+    const double end = reference.frames.back().time;
+    const double rms =
+        metrics.largest(Quantity::kRmsDistance, history.frames, reference.frames, end, end);
+    report.departures.push_back(
+        {history.engine.title(), fmt::format("final shape of {}", info.id),
+         fmt::format("RMS {:.2g} % of cloth size at {:g} s", 100 * rms, end),
+         "Bullet's links are projected one after the other: their stiffness follows the map of N/m "
+         "exactly for a link on its own, and depends on order, iterations and time step in a "
+         "mesh"});
+  }
+}
+
+}  // namespace
+
+void plan_scene(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
+  const std::string id(info.id);
+  for (const EngineChoice& engine : cross_validated_engines(options.bullet)) {
+    runs.add({engine.label(id), scenes::with_bullets_time_step(scenes::load_scene(id)),
+              engine.engine, engine.precision});
+  }
+}
+
+void evaluate_scene(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
+                    Report& report) {
+  const std::string id(info.id);
+  const SceneMetrics metrics(scenes::with_bullets_time_step(scenes::load_scene(id)));
+  std::vector<History> histories;
+  for (const EngineChoice& engine : cross_validated_engines(options.bullet)) {
+    histories.push_back(load_history(runs, id, engine));
+  }
+  for (const SceneGate& gate : scene_gates(id)) {
+    const History* history = find_history(histories, gate.engine);
+    if (!history) continue;  // a Bullet engine in a build without Bullet
+    report.checks.push_back(check_gate(info, gate, metrics, *history, histories.back().frames));
+  }
+  report.sections.push_back(scene_section(metrics, histories, options.pictures));
+  add_departures(info, metrics, histories, report);
+}
+
+}  // namespace weft::validation

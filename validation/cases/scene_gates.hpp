@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <weft/validation/cases/sabotage.hpp>
+#include <weft/validation/cases/scene_metrics.hpp>
+#include <weft/validation/metrics/tolerance.hpp>
+
+namespace weft::validation {
+
+/// One number of one engine in one scene, held against a bound.
+struct SceneGate {
+  EngineChoice engine;
+  std::string claim;
+  Quantity quantity;
+  double begin = 0.0;  ///< [s] frames that are looked at
+  double end = 0.0;    ///< [s]
+  Tolerance tolerance;
+  std::vector<Sabotage> sabotages;  ///< of the run the engine is compared with
+  std::string note;                 ///< what to look at when it fails
+};
+
+/// The gates of a catalog scene. Every bound was measured; docs/validation.md says how.
+[[nodiscard]] std::vector<SceneGate> scene_gates(const std::string& scene);
+
+}  // namespace weft::validation

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <weft/validation/cases/case.hpp>
+
+namespace weft::validation {
+
+struct SuiteOptions {
+  std::filesystem::path weft;    ///< executable of the weft command, which runs the simulations
+  std::filesystem::path folder;  ///< for scenes, recordings and logs of the runs
+  std::vector<std::string> case_ids;  ///< which cases; empty: all
+  int jobs = 1;                       ///< simulations at a time
+  CaseOptions cases;
+};
+
+/// Runs the cases and collects the report. progress: what is being done, and the fraction done of
+/// that. Throws InvalidArgument for an unknown case, with a suggestion.
+[[nodiscard]] Report run_suite(
+    const SuiteOptions& options,
+    const std::function<void(const std::string& what, double fraction)>& progress);
+
+}  // namespace weft::validation
