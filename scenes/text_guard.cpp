@@ -76,7 +76,10 @@ class Scanner {
 
   std::optional<TextDefect> visit(char c) {
     if (mode_ == Mode::kComment) {
-      if (c == '\n') mode_ = Mode::kPlain;
+      if (c == '\n') {
+        mode_ = Mode::kPlain;
+        line_start_ = true;
+      }
     } else if (mode_ == Mode::kString) {
       visit_string(c);
     } else {
@@ -98,8 +101,25 @@ class Scanner {
     }
   }
 
+  /// toml++ 3.3 assumes a key after the '[' of a table header without looking: undefined behaviour
+  /// in builds without assertions.
+  bool is_header_without_key() const {
+    const std::size_t key =
+        text_.find_first_not_of(" \t", position_ + (starts_with("[[") ? 2U : 1U));
+    if (key == std::string_view::npos) return true;
+    const char c = text_[key];
+    const bool is_bare = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                         (c >= '0' && c <= '9') || c == '_' || c == '-';
+    return !is_bare && c != '"' && c != '\'';
+  }
+
   std::optional<TextDefect> visit_plain(char c) {
-    any_content_ = any_content_ || (c != ' ' && c != '\t' && c != '\n' && c != '\r' && c != '#');
+    const bool is_blank = c == ' ' || c == '\t' || c == '\r';
+    if (line_start_ && depth_ == 0 && c == '[' && is_header_without_key()) {
+      return defect("table header without a name, expected one such as [world] or [[cloth]]");
+    }
+    line_start_ = c == '\n' || (line_start_ && is_blank);
+    any_content_ = any_content_ || !(is_blank || c == '\n' || c == '#');
     if (c == '#') {
       mode_ = Mode::kComment;
     } else if (c == '"' || c == '\'') {
@@ -131,6 +151,7 @@ class Scanner {
   int depth_ = 0;
   int num_dots_ = 0;
   bool any_content_ = false;
+  bool line_start_ = true;
   Mode mode_ = Mode::kPlain;
   std::string_view delimiter_ = "\"";
 };

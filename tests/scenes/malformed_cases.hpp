@@ -14,7 +14,7 @@ struct MalformedCase {
 };
 
 // clang-format off
-inline constexpr std::array<MalformedCase, 60> kMalformedCases = {{
+inline constexpr std::array<MalformedCase, 61> kMalformedCases = {{
     {"ambiguous_unit", 16, 13, "ambiguous unit 'N/m*rad'"},
     {"bad_name", 2, 8, "expected a name"},
     {"bare_number", 20, 10, "missing unit, expected a length such as \"2 m\""},
@@ -37,6 +37,7 @@ inline constexpr std::array<MalformedCase, 60> kMalformedCases = {{
     {"missing_schema", 1, 1, "missing key 'schema'"},
     {"missing_unit", 20, 10, "missing unit, expected a length such as \"2 m\""},
     {"missing_world", 1, 1, "missing key 'world'"},
+    {"nameless_table", 2, 1, "table header without a name"},
     {"negative_friction", 12, 12, "expected a number >= 0"},
     {"negative_margin", 12, 20, "expected a length >= 0"},
     {"negative_mass", 11, 8, "expected a mass > 0"},

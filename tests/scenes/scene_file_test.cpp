@@ -146,7 +146,9 @@ TEST(SceneFile, ErrorLineIsComplete) {
 
 TEST(SceneFile, HugeTextsAreRefusedWithoutOverflow) {
   const std::size_t kTenMegabytes = 10'000'000;
-  EXPECT_THAT(error_of(std::string(kTenMegabytes, '[')).what(), HasSubstr("nested too deep"));
+  EXPECT_THAT(error_of("x = " + std::string(kTenMegabytes, '[')).what(),
+              HasSubstr("nested too deep"));
+  EXPECT_THAT(error_of(std::string(kTenMegabytes, '[')).what(), HasSubstr("without a name"));
   std::string key;
   while (key.size() < kTenMegabytes) key += "a.";
   EXPECT_THAT(error_of(key + "a = 1").what(), HasSubstr("too many parts"));
