@@ -1,5 +1,7 @@
 #include <weft/scenes/text_guard.hpp>
 
+#include <array>
+
 #include <fmt/format.h>
 
 namespace weft::scenes {
@@ -7,7 +9,7 @@ namespace {
 
 // A scene needs 4 levels of brackets and keys of 2 parts. The product bounds the depth of the
 // parsed tree.
-constexpr int kMaxBracketDepth = 16;
+constexpr std::size_t kMaxBracketDepth = 16;
 constexpr int kMaxKeyParts = 16;
 
 /// Length of the UTF-8 character at the start of text, 0 if it is malformed (overlong and
@@ -133,13 +135,21 @@ class Scanner {
     } else if (c == '\n' || c == ',' || c == '=' || c == '[' || c == '{') {
       num_dots_ = 0;
     }
+    return visit_bracket(c);
+  }
+
+  /// A '}' inside '[ ]' is another place where toml++ 3.3 only assumes.
+  std::optional<TextDefect> visit_bracket(char c) {
     if (c == '[' || c == '{') {
-      if (++depth_ > kMaxBracketDepth) {
+      if (depth_ == kMaxBracketDepth) {
         return defect(fmt::format("brackets are nested too deep, expected at most {} levels",
                                   kMaxBracketDepth));
       }
+      closers_[depth_++] = c == '[' ? ']' : '}';
     } else if ((c == ']' || c == '}') && depth_ > 0) {
-      --depth_;
+      if (closers_[--depth_] != c) {
+        return defect(fmt::format("'{}' does not match, expected '{}'", c, closers_[depth_]));
+      }
     }
     return std::nullopt;
   }
@@ -148,7 +158,8 @@ class Scanner {
   std::size_t position_ = 0;
   int line_ = 1;
   int column_ = 1;
-  int depth_ = 0;
+  std::array<char, kMaxBracketDepth> closers_{};  ///< what closes each open bracket
+  std::size_t depth_ = 0;
   int num_dots_ = 0;
   bool any_content_ = false;
   bool line_start_ = true;

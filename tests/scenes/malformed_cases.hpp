@@ -14,12 +14,13 @@ struct MalformedCase {
 };
 
 // clang-format off
-inline constexpr std::array<MalformedCase, 61> kMalformedCases = {{
+inline constexpr std::array<MalformedCase, 62> kMalformedCases = {{
     {"ambiguous_unit", 16, 13, "ambiguous unit 'N/m*rad'"},
     {"bad_name", 2, 8, "expected a name"},
     {"bare_number", 20, 10, "missing unit, expected a length such as \"2 m\""},
     {"binary", 1, 1, "control character 0x7f"},
     {"camera_on_target", 17, 1, "position = target"},
+    {"crossed_brackets", 9, 22, "'}' does not match, expected ']'"},
     {"deep_brackets", 2, 21, "nested too deep"},
     {"deep_key", 2, 32, "too many parts"},
     {"duplicate_body", 18, 8, "another body has this name"},
