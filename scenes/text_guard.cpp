@@ -97,8 +97,16 @@ class Scanner {
       const auto next = static_cast<unsigned char>(text_[position_ + 1]);
       if (next >= 0x20U && next < 0x7FU) advance(1);
     } else if (starts_with(delimiter_) || (c == '\n' && delimiter_.size() == 1)) {
-      position_ += delimiter_.size() - 1;
-      column_ += static_cast<int>(delimiter_.size()) - 1;
+      std::size_t length = delimiter_.size();
+      // Up to two quotes just before the closing three belong to the text: """" and """"" close it
+      // too.
+      for (int extra = 0; extra < 2 && length >= 3; ++extra) {
+        if (position_ + length < text_.size() && text_[position_ + length] == delimiter_[0]) {
+          ++length;
+        }
+      }
+      position_ += length - 1;
+      column_ += static_cast<int>(length) - 1;
       mode_ = Mode::kPlain;
     }
   }

@@ -157,6 +157,12 @@ TEST(SceneFile, HugeTextsAreRefusedWithoutOverflow) {
               HasSubstr("missing key 'schema'"));
 }
 
+TEST(SceneFile, QuotesBeforeAClosingTripleBelongToTheText) {
+  // Miscounted quotes would hide the nameless table from the guard.
+  const SceneError error = error_of("x = \"\"\"a\"\"\"\"\"\n[#]\n");
+  EXPECT_THAT(error.what(), HasSubstr(":2:1: table header without a name"));
+}
+
 TEST(SceneFile, MissingFileAndDirectoryAreOneClearError) {
   const SceneError missing = file_error_of("/nowhere/scene.toml");
   EXPECT_EQ(std::string(missing.what()),
