@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kWidth =
     640;  // [pixels]; five pictures side by side on a wide screen, sharp on a phone
-constexpr int kHeight = 400;  // [pixels]
+constexpr int kHeight = 300;  // [pixels]
 
 scenes::RenderOptions options_for(scenes::SurfaceStyle style) {
   scenes::RenderOptions options;
@@ -79,6 +79,11 @@ scenes::ScalarField distance_field(const scenes::SceneState& frame,
   return field;
 }
 
+/// Wireframe and strain look the same in both precisions; one of them keeps the page within 15 MB.
+bool shows_details(const EngineChoice& engine) {
+  return engine.engine == "reference" || engine.precision == scenes::StoredPrecision::kFloat32;
+}
+
 }  // namespace
 
 std::vector<PictureRow> scene_pictures(const SceneMetrics& metrics,
@@ -98,10 +103,13 @@ std::vector<PictureRow> scene_pictures(const SceneMetrics& metrics,
     moving.pictures.push_back(
         draw(renderer, history, frames[middle_frame(frames)], SurfaceStyle::kShaded));
     shaded.pictures.push_back(draw(renderer, history, frames.back(), SurfaceStyle::kShaded));
-    wireframe.pictures.push_back(draw(renderer, history, frames.back(), SurfaceStyle::kWireframe));
-    const scenes::ScalarField strains = strain_field(metrics, frames.back(), strain_scale);
-    strain.pictures.push_back(
-        draw(renderer, history, frames.back(), SurfaceStyle::kScalar, &strains));
+    if (shows_details(history.engine)) {
+      wireframe.pictures.push_back(
+          draw(renderer, history, frames.back(), SurfaceStyle::kWireframe));
+      const scenes::ScalarField strains = strain_field(metrics, frames.back(), strain_scale);
+      strain.pictures.push_back(
+          draw(renderer, history, frames.back(), SurfaceStyle::kScalar, &strains));
+    }
     if (&history != &histories.back() && frames.size() == reference.size()) {
       const scenes::ScalarField field = distance_field(frames.back(), reference.back());
       difference.pictures.push_back(

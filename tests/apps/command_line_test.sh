@@ -1,0 +1,103 @@
+#!/usr/bin/env bash
+# What a person sees of the weft command: texts, exit codes, files left behind.
+# Usage: command_line_test.sh WEFT SOURCE_DIR with|without (Bullet)
+set -u
+weft=$1
+source_dir=$2
+bullet=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+checks=0
+
+check() {  # check DESCRIPTION COMMAND...: the command must succeed
+  checks=$((checks + 1))
+  if ! "${@:2}"; then
+    echo "FAILED: $1"
+    failures=$((failures + 1))
+  fi
+}
+
+exits() {  # exits CODE ARGUMENTS...: weft must end with this code; output in out and err
+  local expected=$1
+  "$weft" "${@:2}" >out 2>err
+  local code=$?
+  [ "$code" -eq "$expected" ] || { echo "weft ${*:2}: exit $code, expected $expected"; cat err; return 1; }
+}
+
+# Help and names
+check "help" exits 0 --help
+check "help names the commands" grep -q "validate" out
+check "help explains exit codes" grep -q "Exit codes" out
+for command in list run render check validate; do check "$command --help" exits 0 $command --help; done
+check "version" exits 0 --version
+check "no command" exits 2
+check "unknown command" exits 2 simulate
+check "unknown option" exits 2 list --colour
+check "unknown scene" exits 2 run drape_spher
+check "unknown scene gets a suggestion" grep -q "drape_sphere" err
+check "unknown engine" exits 2 run hang --engine physx
+check "reference has no float32" exits 2 run hang --precision float32
+check "unknown case" exits 2 validate no_such_case -o report
+check "bad duration" exits 2 run hang --duration "2 kg"
+check "list" exits 0 list --verbose
+check "the classic cloth" grep -q "2500 nodes, 28518 springs (24 per interior node)" out
+
+# Malformed scene files: one line with file:line:column, exit 2, nothing left behind
+count=0
+for file in "$source_dir"/tests/scenes/malformed/*; do
+  count=$((count + 1))
+  name=$(basename "$file")
+  check "check $name" exits 2 check "$file"
+  check "$name: one line" test "$(wc -l <err)" -eq 1
+  check "$name: names the place" grep -qaE "$name:[0-9]+:[0-9]+: " err
+  check "run $name" exits 2 run "$file" -o left.weftrec
+  check "$name: nothing left behind" test -z "$(find . -name 'left*')"
+done
+check "at least 25 malformed files, found $count" test "$count" -ge 25
+
+# Recordings
+short=(run drape_sphere --duration "0.6 s")
+check "run" exits 0 "${short[@]}" -o a.weftrec
+check "hash is printed" grep -q "content hash" out
+grep "content hash" out >hash_a
+check "no overwriting" exits 2 "${short[@]}" -o a.weftrec
+for threads in 1 2 4; do
+  check "run with $threads threads" exits 0 "${short[@]}" -o a.weftrec -f --threads $threads
+  grep "content hash" out >hash_b
+  check "$threads threads: same hash" cmp -s hash_a hash_b
+done
+check "another run differs" exits 0 run drape_sphere --duration "0.64 s" -o b.weftrec
+grep "content hash" out >hash_b
+check "another run: another hash" test "$(cat hash_a)" != "$(cat hash_b)"
+check "impossible output" exits 2 "${short[@]}" -o /no/such/folder/a.weftrec
+
+# Blow-up as data
+check "explicit Euler" exits 1 run drape_sphere --integrator explicit_euler -o c.weftrec
+check "step, time and node" grep -qE "blew up at step [0-9]+, t = .* node [0-9]+" out
+
+# Pictures
+check "render" exits 0 render a.weftrec -o a.png --width 160 --height 100
+check "a PNG" test "$(head -c 4 a.png | tail -c 3)" = "PNG"
+check "render a text file" exits 2 render hash_a -o b.png
+check "nothing left of it" test ! -e b.png
+check "render of nothing" exits 2 render no_such.weftrec -o b.png
+
+# Engines of both precisions from one command
+if [ "$bullet" = with ]; then
+  for engine in bullet_soft bullet_forces; do
+    for precision in float32 float64; do
+      check "$engine $precision" exits 0 "${short[@]}" -e $engine -p $precision -o $engine-$precision.weftrec
+    done
+  done
+else
+  check "no Bullet: says so" exits 2 "${short[@]}" -e bullet_soft -o d.weftrec
+fi
+
+# A report
+check "validate" exits 0 validate oscillator hanging_chain -o report --no-pictures
+for file in index.html report.json junit.xml; do check "$file" test -s report/$file; done
+
+echo "$((checks - failures)) passed, $failures failed"
+[ "$failures" -eq 0 ]

@@ -1,0 +1,44 @@
+#include <weft/validation/cases/scene_gates.hpp>
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include <weft/scenes/catalog.hpp>
+#include <weft/validation/cases.hpp>
+
+namespace weft::validation {
+namespace {
+
+TEST(SceneGates, EveryCatalogSceneIsACaseWithGates) {
+  std::set<std::string> ids;
+  for (const CaseInfo& info : all_cases()) ids.insert(std::string(info.id));
+  for (const scenes::CatalogEntry& entry : scenes::scene_catalog()) {
+    const std::string name(entry.name);
+    EXPECT_TRUE(ids.contains(name)) << name;
+    EXPECT_FALSE(scene_gates(name).empty()) << name;
+  }
+}
+
+TEST(SceneGates, EveryGateHasASabotageABasisAndANote) {
+  for (const scenes::CatalogEntry& entry : scenes::scene_catalog()) {
+    const scenes::Scene scene = scenes::load_scene(std::string(entry.name));
+    for (const SceneGate& gate : scene_gates(scene.name)) {
+      SCOPED_TRACE(scene.name + " " + gate.engine.title() + " " + gate.claim);
+      EXPECT_FALSE(gate.sabotages.empty());
+      EXPECT_FALSE(gate.tolerance.why.empty());
+      EXPECT_FALSE(gate.note.empty());
+      EXPECT_GT(gate.tolerance.value, 0.0);
+      EXPECT_LE(gate.begin, gate.end);
+      EXPECT_LE(gate.end, scene.world.duration);
+    }
+  }
+}
+
+TEST(Cases, IdsAreUnique) {
+  std::set<std::string_view> ids;
+  for (const CaseInfo& info : all_cases()) EXPECT_TRUE(ids.insert(info.id).second) << info.id;
+}
+
+}  // namespace
+}  // namespace weft::validation
