@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/types.hpp>
 
 namespace weft::forces {
@@ -34,7 +36,8 @@ class ElementAssembly {
   [[nodiscard]] Eigen::Index scratch_columns() const { return num_slots_; }
 
   /// result += sum over elements. kernel(e, parts) writes the contribution of element e to its
-  /// nodes. scratch: 3 x at least scratch_columns(), contents do not matter.
+  /// nodes. scratch: 3 x at least scratch_columns(), contents do not matter. result: 3 x
+  /// num_nodes(). Throws InvalidArgument for other sizes, as for the state of another mesh.
   template <class Scalar, class Kernel>
   void add(const Kernel& kernel, Matrix3XRef<Scalar> scratch, Matrix3XRef<Scalar> result) const;
 
@@ -98,6 +101,12 @@ template <int kNodes>
 template <class Scalar, class Kernel>
 void ElementAssembly<kNodes>::add(const Kernel& kernel, Matrix3XRef<Scalar> scratch,
                                   Matrix3XRef<Scalar> result) const {
+  if (result.cols() != num_nodes() || scratch.cols() < num_slots_) {
+    throw InvalidArgument("element assembly: result 3 x " + std::to_string(result.cols()) +
+                          ", scratch 3 x " + std::to_string(scratch.cols()) + ", expected 3 x " +
+                          std::to_string(num_nodes()) + " and at least 3 x " +
+                          std::to_string(num_slots_));
+  }
   tbb::parallel_for(std::size_t{0}, chunks_.size(), [&](std::size_t c) {
     const Chunk& chunk = chunks_[c];
     scratch.middleCols(chunk.first_slot, chunk.last_slot - chunk.first_slot).setZero();

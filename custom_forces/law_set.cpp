@@ -116,6 +116,7 @@ void LawSet<Scalar>::advance_velocities(const State<Scalar>& state, Scalar time_
 
 template <class Scalar>
 Scalar LawSet<Scalar>::potential_energy(const State<Scalar>& state) const {
+  check_shapes(state, state.positions.cols());
   Scalar energy(0);
   for (const auto& law : laws_) energy += law->potential_energy(state);
   return energy;
@@ -123,6 +124,7 @@ Scalar LawSet<Scalar>::potential_energy(const State<Scalar>& state) const {
 
 template <class Scalar>
 Scalar LawSet<Scalar>::non_conservative_power(const State<Scalar>& state) const {
+  check_shapes(state, state.positions.cols());
   Scalar power(0);
   for (const auto& law : laws_) power += law->non_conservative_power(state);
   return power;
