@@ -11,22 +11,8 @@ namespace {
 /// zstd's default: higher levels gain a few percent of size for a multiple of the time.
 constexpr int kCompressionLevel = 3;
 
-/// Replaces each frame but the first by its XOR with the frame before it: bits that do not change
-/// become zero.
-void subtract_previous(std::vector<std::byte>& raw, std::size_t frame_bytes) {
-  for (std::size_t i = raw.size(); i-- > frame_bytes;) {
-    raw[i] ^= raw[i - frame_bytes];
-  }
-}
-
-void add_previous(std::vector<std::byte>& raw, std::size_t frame_bytes) {
-  for (std::size_t i = frame_bytes; i < raw.size(); ++i) {
-    raw[i] ^= raw[i - frame_bytes];
-  }
-}
-
 /// Byte k of scalar i goes to place k * num_scalars + i.
-std::vector<std::byte> shuffle(const std::vector<std::byte>& from, std::size_t scalar_bytes) {
+std::vector<std::byte> shuffle(std::span<const std::byte> from, std::size_t scalar_bytes) {
   std::vector<std::byte> to(from.size());
   const std::size_t num_scalars = from.size() / scalar_bytes;
   for (std::size_t k = 0; k < scalar_bytes; ++k) {
@@ -37,7 +23,7 @@ std::vector<std::byte> shuffle(const std::vector<std::byte>& from, std::size_t s
   return to;
 }
 
-std::vector<std::byte> unshuffle(const std::vector<std::byte>& from, std::size_t scalar_bytes) {
+std::vector<std::byte> unshuffle(std::span<const std::byte> from, std::size_t scalar_bytes) {
   std::vector<std::byte> to(from.size());
   const std::size_t num_scalars = from.size() / scalar_bytes;
   for (std::size_t k = 0; k < scalar_bytes; ++k) {
@@ -50,11 +36,8 @@ std::vector<std::byte> unshuffle(const std::vector<std::byte>& from, std::size_t
 
 }  // namespace
 
-std::vector<std::byte> compress_chunk(std::span<const std::byte> raw, std::size_t frame_bytes,
-                                      std::size_t scalar_bytes) {
-  std::vector<std::byte> bytes(raw.begin(), raw.end());
-  subtract_previous(bytes, frame_bytes);
-  bytes = shuffle(bytes, scalar_bytes);
+std::vector<std::byte> compress_chunk(std::span<const std::byte> raw, std::size_t scalar_bytes) {
+  const std::vector<std::byte> bytes = shuffle(raw, scalar_bytes);
   std::vector<std::byte> data(ZSTD_compressBound(bytes.size()));
   const std::size_t size =
       ZSTD_compress(data.data(), data.size(), bytes.data(), bytes.size(), kCompressionLevel);
@@ -66,7 +49,7 @@ std::vector<std::byte> compress_chunk(std::span<const std::byte> raw, std::size_
 }
 
 std::vector<std::byte> decompress_chunk(std::span<const std::byte> data, std::size_t raw_bytes,
-                                        std::size_t frame_bytes, std::size_t scalar_bytes) {
+                                        std::size_t scalar_bytes) {
   // Asked before memory is reserved, so that a wrong number cannot ask for all of it.
   if (ZSTD_getFrameContentSize(data.data(), data.size()) != raw_bytes) {
     throw Error(fmt::format("not {} compressed bytes", raw_bytes));
@@ -76,9 +59,7 @@ std::vector<std::byte> decompress_chunk(std::span<const std::byte> data, std::si
   if (ZSTD_isError(size) != 0 || size != raw_bytes) {
     throw Error("cannot decompress");
   }
-  bytes = unshuffle(bytes, scalar_bytes);
-  add_previous(bytes, frame_bytes);
-  return bytes;
+  return unshuffle(bytes, scalar_bytes);
 }
 
 }  // namespace weft::scenes

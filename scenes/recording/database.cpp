@@ -1,6 +1,6 @@
 #include <weft/scenes/recording/database.hpp>
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
 
 #include <fmt/core.h>
@@ -16,7 +16,9 @@ constexpr int kBusyTimeout = 5000;
 
 [[noreturn]] void fail(sqlite3* connection, const std::string& file, int code) {
   const int primary = code & 0xff;
-  const char* message = connection != nullptr ? sqlite3_errmsg(connection) : sqlite3_errstr(code);
+  std::string message = connection != nullptr ? sqlite3_errmsg(connection) : sqlite3_errstr(code);
+  // Messages about a damaged schema quote it, lines and all.
+  message.resize(std::min(message.find('\n'), message.size()));
   throw DatabaseError(fmt::format("{}: {}", file, message), primary);
 }
 

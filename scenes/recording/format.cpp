@@ -37,7 +37,7 @@ CREATE TABLE chunk (
   id          INTEGER PRIMARY KEY,  -- from 0
   first_frame INTEGER NOT NULL,
   num_frames  INTEGER NOT NULL,
-  codec       TEXT NOT NULL,        -- 'xor+shuffle+zstd'
+  codec       TEXT NOT NULL,        -- 'shuffle+zstd'
   raw_bytes   INTEGER NOT NULL,     -- size of the decoded data
   hash        TEXT NOT NULL,        -- XXH3-128 of column data
   data        BLOB NOT NULL

@@ -45,10 +45,15 @@ std::uintmax_t promised_size(const std::array<char, kSqliteHeaderBytes>& header)
 
 /// Clear words for what SQLite would answer with "disk image is malformed", or not at all.
 void check_file(const std::filesystem::path& path, const std::string& file) {
-  if (!std::filesystem::exists(path)) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) {
     throw Error(fmt::format("{}: no such file", file));
   }
-  if (!std::filesystem::is_regular_file(path)) {
+  if (status.type() == std::filesystem::file_type::none) {
+    throw Error(fmt::format("{}: {}", file, error.message()));
+  }
+  if (!std::filesystem::is_regular_file(status)) {
     throw Error(fmt::format("{}: not a file", file));
   }
   std::ifstream stream(path, std::ios::binary);

@@ -105,8 +105,7 @@ std::vector<std::byte> RecordingReader::Impl::read_chunk(const ChunkEntry& chunk
     if (chunk.codec != kCodecName) {
       throw Error(fmt::format("{}: unknown codec '{}'", file, chunk.codec));
     }
-    return decompress_chunk(data, static_cast<std::size_t>(chunk.raw_bytes), codec.frame_bytes(),
-                            codec.scalar_bytes());
+    return decompress_chunk(data, static_cast<std::size_t>(chunk.raw_bytes), codec.scalar_bytes());
   } catch (const Error& error) {
     const auto last = chunk.first_frame + static_cast<std::int64_t>(chunk.times.size()) - 1;
     throw Error(fmt::format("{} (chunk {}, frames {} to {})", error.what(), chunk.id,

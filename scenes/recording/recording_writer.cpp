@@ -173,7 +173,7 @@ void RecordingWriter::Impl::write_pending() {
 }
 
 void RecordingWriter::Impl::write_chunk() {
-  const auto data = compress_chunk(raw, codec.frame_bytes(), codec.scalar_bytes());
+  const auto data = compress_chunk(raw, codec.scalar_bytes());
   StreamHash hash;
   hash.add(data);
   const ChunkEntry chunk{

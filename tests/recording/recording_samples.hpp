@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <weft/custom_forces/core/error.hpp>
 #include <weft/scenes/recording/recording.hpp>
 
 namespace weft::scenes::samples {
@@ -67,9 +68,10 @@ inline SceneState make_state(const Scene& scene, int frame, StoredPrecision prec
   state.time = frame / 60.0;
   for (const Cloth& cloth : scene.cloths) {
     const int nodes = cloth.grid.nodes[0] * cloth.grid.nodes[1];
+    const double speed = cloth.name == "flag" ? 1.5 : 1.0;
     ClothState values{cloth.name, Matrix3X<double>(3, nodes), Matrix3X<double>(3, nodes)};
     for (int i = 0; i < 3 * nodes; ++i) {
-      const double phase = 0.37 * i + state.time;
+      const double phase = 0.37 * i + speed * state.time;
       values.positions(i) = rounded(std::sin(phase));
       values.velocities(i) = rounded(std::cos(phase));
     }
