@@ -157,7 +157,7 @@ std::string RecordingReader::Impl::compute_content_hash() const {
   for (std::size_t i = 0; i < index.times.size(); ++i) {
     hash.add_frame(index.times[i], frame_bytes(static_cast<int>(i)));
   }
-  const std::string found = hash.hex(header.blow_up);
+  std::string found = hash.hex(header.blow_up);
   if (found != meta_value(header, "content_hash", file)) {
     throw Error(file + ": the content does not have its hash: the file is damaged");
   }
