@@ -26,7 +26,10 @@ class FakeSimulator : public Simulator {
     const double time = state_.time + taken;
     state_ = make_state(scene_, step_, StoredPrecision::kFloat64);
     state_.time = time;
-    StepReport report{.step = step_, .time = time, .time_step = taken, .blow_up = {}};
+    StepReport report;
+    report.step = step_;
+    report.time = time;
+    report.time_step = taken;
     if (step_ == blow_up_step_) {
       state_.cloths[0].positions(0, 0) = std::nan("");
       report.blow_up = BlowUp{step_, time, "towel", 0, "position is not finite"};
