@@ -37,18 +37,20 @@ Edges law_edges(const LawSpecification& specification, const ClothMesh& mesh) {
     throw InvalidArgument(specification.law + ": edge_sets = '" + name +
                           "', expected sets of the mesh: " + known);
   }
-  if (!specification.edge_sets.empty()) return mesh.edges_of(specification.edge_sets);
-  std::vector<std::string> all;
-  for (const EdgeSet& set : mesh.edge_sets) all.push_back(set.name);
-  return mesh.edges_of(all);
-}
-
-VectorX<double> law_rest_lengths(const LawSpecification& specification, const ClothMesh& mesh,
-                                 const Edges& edges) {
+  std::vector<std::string> names = specification.edge_sets;
+  if (names.empty()) {
+    for (const EdgeSet& set : mesh.edge_sets) names.push_back(set.name);
+  }
+  Edges edges = mesh.edges_of(names);
   if (edges.size() > 0 && (edges.minCoeff() < 0 || edges.maxCoeff() >= mesh.num_nodes())) {
     throw InvalidArgument(specification.law + ": an edge names a node outside 0 to " +
                           std::to_string(mesh.num_nodes() - 1));
   }
+  return edges;
+}
+
+VectorX<double> law_rest_lengths(const LawSpecification& specification, const ClothMesh& mesh,
+                                 const Edges& edges) {
   VectorX<double> lengths = edge_lengths(mesh.rest_positions, edges);
   for (Eigen::Index e = 0; e < lengths.size(); ++e) {
     if (!(lengths[e] > 0) || !std::isfinite(lengths[e])) {

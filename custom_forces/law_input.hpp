@@ -13,7 +13,8 @@ namespace weft::forces {
 [[nodiscard]] Vector3<double> law_vector(const LawSpecification& specification,
                                          std::string_view parameter);
 
-/// Edges of the sets the specification names, all sets of the mesh if it names none.
+/// Edges of the sets the specification names, all sets of the mesh if it names none. Throws
+/// InvalidArgument for a set the mesh does not have and for an edge to a node it does not have.
 [[nodiscard]] Edges law_edges(const LawSpecification& specification, const ClothMesh& mesh);
 
 /// Rest length of each edge [m]. Throws InvalidArgument that names the nodes of an edge without
