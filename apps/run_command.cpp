@@ -84,6 +84,15 @@ void remove_recording(const std::filesystem::path& path) {
   }
 }
 
+void report_stable_step(const scenes::StepReport& step) {
+  if (!step.stable_time_step) return;
+  const double taken = step.time_step / step.substeps;
+  fmt::print("time step {:.4g} s, stable up to {:.4g} s{}{}\n", step.time_step,
+             *step.stable_time_step,
+             step.substeps > 1 ? fmt::format(", taken in {} substeps", step.substeps) : "",
+             taken > *step.stable_time_step ? ": too large, modes of the springs grow" : "");
+}
+
 int report(const scenes::RunSummary& summary, const std::string& output, const std::string& hash,
            double simulated) {
   fmt::print("{}: {} steps, {} frames, {:.2f} s simulated in {:.2f} s\ncontent hash {}\n", output,
@@ -121,10 +130,14 @@ int run(const RunOptions& options, const CommandLine& command_line) {
   try {
     const std::unique_ptr<scenes::Simulator> simulator = engine->make();
     ProgressBar progress(scene.name);
-    const scenes::RunSummary summary = scenes::record_run(
-        *simulator, scene, writer,
-        [&](const scenes::StepReport& step) { progress.update(step.time / scene.world.duration); });
+    scenes::StepReport last;
+    const scenes::RunSummary summary =
+        scenes::record_run(*simulator, scene, writer, [&](const scenes::StepReport& step) {
+          progress.update(step.time / scene.world.duration);
+          last = step;
+        });
     const std::string hash = writer.finish();
+    report_stable_step(last);
     return report(summary, output, hash, simulator->state().time);
   } catch (...) {
     remove_recording(output);

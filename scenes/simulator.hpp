@@ -27,6 +27,8 @@ struct StepReport {
   double time_step = 0.0;  ///< [s] the engine really took (Bullet rounds it to single precision)
   int substeps = 1;
   int num_contacts = 0;
+  /// Largest step [s] at which no mode grows, where the engine knows it (the reference).
+  std::optional<double> stable_time_step;
   std::optional<BlowUp> blow_up;  ///< once set, further steps do nothing
 };
 

@@ -132,6 +132,7 @@ StepReport ReferenceSimulator::step(double time_step) {
   report_.time_step = time_step;
   report_.substeps = outcome.substeps;
   report_.num_contacts = outcome.contact.num_contacts;
+  report_.stable_time_step = outcome.stable_step;
   read_state();
   if (outcome.blow_up) {
     report_.blow_up = BlowUp{report_.step, report_.time, outcome.blow_up->body,

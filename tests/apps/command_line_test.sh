@@ -77,6 +77,21 @@ check "impossible output" exits 2 "${short[@]}" -o /no/such/folder/a.weftrec
 check "explicit Euler" exits 1 run drape_sphere --integrator explicit_euler -o c.weftrec
 check "step, time and node" grep -qE "blew up at step [0-9]+, t = .* node [0-9]+" out
 
+check "the guard's stable step" grep -q ": too large, modes of the springs grow" out
+check "reference says what is stable" exits 0 "${short[@]}" -o c.weftrec -f
+check "stable step of the classic" grep -qE "time step 0.01 s, stable up to 0.01[0-9]* s$" out
+
+# Far beyond the stable step no engine crashes: it blows up as data, or it survives
+sed 's|"0.5 N/m"|"5000 N/m"|; s|duration = "6 s"|duration = "0.6 s"|' "$source_dir/scenes/catalog/drape_sphere.toml" >stiff.toml
+engines="reference:float64"
+[ "$bullet" = with ] && engines="$engines bullet_forces:float32 bullet_forces:float64 bullet_soft:float32 bullet_soft:float64"
+for engine in $engines; do
+  "$weft" run stiff.toml -e "${engine%:*}" -p "${engine#*:}" -o stiff.weftrec -f >out 2>err
+  code=$?
+  check "stiff cloth in $engine: exit $code" test "$code" -le 1
+  [ "$code" -eq 1 ] && check "stiff cloth in $engine: reported" grep -q "blew up at step" out
+done
+
 # Pictures
 check "render" exits 0 render a.weftrec -o a.png --width 160 --height 100
 check "a PNG" test "$(head -c 4 a.png | tail -c 3)" = "PNG"
