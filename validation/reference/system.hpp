@@ -41,7 +41,7 @@ struct Collider {
   Vector3<double> position{0, 0, 0};  ///< centre of mass [m]
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   double friction = 1.0;                      ///< [-], >= 0
-  std::optional<double> mass{};                 ///< [kg], > 0; homogeneous sphere or box
+  std::optional<double> mass{};               ///< [kg], > 0; homogeneous sphere or box
   Vector3<double> velocity{0, 0, 0};          ///< [m/s]
   Vector3<double> angular_velocity{0, 0, 0};  ///< world frame [rad/s]
 };
