@@ -20,8 +20,25 @@ export function redrawPlots(): void {
   for (const chart of live) chart.redraw(false, true);
 }
 
-function axis(label: string, size: number, rotateFree: boolean): uPlot.Axis {
+/** Lines of a logarithmic axis: whole decades, at most seven of them; 1, 2, 5 where there are few decades. */
+function logSplits(low: number, high: number): number[] {
+  const first = Math.floor(Math.log10(low));
+  const last = Math.ceil(Math.log10(high));
+  const step = Math.max(1, Math.ceil((last - first) / 7));
+  const mantissas = last - first <= 3 ? [1, 2, 5] : [1];
+  const splits: number[] = [];
+  for (let decade = first; decade <= last; decade += step) {
+    for (const mantissa of mantissas) splits.push(mantissa * 10 ** decade);
+  }
+  return splits.filter((value) => value >= low && value <= high);
+}
+
+function axis(label: string, size: number, rotateFree: boolean, log: boolean): uPlot.Axis {
   return {
+    ...(log && {
+      splits: (_chart: uPlot, _axis: number, low: number, high: number) => logSplits(low, high),
+      filter: (_chart: uPlot, splits: number[]) => splits,
+    }),
     label,
     size,
     labelSize: 22,
@@ -118,7 +135,7 @@ function draw(box: HTMLElement, plot: Plot, rows: Rows): void {
       height: HEIGHT,
       padding: [12, 16, 0, 0],
       scales: { x: scale(plot.log_x), y: paddedScale(plot.log_y) },
-      axes: [axis(plot.x_label, 36, true), axis(plot.y_label, 66, false)],
+      axes: [axis(plot.x_label, 36, true, plot.log_x), axis(plot.y_label, 66, false, plot.log_y)],
       series: [
         { label: plot.x_label, value: (_chart, value) => (value === null ? "–" : formatNumber(value, 4)) },
         ...plot.series.map((series, i) => lineOf(series, i, rows.scattered[i] ?? false)),
