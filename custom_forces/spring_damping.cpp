@@ -1,8 +1,6 @@
 #include <weft/custom_forces/spring_damping.hpp>
 
-#include <weft/custom_forces/law_input.hpp>
 #include <weft/custom_forces/registry.hpp>
-#include <weft/custom_forces/spring_geometry.hpp>
 
 namespace weft::forces {
 namespace {
@@ -24,10 +22,7 @@ const LawInfo SpringDamping<Scalar>::kInfo{
 
 template <class Scalar>
 SpringDamping<Scalar>::SpringDamping(const LawSpecification& specification, const ClothMesh& mesh)
-    : assembly_(law_edges(specification, mesh), mesh.num_nodes()),
-      rest_lengths_(
-          law_rest_lengths(specification, mesh, assembly_.elements()).template cast<Scalar>()),
-      damping_(law_scalar(specification, "damping")) {}
+    : springs_(specification, mesh), damping_(law_scalar(specification, "damping")) {}
 
 template <class Scalar>
 void SpringDamping<Scalar>::add_forces(const State<Scalar>& state, Matrix3XRef<Scalar> scratch,
@@ -40,18 +35,13 @@ void SpringDamping<Scalar>::add_damping_product(const State<Scalar>& state,
                                                 ConstMatrix3XRef<Scalar> velocity_changes,
                                                 Matrix3XRef<Scalar> scratch,
                                                 Matrix3XRef<Scalar> product) const {
-  const auto& edges = assembly_.elements();
-  const auto kernel = [&](Eigen::Index e, std::array<Vector3<Scalar>, 2>& parts) {
-    const int i = edges(0, e);
-    const int j = edges(1, e);
-    const auto spring =
-        spring_geometry<Scalar>(state.positions.col(i), state.positions.col(j), rest_lengths_[e]);
-    const Vector3<Scalar> relative = velocity_changes.col(j) - velocity_changes.col(i);
+  const auto force = [&](const Spring<Scalar>& spring) -> Vector3<Scalar> {
+    const Vector3<Scalar> relative =
+        velocity_changes.col(spring.second) - velocity_changes.col(spring.first);
     const Scalar rate = relative.dot(spring.direction);
-    parts[0] = (damping_ * rate) * spring.direction;
-    parts[1] = -parts[0];
+    return (damping_ * rate) * spring.direction;
   };
-  assembly_.template add<Scalar>(kernel, scratch, product);
+  springs_.add_pairs(state, force, scratch, product);
 }
 
 template <class Scalar>
@@ -59,42 +49,28 @@ void SpringDamping<Scalar>::add_stiffness_product(const State<Scalar>& state,
                                                   ConstMatrix3XRef<Scalar> displacements,
                                                   Matrix3XRef<Scalar> scratch,
                                                   Matrix3XRef<Scalar> product) const {
-  const auto& edges = assembly_.elements();
-  const auto kernel = [&](Eigen::Index e, std::array<Vector3<Scalar>, 2>& parts) {
-    const int i = edges(0, e);
-    const int j = edges(1, e);
-    const auto spring =
-        spring_geometry<Scalar>(state.positions.col(i), state.positions.col(j), rest_lengths_[e]);
-    if (!spring.has_direction) {
-      parts[0].setZero();
-      parts[1].setZero();
-      return;
-    }
+  const auto force_change = [&](const Spring<Scalar>& spring) -> Vector3<Scalar> {
+    if (!spring.has_direction()) return Vector3<Scalar>::Zero();
     // The direction turns: du = (I - u u^T) (dx_j - dx_i) / l
     const Vector3<Scalar>& u = spring.direction;
-    const Vector3<Scalar> change = displacements.col(j) - displacements.col(i);
+    const Vector3<Scalar> change =
+        displacements.col(spring.second) - displacements.col(spring.first);
     const Vector3<Scalar> turn = (change - u.dot(change) * u) / spring.length;
-    const Vector3<Scalar> relative = state.velocities.col(j) - state.velocities.col(i);
-    parts[0] = damping_ * (relative.dot(turn) * u + relative.dot(u) * turn);
-    parts[1] = -parts[0];
+    const Vector3<Scalar> relative =
+        state.velocities.col(spring.second) - state.velocities.col(spring.first);
+    return damping_ * (relative.dot(turn) * u + relative.dot(u) * turn);
   };
-  assembly_.template add<Scalar>(kernel, scratch, product);
+  springs_.add_pairs(state, force_change, scratch, product);
 }
 
 template <class Scalar>
 Scalar SpringDamping<Scalar>::non_conservative_power(const State<Scalar>& state) const {
-  const auto& edges = assembly_.elements();
-  Scalar power(0);
-  for (Eigen::Index e = 0; e < edges.cols(); ++e) {
-    const int i = edges(0, e);
-    const int j = edges(1, e);
-    const auto spring =
-        spring_geometry<Scalar>(state.positions.col(i), state.positions.col(j), rest_lengths_[e]);
-    const Vector3<Scalar> relative = state.velocities.col(j) - state.velocities.col(i);
+  return -springs_.sum(state, [&](const Spring<Scalar>& spring) -> Scalar {
+    const Vector3<Scalar> relative =
+        state.velocities.col(spring.second) - state.velocities.col(spring.first);
     const Scalar rate = relative.dot(spring.direction);
-    power -= damping_ * rate * rate;
-  }
-  return power;
+    return damping_ * rate * rate;
+  });
 }
 
 template class SpringDamping<float>;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <weft/custom_forces/core/dual.hpp>
-#include <weft/custom_forces/element_assembly.hpp>
 #include <weft/custom_forces/force_law.hpp>
+#include <weft/custom_forces/spring_set.hpp>
 
 namespace weft::forces {
 
@@ -23,9 +23,7 @@ class SpringDamping final : public ForceLaw<Scalar> {
   SpringDamping(const LawSpecification& specification, const ClothMesh& mesh);
 
   [[nodiscard]] const LawInfo& info() const noexcept override { return kInfo; }
-  [[nodiscard]] Eigen::Index scratch_columns() const override {
-    return assembly_.scratch_columns();
-  }
+  [[nodiscard]] Eigen::Index scratch_columns() const override { return springs_.scratch_columns(); }
   void add_forces(const State<Scalar>& state, Matrix3XRef<Scalar> scratch,
                   Matrix3XRef<Scalar> forces) const override;
   void add_stiffness_product(const State<Scalar>& state, ConstMatrix3XRef<Scalar> displacements,
@@ -36,9 +34,8 @@ class SpringDamping final : public ForceLaw<Scalar> {
   [[nodiscard]] Scalar non_conservative_power(const State<Scalar>& state) const override;
 
  private:
-  ElementAssembly<2> assembly_;
-  VectorX<Scalar> rest_lengths_;  ///< [m]
-  Scalar damping_;                ///< [N s/m]
+  SpringSet<Scalar> springs_;
+  Scalar damping_;  ///< [N s/m]
 };
 
 extern template class SpringDamping<float>;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <weft/custom_forces/core/dual.hpp>
-#include <weft/custom_forces/element_assembly.hpp>
 #include <weft/custom_forces/force_law.hpp>
+#include <weft/custom_forces/spring_set.hpp>
 
 namespace weft::forces {
 
@@ -25,9 +25,7 @@ class Tension final : public ForceLaw<Scalar> {
   Tension(const LawSpecification& specification, const ClothMesh& mesh);
 
   [[nodiscard]] const LawInfo& info() const noexcept override { return kInfo; }
-  [[nodiscard]] Eigen::Index scratch_columns() const override {
-    return assembly_.scratch_columns();
-  }
+  [[nodiscard]] Eigen::Index scratch_columns() const override { return springs_.scratch_columns(); }
   void add_forces(const State<Scalar>& state, Matrix3XRef<Scalar> scratch,
                   Matrix3XRef<Scalar> forces) const override;
   void add_stiffness_product(const State<Scalar>& state, ConstMatrix3XRef<Scalar> displacements,
@@ -40,10 +38,9 @@ class Tension final : public ForceLaw<Scalar> {
     return extension < Scalar(0) ? Scalar(compression_ratio_ * stiffness_) : stiffness_;
   }
 
-  ElementAssembly<2> assembly_;
-  VectorX<Scalar> rest_lengths_;  ///< [m]
-  Scalar stiffness_;              ///< [N/m]
-  Scalar compression_ratio_;      ///< [-]
+  SpringSet<Scalar> springs_;
+  Scalar stiffness_;          ///< [N/m]
+  Scalar compression_ratio_;  ///< [-]
 };
 
 extern template class Tension<float>;

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <weft/custom_forces/core/error.hpp>
-#include <weft/custom_forces/spring_geometry.hpp>
+#include <weft/custom_forces/spring_set.hpp>
 
 #include "tests/custom_forces/one_law.hpp"
 
