@@ -70,6 +70,13 @@ scenes::ScalarField strain_scale(const scenes::RecordingReader& reader) {
 
 int render(RenderCommandOptions options) {
   const scenes::RecordingReader reader(options.recording);
+  std::error_code none;
+  if (std::filesystem::equivalent(options.recording, options.output, none)) {
+    throw InvalidArgument(options.output + ": is the recording itself, expected another --output");
+  }
+  if (options.all && !options.time.empty()) {
+    throw InvalidArgument("--time with --all: one frame or every frame, expected one of the two");
+  }
   if (reader.num_frames() == 0) throw Error(options.recording + ": has no frame to render");
   const bool strain = options.style == "strain";
   options.render.style = strain                         ? scenes::SurfaceStyle::kScalar
@@ -90,10 +97,12 @@ int render(RenderCommandOptions options) {
     return kOk;
   }
   std::filesystem::create_directories(options.output);
-  ProgressBar progress("render");
-  for (int frame = 0; frame < reader.num_frames(); ++frame) {
-    progress.update(static_cast<double>(frame) / reader.num_frames());
-    draw(frame, std::filesystem::path(options.output) / fmt::format("frame_{:05}.png", frame));
+  {
+    ProgressBar progress("render");
+    for (int frame = 0; frame < reader.num_frames(); ++frame) {
+      progress.update(static_cast<double>(frame) / reader.num_frames());
+      draw(frame, std::filesystem::path(options.output) / fmt::format("frame_{:05}.png", frame));
+    }
   }
   fmt::print("{}: {} pictures\n", options.output, reader.num_frames());
   return kOk;

@@ -1,9 +1,13 @@
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include <fmt/core.h>
 #include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 #include <CLI/CLI.hpp>
 
 #include <weft/custom_forces/core/error.hpp>
@@ -84,6 +88,18 @@ void remove_recording(const std::filesystem::path& path) {
   }
 }
 
+/// --force replaces a recording, and nothing else: a slip of the finger must not cost a scene file.
+void check_replaceable(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return;
+  try {
+    const scenes::RecordingReader reader(path);
+  } catch (const Error& error) {
+    throw InvalidArgument(path.string() +
+                          ": exists and is not a recording, expected another --output (" +
+                          error.what() + ")");
+  }
+}
+
 void report_stable_step(const scenes::StepReport& step) {
   if (!step.stable_time_step) return;
   const double taken = step.time_step / step.substeps;
@@ -93,10 +109,47 @@ void report_stable_step(const scenes::StepReport& step) {
              taken > *step.stable_time_step ? ": too large, modes of the springs grow" : "");
 }
 
-int report(const scenes::RunSummary& summary, const std::string& output, const std::string& hash,
-           double simulated) {
+struct Recorded {
+  scenes::RunSummary summary;
+  scenes::StepReport last;
+  std::string hash;
+  double simulated = 0.0;  ///< [s]
+};
+
+Recorded record(const scenes::Scene& scene, const scenes::EngineInfo& engine, int threads,
+                const scenes::Provenance& provenance, const std::string& path) {
+  scenes::RecordingWriter writer(path, scene, provenance, engine.precision);
+  const std::unique_ptr<scenes::Simulator> simulator = engine.make();
+  ProgressBar progress(scene.name);
+  Recorded recorded;
+  const auto run = [&] {
+    recorded.summary =
+        scenes::record_run(*simulator, scene, writer, [&](const scenes::StepReport& step) {
+          progress.update(step.time / scene.world.duration);
+          recorded.last = step;
+        });
+  };
+  if (threads > 0) {
+    // An arena of its own, for the default one has at most one thread per core; and leave to use that many.
+    const tbb::global_control allowed(
+        tbb::global_control::max_allowed_parallelism,
+        static_cast<std::size_t>(
+            std::max(threads, static_cast<int>(std::thread::hardware_concurrency()))));
+    tbb::task_arena arena(threads);
+    arena.execute(run);
+  } else {
+    run();
+  }
+  recorded.hash = writer.finish();
+  recorded.simulated = simulator->state().time;
+  return recorded;
+}
+
+int report(const Recorded& recorded, const std::string& output) {
+  const scenes::RunSummary& summary = recorded.summary;
   fmt::print("{}: {} steps, {} frames, {:.2f} s simulated in {:.2f} s\ncontent hash {}\n", output,
-             summary.steps, summary.frames, simulated, summary.engine_seconds, hash);
+             summary.steps, summary.frames, recorded.simulated, summary.engine_seconds,
+             recorded.hash);
   if (!summary.blow_up) return kOk;
   fmt::print("blew up at step {}, t = {:.6g} s, body '{}', node {}: {}\n", summary.blow_up->step,
              summary.blow_up->time, summary.blow_up->body, summary.blow_up->node,
@@ -106,6 +159,10 @@ int report(const scenes::RunSummary& summary, const std::string& output, const s
 
 int run(const RunOptions& options, const CommandLine& command_line) {
   const scenes::StoredPrecision precision = requested_precision(options);
+  if (!options.integrator.empty() && options.engine != "reference") {
+    throw InvalidArgument("--integrator " + options.integrator + ": " + options.engine +
+                          " has Bullet's own integrator, expected --engine reference");
+  }
   const scenes::Scene scene = requested_scene(options);
   const scenes::EngineInfo* engine = scenes::find_engine(options.engine, precision);
   if (!engine) hand_over(command_line, precision);
@@ -114,33 +171,27 @@ int run(const RunOptions& options, const CommandLine& command_line) {
                                  ? fmt::format("{}_{}_{}.weftrec", scene.name, options.engine,
                                                scenes::to_string(precision))
                                  : options.output;
-  if (options.force) remove_recording(output);
-
-  std::optional<tbb::global_control> thread_limit;
-  if (options.threads > 0) {
-    thread_limit.emplace(tbb::global_control::max_allowed_parallelism,
-                         static_cast<std::size_t>(options.threads));
+  if (options.force) {
+    check_replaceable(output);
+  } else if (std::filesystem::exists(output)) {
+    throw InvalidArgument(output + ": exists already, expected a new name or --force");
   }
   scenes::Provenance provenance = build_provenance();
   provenance["engine"] = options.engine;
   provenance["precision"] = scenes::to_string(precision);
   provenance["threads"] = options.threads > 0 ? std::to_string(options.threads) : "all";
 
-  scenes::RecordingWriter writer(output, scene, provenance, precision);
+  // Under another name until it is whole: a run that fails leaves an older recording as it was.
+  const std::string unfinished = output + ".part";
+  remove_recording(unfinished);
   try {
-    const std::unique_ptr<scenes::Simulator> simulator = engine->make();
-    ProgressBar progress(scene.name);
-    scenes::StepReport last;
-    const scenes::RunSummary summary =
-        scenes::record_run(*simulator, scene, writer, [&](const scenes::StepReport& step) {
-          progress.update(step.time / scene.world.duration);
-          last = step;
-        });
-    const std::string hash = writer.finish();
-    report_stable_step(last);
-    return report(summary, output, hash, simulator->state().time);
-  } catch (...) {
+    const Recorded recorded = record(scene, *engine, options.threads, provenance, unfinished);
     remove_recording(output);
+    std::filesystem::rename(unfinished, output);
+    report_stable_step(recorded.last);
+    return report(recorded, output);
+  } catch (...) {
+    remove_recording(unfinished);
     throw;
   }
 }

@@ -29,6 +29,34 @@ void check(const ClothSettings& settings) {
       "contact_hardness = " + std::to_string(settings.contact_hardness) + " [1], expected 0 to 1");
 }
 
+void check(const ClothMesh& mesh) {
+  const int num_nodes = mesh.num_nodes();
+  const auto is_node = [&](int node) { return node >= 0 && node < num_nodes; };
+  const std::string range = ", expected 0 to " + std::to_string(num_nodes - 1);
+  require(num_nodes > 0, "the mesh has no node, expected at least one");
+  require(mesh.masses.size() == num_nodes, std::to_string(mesh.masses.size()) +
+                                               " masses, expected one for each of the " +
+                                               std::to_string(num_nodes) + " nodes");
+  require(mesh.rest_positions.allFinite(), "a rest position is not finite");
+  for (int i = 0; i < num_nodes; ++i) {
+    require(std::isfinite(mesh.masses[i]) && mesh.masses[i] > 0,
+            "mass of node " + std::to_string(i) + " = " + std::to_string(mesh.masses[i]) +
+                " [kg], expected > 0 and finite");
+  }
+  for (const int node : mesh.pinned) {
+    require(is_node(node), "pinned node " + std::to_string(node) + range);
+  }
+  for (const int node : mesh.triangles.reshaped()) {
+    require(is_node(node), "a triangle names node " + std::to_string(node) + range);
+  }
+  for (const EdgeSet& set : mesh.edge_sets) {
+    for (const int node : set.edges.reshaped()) {
+      require(is_node(node),
+              "edge set '" + set.name + "' names node " + std::to_string(node) + range);
+    }
+  }
+}
+
 // All of btSoftBody::Config, in its order, so that no default of Bullet's can change a result
 // unseen.
 void configure(const ClothSettings& settings, btSoftBody& body) {
@@ -46,6 +74,12 @@ void configure(const ClothSettings& settings, btSoftBody& body) {
   config.kKHR = static_cast<btScalar>(settings.contact_hardness);
   config.kSHR = 1;
   config.kAHR = 1;
+  config.kSRHR_CL = 0;  // cluster contacts: this body has no clusters
+  config.kSKHR_CL = 0;
+  config.kSSHR_CL = 0;
+  config.kSR_SPLT_CL = 0;
+  config.kSK_SPLT_CL = 0;
+  config.kSS_SPLT_CL = 0;
   config.maxvolume = 1;
   config.timescale = 1;
   config.viterations = 0;
@@ -54,6 +88,7 @@ void configure(const ClothSettings& settings, btSoftBody& body) {
   config.citerations = 0;
   config.collisions = btSoftBody::fCollision::SDF_RS;
   config.drag = 0;
+  config.m_maxStress = 0;
   body.setSolver(btSoftBody::eSolverPresets::Positions);
   body.m_restLengthScale = 1;
   body.getCollisionShape()->setMargin(static_cast<btScalar>(settings.collision_margin));
@@ -91,6 +126,7 @@ void add_links(const ClothMesh& mesh, const ClothSettings& settings, btSoftBody&
 std::unique_ptr<btSoftBody> make_cloth_body(btSoftBodyWorldInfo& world_info, const ClothMesh& mesh,
                                             const ClothSettings& settings) {
   check(settings);
+  check(mesh);
   const int num_nodes = mesh.num_nodes();
   std::vector<btVector3> positions(static_cast<std::size_t>(num_nodes));
   std::vector<btScalar> masses(static_cast<std::size_t>(num_nodes));

@@ -35,7 +35,7 @@ class SoftWorld {
   btSoftBody& add(std::unique_ptr<btSoftBody> body);
   btRigidBody& add(std::unique_ptr<btRigidBody> body, std::unique_ptr<btCollisionShape> shape);
 
-  /// One step of exactly time_step [s], without Bullet's interpolation. Bullet rounds it to single
+  /// One step of time_step [s], without Bullet's interpolation. Bullet rounds it to single
   /// precision.
   void step(double time_step);
 

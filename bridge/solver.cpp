@@ -10,6 +10,7 @@
 
 #include <weft/bridge/node_state.hpp>
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/registry.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -25,10 +26,12 @@ struct SoftBodySolver::Attachment {
   Matrix3X<btScalar> velocities;
   Matrix3X<btScalar> forces;
   std::optional<BodyBlowUp> blow_up;
+  bool was_in_world = false;
 
   void add_forces(btScalar time_step);
   void advance_velocities(btScalar time_step);
   void check_prediction(btScalar time_step);
+  void check_laws();
 };
 
 struct SoftBodySolver::Attachments {
@@ -68,6 +71,14 @@ void SoftBodySolver::Attachment::check_prediction(btScalar time_step) {
   }
 }
 
+// Laws made for another mesh throw here, at attach, and not out of Bullet's step.
+void SoftBodySolver::Attachment::check_laws() {
+  read_nodes(*body, positions, velocities);
+  forces.setZero(3, positions.cols());
+  (void)laws.add_forces(State{positions, velocities, masses}, LawSet::VelocityLaws::kAsForces,
+                        forces);
+}
+
 void SoftBodySolver::Attachment::advance_velocities(btScalar time_step) {
   read_nodes(*body, positions, velocities);
   forces = velocities;  // the laws see the state as it is and change a copy
@@ -89,6 +100,13 @@ SoftBodySolver::Attachment* SoftBodySolver::find(const btSoftBody& body) const {
   return nullptr;
 }
 
+void SoftBodySolver::attach(btSoftBody& body, const ClothMesh& mesh,
+                            const std::vector<forces::LawSpecification>& laws) {
+  LawSet set;
+  for (const forces::LawSpecification& law : laws) set.add(forces::make_law<btScalar>(law, mesh));
+  attach(body, std::move(set), mesh.masses.cast<btScalar>());
+}
+
 void SoftBodySolver::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> masses) {
   if (has_laws(body)) {
     throw InvalidArgument("soft body solver: the body has laws already, expected detach() first");
@@ -98,10 +116,21 @@ void SoftBodySolver::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> mas
                           " masses, expected one for each of the " +
                           std::to_string(body.m_nodes.size()) + " nodes");
   }
+  for (Eigen::Index i = 0; i < masses.size(); ++i) {
+    if (!(masses[i] > 0) || !std::isfinite(masses[i])) {
+      throw InvalidArgument("soft body solver: mass of node " + std::to_string(i) + " = " +
+                            std::to_string(masses[i]) + " [kg], expected > 0 and finite");
+    }
+  }
+  if (body.m_cfg.timescale != btScalar(1)) {
+    throw InvalidArgument("soft body solver: m_cfg.timescale = " +
+                          std::to_string(body.m_cfg.timescale) + " [1], expected 1");
+  }
   auto attachment = std::make_unique<Attachment>();
   attachment->body = &body;
   attachment->laws = std::move(laws);
   attachment->masses = std::move(masses);
+  attachment->check_laws();
   attachments_->list.push_back(std::move(attachment));
 }
 
@@ -124,6 +153,21 @@ std::optional<BodyBlowUp> SoftBodySolver::blow_up(const btSoftBody& body) const 
 bool SoftBodySolver::is_frozen(const btSoftBody& body) const {
   const Attachment* attachment = find(body);
   return attachment && attachment->blow_up;
+}
+
+// The world hands over its bodies at the start of every step: one that was there and is no more may be deleted,
+// and another may stand at its address tomorrow.
+void SoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool force_update) {
+  btDefaultSoftBodySolver::optimize(bodies, force_update);
+  auto& list = attachments_->list;
+  const auto has_left = [&](const std::unique_ptr<Attachment>& attachment) {
+    const bool is_in_world =
+        m_softBodySet.findLinearSearch(attachment->body) != m_softBodySet.size();
+    const bool left = attachment->was_in_world && !is_in_world;
+    attachment->was_in_world = is_in_world;
+    return left;
+  };
+  list.erase(std::remove_if(list.begin(), list.end(), has_left), list.end());
 }
 
 void SoftBodySolver::predictMotion(btScalar time_step) {

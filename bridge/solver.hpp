@@ -3,10 +3,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <BulletSoftBody/btDefaultSoftBodySolver.h>
 
 #include <weft/bridge/bullet_guard.hpp>
+#include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_set.hpp>
 
 namespace weft::bridge {
@@ -21,21 +23,21 @@ struct BodyBlowUp {
 /// Weft's forces in Bullet's classic soft-body world, through Bullet's own extension point.
 ///
 ///   SoftBodySolver solver;
-///   btSoftRigidDynamicsWorld world(dispatcher, broadphase, constraint_solver, configuration,
-///   &solver); solver.attach(*cloth, std::move(laws), masses);
+///   btSoftRigidDynamicsWorld world(dispatcher, broadphase, constraints, configuration, &solver);
+///   solver.attach(*cloth, mesh, {{"tension", {}, {{"stiffness", {60.0}}}}});
 ///
 /// A body without attached laws is stepped by Bullet's default solver, bit for bit. For a body with
 /// laws
 /// * force-level laws are added to the nodes' m_f before btSoftBody::predictMotion,
 /// * velocity-level laws act on m_v after btSoftBody::solveConstraints; a velocity written before
-/// would be lost,
-///   for Bullet derives velocities from positions there,
-/// * a state that is not finite, or faster than kMaxSpeed, freezes the body and is reported: Bullet
-/// would go on to
-///   look up contacts at that place and crash.
+///   would be lost, for Bullet derives velocities from positions there,
+/// * a state that is not finite, or faster than kMaxSpeed, freezes the body and is reported; Bullet
+///   would go on to look up contacts at that place and crash.
 ///
 /// The world's gravity (btSoftBodyWorldInfo::m_gravity) still acts: set it to zero for a body with
-/// a gravity law. Threads: laws run on oneTBB; results do not depend on the number of threads.
+/// a gravity law.
+/// Threads: laws run on oneTBB; results do not depend on the number of threads.
+/// Lifetime: a body may leave its world with laws attached; the next step forgets it.
 class SoftBodySolver : public btDefaultSoftBodySolver {
  public:
   /// Throws Error if the calling program was compiled for another Bullet than the bridge.
@@ -48,16 +50,23 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   /// small enough for single-precision squares.
   static constexpr double kMaxSpeed = 1e6;
 
-  /// masses: n [kg], those of pinned nodes too (Bullet itself only knows that they do not move).
-  /// Throws InvalidArgument if sizes differ from the body's nodes, or if laws are attached already.
+  /// Makes the laws for the body's mesh and attaches them.
+  /// Throws InvalidArgument as forces::make_law() and as the other attach().
+  void attach(btSoftBody& body, const ClothMesh& mesh,
+              const std::vector<forces::LawSpecification>& laws);
+  /// masses: n [kg], > 0, those of pinned nodes too (Bullet itself only knows that they do not move).
+  /// Throws InvalidArgument if masses or laws do not fit the body's nodes, if laws are attached
+  /// already, and for a body whose m_cfg.timescale is not 1: laws and Bullet would live in two times.
   /// The body must not gain or lose nodes while laws are attached.
   void attach(btSoftBody& body, forces::LawSet<btScalar> laws, VectorX<btScalar> masses);
-  /// Back to plain Bullet. Call before deleting the body. Does nothing if no laws are attached.
+  /// Back to plain Bullet. Call before deleting a body that never was in a stepped world. Does
+  /// nothing if no laws are attached.
   void detach(btSoftBody& body);
   [[nodiscard]] bool has_laws(const btSoftBody& body) const;
   /// Set once the body has exploded; it does not move any more.
   [[nodiscard]] std::optional<BodyBlowUp> blow_up(const btSoftBody& body) const;
 
+  void optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool force_update = false) override;
   void predictMotion(btScalar time_step) override;
   void solveConstraints(btScalar time_step) override;
   void updateSoftBodies() override;

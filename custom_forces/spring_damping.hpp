@@ -8,13 +8,15 @@ namespace weft::forces {
 
 /// Viscous damper along each edge.
 ///
-///   f_i = c ((v_j - v_i) . u) u     f_j = -f_i     power = -c ((v_j - v_i) . u)^2     u = (x_j -
-///   x_i) / l
+///   f_i = c (w . u) u     f_j = -f_i     power = -c (w . u)^2
+///   w = v_j - v_i         u = (x_j - x_i) / l
 ///
 /// Symbols  c  damping  [N*s/m]  >= 0
-/// Errors   InvalidArgument at construction; an edge shorter than kMinLengthRatio l0 exerts no
-/// force Source   dashpot parallel to a spring; acts on the change of length only, so that a rigid
-/// motion feels nothing Checked  contract tests; oscillator
+/// Errors   InvalidArgument at construction; an edge shorter than kMinLengthRatio l0 exerts
+///          no force
+/// Source   dashpot parallel to a spring; acts on the change of length only, so that a rigid
+///          motion feels nothing
+/// Checked  contract tests; oscillator
 template <class Scalar>
 class SpringDamping final : public ForceLaw<Scalar> {
  public:

@@ -12,11 +12,13 @@ namespace weft::forces {
 ///   k' = k if l >= l0, else ratio k
 ///
 /// Symbols  k      stiffness          [N/m]  >= 0
-///          ratio  compression_ratio  [1]    0 to 1; 0: the spring goes slack, 1 (default): it
-///          pushes as it pulls l0     rest length        [m]    > 0, from the mesh
-/// Errors   InvalidArgument at construction; a spring shorter than kMinLengthRatio l0 exerts no
-/// force Source   Werth 2008 (tension constant times length minus rest length); signs as
-/// docs/conventions.md Checked  contract tests; hanging_chain, oscillator
+///          ratio  compression_ratio  [1]    0 to 1; 0: slack, 1 (default): pushes as it pulls
+///          l0     rest length        [m]    > 0, from the mesh
+/// Errors   InvalidArgument at construction; a spring shorter than kMinLengthRatio l0 exerts
+///          no force
+/// Source   Werth 2008 (tension constant times length minus rest length); signs as
+///          docs/conventions.md
+/// Checked  contract tests; hanging_chain, oscillator
 template <class Scalar>
 class Tension final : public ForceLaw<Scalar> {
  public:

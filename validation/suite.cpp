@@ -55,6 +55,8 @@ Report run_suite(const SuiteOptions& options,
       "The reference is compared at Bullet's own time step; its error against a converged solution "
       "is "
       "not part of this report.",
+      "Sabotages are put into the reference's side of a pair; Bullet's side is not broken on "
+      "purpose.",
       "No comparison with measured fabric.",
   };
   return report;

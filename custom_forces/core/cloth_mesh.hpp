@@ -33,7 +33,7 @@ struct ClothMesh {
 /// Rest area that belongs to each node: a third of each triangle around it. n [m^2].
 [[nodiscard]] VectorX<double> node_areas(const ClothMesh& mesh);
 
-/// Rest length of each edge. m [m].
+/// Length of each edge in the given positions. m [m].
 [[nodiscard]] VectorX<double> edge_lengths(ConstMatrix3XRef<double> positions, const Edges& edges);
 
 }  // namespace weft

@@ -71,6 +71,14 @@ done
 check "another run differs" exits 0 run drape_sphere --duration "0.64 s" -o b.weftrec
 grep "content hash" out >hash_b
 check "another run: another hash" test "$(cat hash_a)" != "$(cat hash_b)"
+cp "$source_dir/scenes/catalog/hang.toml" mine.toml
+check "--force spares what is no recording" exits 2 run mine.toml -o mine.toml -f
+check "the scene file is whole" cmp -s mine.toml "$source_dir/scenes/catalog/hang.toml"
+check "a failed run leaves the old recording" exits 2 run hang --time-step "1 kg" -o a.weftrec -f
+check "it is still readable" exits 0 render a.weftrec -o a.png --width 80 --height 50
+check "render spares its recording" exits 2 render a.weftrec -o a.weftrec
+check "render: --all or --time" exits 2 render a.weftrec -o frames --all --time "1 s"
+check "integrator of the reference only" exits 2 run hang -e bullet_soft --integrator runge_kutta_4 -o x.weftrec
 check "impossible output" exits 2 "${short[@]}" -o /no/such/folder/a.weftrec
 
 # Blow-up as data

@@ -79,6 +79,22 @@ TEST(ClothBody, FirstStepKeepsRestLengthsOfTheMesh) {
   }
 }
 
+TEST(ClothBody, MeshThatDoesNotFitTogetherIsRefused) {
+  SoftWorld world({});
+  ClothMesh mesh = small_cloth();
+  mesh.masses.conservativeResize(3);
+  EXPECT_THROW((void)make_cloth_body(world.info(), mesh, {}), InvalidArgument);
+  mesh = small_cloth();
+  mesh.masses[4] = 0;
+  EXPECT_THROW((void)make_cloth_body(world.info(), mesh, {}), InvalidArgument);
+  mesh = small_cloth();
+  mesh.pinned.push_back(30);
+  EXPECT_THROW((void)make_cloth_body(world.info(), mesh, {}), InvalidArgument);
+  mesh = small_cloth();
+  mesh.triangles(0, 0) = -1;
+  EXPECT_THROW((void)make_cloth_body(world.info(), mesh, {}), InvalidArgument);
+}
+
 TEST(ClothBody, SettingsOutOfTheirDomainAreRefused) {
   SoftWorld world({});
   const ClothMesh mesh = small_cloth();

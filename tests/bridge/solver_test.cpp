@@ -88,6 +88,34 @@ TEST(SoftBodySolver, WrongUseIsRefused) {
   EXPECT_THROW(world.solver().attach(body, {}, mesh.masses.cast<btScalar>()), InvalidArgument);
 }
 
+TEST(SoftBodySolver, LawsOfAnotherMeshAreRefusedAtOnce) {
+  SoftWorld world({});
+  btSoftBody& body = world.add(make_cloth_body(world.info(), free_cloth(), {}));
+  ClothGrid grid;
+  grid.nodes = {5, 5};
+  const ClothMesh other = make_cloth_grid(grid);
+  const auto masses = free_cloth().masses.cast<btScalar>();
+  EXPECT_THROW(
+      world.solver().attach(body, laws(other, {law("tension", "stiffness", {1.0})}), masses),
+      InvalidArgument);
+  EXPECT_FALSE(world.solver().has_laws(body));
+  body.m_cfg.timescale = btScalar(0.5);
+  EXPECT_THROW(world.solver().attach(body, {}, masses), InvalidArgument);
+}
+
+TEST(SoftBodySolver, BodyThatLeftTheWorldIsForgotten) {
+  const ClothMesh mesh = free_cloth();
+  SoftWorld world({});
+  const auto body = make_cloth_body(world.info(), mesh, {});
+  world.world().addSoftBody(body.get());
+  world.solver().attach(*body, mesh, {law("gravity", "acceleration", {0, -9.81, 0})});
+  world.step(kTimeStep);
+  EXPECT_TRUE(world.solver().has_laws(*body));
+  world.world().removeSoftBody(body.get());
+  world.step(kTimeStep);
+  EXPECT_FALSE(world.solver().has_laws(*body));
+}
+
 TEST(SoftBodySolver, ExplosionIsReportedAndFrozen) {
   const ClothMesh mesh = free_cloth();
   SoftWorld world({});

@@ -9,7 +9,6 @@
 
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/solver.hpp>
-#include <weft/custom_forces/registry.hpp>
 
 int main() {
   btSoftBodyRigidBodyCollisionConfiguration configuration;
@@ -27,18 +26,14 @@ int main() {
   const auto cloth = weft::bridge::make_cloth_body(world.getWorldInfo(), mesh, {});
   world.addSoftBody(cloth.get());
 
-  weft::forces::LawSet<btScalar> laws;
-  laws.add(
-      weft::forces::make_law<btScalar>({"tension", {}, {{"stiffness", {60.0}}}}, mesh));  // [N/m]
-  laws.add(
-      weft::forces::make_law<btScalar>({"gravity", {}, {{"acceleration", {0, -9.81, 0}}}}, mesh));
-  solver.attach(*cloth, std::move(laws), mesh.masses.cast<btScalar>());
-
+  solver.attach(*cloth, mesh,
+                {{"tension", {}, {{"stiffness", {60.0}}}},              // [N/m]
+                 {"gravity", {}, {{"acceleration", {0, -9.81, 0}}}}});  // [m/s^2]
   for (int step = 0; step < 100; ++step) world.stepSimulation(1 / 2000.0, 0);
+  const double fallen = -static_cast<double>(cloth->m_nodes[0].m_x.y());  // [m]
+  world.removeSoftBody(cloth.get());
   // README sample end
 
-  const double fallen = -static_cast<double>(cloth->m_nodes[0].m_x.y());
-  world.removeSoftBody(cloth.get());
   std::printf("fell %.4f m in 0.05 s\n", fallen);
   // Symplectic Euler: g h^2 n (n + 1) / 2 = 0.01239 m, to single precision.
   return fallen > 0.01238 && fallen < 0.01240 ? 0 : 1;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <weft/custom_forces/core/error.hpp>
 #include <weft/scenes/catalog.hpp>
 #include <weft/validation/cases/scene_cases.hpp>
 #include <weft/validation/cases/scene_history.hpp>
@@ -25,6 +26,7 @@ std::vector<EngineChoice> engines(bool with_bullet) {
   std::vector<EngineChoice> list;
   if (with_bullet) {
     list = {{"bullet_soft", StoredPrecision::kFloat32},
+            {"bullet_soft", StoredPrecision::kFloat64},
             {"bullet_forces", StoredPrecision::kFloat32},
             {"bullet_forces", StoredPrecision::kFloat64}};
   }
@@ -41,7 +43,11 @@ std::string label(const EngineChoice& engine, const std::string& variant) {
 std::string hash_of(const EngineRuns& runs, const std::string& run_label) {
   const EngineRuns::Outcome& outcome = runs.outcome(run_label);
   if (outcome.exit_code != 0) return fmt::format("exit code {}", outcome.exit_code);
-  return scenes::RecordingReader(outcome.recording).content_hash();
+  try {
+    return scenes::RecordingReader(outcome.recording).content_hash();
+  } catch (const Error& error) {
+    return fmt::format("exit code 0, but {}", error.what());
+  }
 }
 
 }  // namespace

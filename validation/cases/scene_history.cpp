@@ -1,5 +1,6 @@
 #include <weft/validation/cases/scene_history.hpp>
 
+#include <weft/custom_forces/core/error.hpp>
 #include <weft/scenes/engines/engine_table.hpp>
 
 namespace weft::validation {
@@ -35,11 +36,17 @@ History load_history(const EngineRuns& runs, const std::string& case_id,
                       outcome.log.substr(0, outcome.log.find('\n'));
     return history;
   }
-  const scenes::RecordingReader reader(outcome.recording);
-  history.blow_up = reader.blow_up();
-  history.content_hash = reader.content_hash();
-  for (int frame = 0; frame < reader.num_frames(); ++frame) {
-    history.frames.push_back(reader.frame(frame));
+  try {
+    const scenes::RecordingReader reader(outcome.recording);
+    history.blow_up = reader.blow_up();
+    history.content_hash = reader.content_hash();
+    for (int frame = 0; frame < reader.num_frames(); ++frame) {
+      history.frames.push_back(reader.frame(frame));
+    }
+  } catch (
+      const Error& error) {  // a damaged recording is a failed check, not the end of the report
+    history.frames.clear();
+    history.failure = error.what();
   }
   return history;
 }

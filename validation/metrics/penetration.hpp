@@ -18,8 +18,8 @@ struct LayerPenetration {
 };
 
 /// One cloth against one collider. Pinned nodes count too. Edges and faces between the nodes are
-/// not looked at: on a sphere of radius R the diagonals of a grid of spacing a lie up to a^2 / (4
-/// R) deeper than their nodes.
+/// not looked at: on a sphere of radius R the diagonals of a grid of spacing a lie up to
+/// a^2 / (4 R) deeper than their nodes.
 struct Penetration {
   std::string cloth;
   std::string collider;

@@ -5,14 +5,14 @@ namespace weft::reference {
 /// How one step advances positions and velocities (integrators/integrator.hpp).
 enum class IntegratorKind {
   kExplicitEuler,   ///< order 1, unstable without damping: the negative control
-  kModifiedEuler,   ///< order 1, velocity first: document B's scheme, and Bullet's
+  kModifiedEuler,   ///< order 1, velocity first: de Joya's scheme (2011), and Bullet's
   kVelocityVerlet,  ///< order 2
   kRungeKutta4,     ///< order 4
 };
 
 /// What happens at a surface (contact/contact_model.hpp).
 enum class ContactKind {
-  kProjection,  ///< document B: moved out to the surface, inward velocity removed, no friction
+  kProjection,  ///< de Joya 2011: moved out to the surface, inward velocity removed, no friction
   kImpulse,     ///< velocity-level contact with exact Coulomb friction
 };
 

@@ -8,20 +8,19 @@
 namespace weft::reference {
 
 /// Largest step [s] at which no mode of a body with this spectrum grows; infinity if nothing moves
-/// it, 0 if none. w = omega_max, f = gamma_force_max, g = gamma_velocity_max. A mode is x'' = -w^2
-/// x - (f + g) x'.
+/// it, 0 if none. w = omega_max, f = gamma_force_max, g = gamma_velocity_max.
+/// A mode is x'' = -w^2 x - (f + g) x'.
 ///
 ///   modified Euler   h^2 w^2 < 2 (1 + exp(-h g) (1 - h f)),  h f < 2
 ///       exact for this scheme (Jury criterion of its 2 x 2 matrix: trace 1 - h^2 w^2 + q,
-///       determinant q = exp(-h g) (1 - h f)). Undamped: h w < 2. Small h g: h^2 w^2 + 2 h (f + g)
-///       < 4.
+///       determinant q = exp(-h g) (1 - h f)).
+///       Undamped: h w < 2. Small h g: h^2 w^2 + 2 h (f + g) < 4.
 ///   Verlet           h^2 w^2 + 2 h f < 4
-///       exact for f = 0, for every g, since the velocity-level laws are exact; conservative for f
-///       > 0, where the scheme's own bound is h^2 w^2 < 4 - 2 h f + h^2 f^2, h f < 2.
+///       exact for f = 0, for every g, since the velocity-level laws are exact; conservative for
+///       f > 0, where the scheme's own bound is h^2 w^2 < 4 - 2 h f + h^2 f^2, h f < 2.
 ///   Runge-Kutta 4    h w < 2.828 undamped; h max(w, f + g) < 2.615 damped
-///       the stability region holds 2.828 of the imaginary axis and the left half disc of
-///       radius 2.615, and no eigenvalue -(f + g)/2 +- root is larger in magnitude than max(w, f +
-///       g).
+///       the stability region holds 2.828 of the imaginary axis and the left half disc of radius
+///       2.615; no eigenvalue -(f + g)/2 +- root is larger in magnitude than max(w, f + g).
 ///   explicit Euler   h < min(d / w^2, 2 / (f + g)),  d = top_mode_damping; so 0 undamped
 ///       |1 + h lambda| < 1. Exact for an underdamped body whose damping is Rayleigh's (a mass part
 ///       plus a stiffness part: velocity_damping plus spring_damping in step with tension), where

@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <map>
@@ -28,6 +30,51 @@ std::string read_text(const std::filesystem::path& path) {
 std::filesystem::path with_suffix(const std::filesystem::path& folder, const std::string& label,
                                   const char* suffix) {
   return folder / (label + suffix);
+}
+
+/// Processes of ours and which run each one is; what still runs when it goes out of scope is ended.
+class Children {
+ public:
+  Children() = default;
+  ~Children() {
+    for (const auto& [process, run] : runs_) kill(process, SIGTERM);
+    for (const auto& [process, run] : runs_) waitpid(process, nullptr, 0);
+  }
+  Children(const Children&) = delete;
+  Children& operator=(const Children&) = delete;
+
+  void add(pid_t process, std::size_t run) { runs_[process] = run; }
+  [[nodiscard]] std::size_t remove(pid_t process) {
+    const std::size_t run = runs_.at(process);
+    runs_.erase(process);
+    return run;
+  }
+  [[nodiscard]] bool empty() const { return runs_.empty(); }
+  [[nodiscard]] const std::map<pid_t, std::size_t>& processes() const { return runs_; }
+
+ private:
+  std::map<pid_t, std::size_t> runs_;
+};
+
+struct Ended {
+  pid_t process;
+  int status;
+};
+
+/// Asks each process in turn and never "any child": a host program may have children of its own.
+Ended wait_for_one(const std::map<pid_t, std::size_t>& processes) {
+  for (;;) {
+    for (const auto& [process, run] : processes) {
+      int status = 0;
+      const pid_t ended = waitpid(process, &status, WNOHANG);
+      if (ended == process) return {process, status};
+      if (ended < 0 && errno != EINTR) {
+        throw Error(std::string("engine runs: a process cannot be waited for (") +
+                    std::strerror(errno) + ")");
+      }
+    }
+    usleep(5000);  // runs take seconds
+  }
 }
 
 }  // namespace
@@ -103,21 +150,17 @@ void EngineRuns::finish(Run& run, int wait_status) const {
 
 void EngineRuns::run_all(
     const std::function<void(double fraction, const std::string& label)>& progress) {
-  std::map<int, std::size_t> running;
+  Children running;
   std::size_t next = 0;
   std::size_t num_done = 0;
   const auto start_next = [&] {
     while (next < runs_.size() && runs_[next].done) ++next, ++num_done;
-    if (next < runs_.size()) running[start(runs_[next])] = next, ++next;
+    if (next < runs_.size()) running.add(start(runs_[next]), next), ++next;
   };
   for (int job = 0; job < jobs_; ++job) start_next();
   while (!running.empty()) {
-    int status = 0;
-    const pid_t process = waitpid(-1, &status, 0);
-    const auto found = running.find(process);
-    if (found == running.end()) continue;
-    Run& run = runs_[found->second];
-    running.erase(found);
+    const auto [process, status] = wait_for_one(running.processes());
+    Run& run = runs_[running.remove(process)];
     finish(run, status);
     ++num_done;
     progress(static_cast<double>(num_done) / static_cast<double>(runs_.size()), run.request.label);

@@ -37,7 +37,7 @@ class ContactModel {
   [[nodiscard]] virtual ContactOutcome resolve(const System& system, SystemStep& step) const = 0;
 };
 
-/// Document B's contact: a node that ends the step inside (distance < margin) is moved out along
+/// De Joya's contact (2011): a node that ends the step inside (distance < margin) is moved out along
 /// the normal to distance = margin and loses its inward normal velocity. No friction. With a
 /// collider that has a mass the displacement is shared by effective mass; that shift carries no
 /// momentum, so linear momentum is conserved to round-off and angular momentum only as far as the

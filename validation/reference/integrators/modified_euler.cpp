@@ -3,7 +3,7 @@
 namespace weft::reference {
 namespace {
 
-/// v1 = v0 + h a(x0, v0), x1 = x0 + h v1: document B's scheme and Bullet's order of operations.
+/// v1 = v0 + h a(x0, v0), x1 = x0 + h v1: de Joya's scheme (2011) and Bullet's order of operations.
 /// Velocity-level laws act exactly, after the step, so that the position still moves with the
 /// undamped velocity. Without damping v^2 + w^2 x^2 - h w^2 x v of an oscillator is conserved to
 /// round-off.
