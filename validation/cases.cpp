@@ -24,6 +24,8 @@ std::span<const CaseInfo> all_cases() {
                nullptr, &evaluate_observed_orders},
       CaseInfo{"hanging_chain", "Static drop of a chain of masses and springs", nullptr,
                &evaluate_hanging_chain},
+      CaseInfo{"sliding_cloth", "A sliding cloth stops where Coulomb's law says",
+               &plan_sliding_cloth, &evaluate_sliding_cloth},
       CaseInfo{"explosion", "Explicit Euler explodes, and is reported as data", &plan_explosion,
                &evaluate_explosion},
       CaseInfo{"determinism", "The same bits for any number of threads", &plan_determinism,

@@ -16,4 +16,9 @@ void evaluate_explosion(const CaseInfo&, const CaseOptions&, const EngineRuns&, 
 void plan_determinism(const CaseInfo&, const CaseOptions&, EngineRuns&);
 void evaluate_determinism(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
+/// A flat cloth thrown along the ground: the reference must stop where Coulomb's law says; Bullet's engines are
+/// measured and shown.
+void plan_sliding_cloth(const CaseInfo&, const CaseOptions&, EngineRuns&);
+void evaluate_sliding_cloth(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+
 }  // namespace weft::validation
