@@ -94,7 +94,7 @@ TEST(SoftBodySolver, LawsOfAnotherMeshAreRefusedAtOnce) {
   ClothGrid grid;
   grid.nodes = {5, 5};
   const ClothMesh other = make_cloth_grid(grid);
-  const auto masses = free_cloth().masses.cast<btScalar>();
+  const VectorX<btScalar> masses = free_cloth().masses.cast<btScalar>();
   EXPECT_THROW(
       world.solver().attach(body, laws(other, {law("tension", "stiffness", {1.0})}), masses),
       InvalidArgument);
