@@ -7,11 +7,14 @@
 #include <limits>
 #include <string>
 
+#include <weft/custom_forces/acceleration_damping.hpp>
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/gravity.hpp>
 #include <weft/custom_forces/hinge_torsion.hpp>
+#include <weft/custom_forces/rotation_damping.hpp>
 #include <weft/custom_forces/spring_damping.hpp>
 #include <weft/custom_forces/tension.hpp>
+#include <weft/custom_forces/torsional_rotation_damping.hpp>
 #include <weft/custom_forces/velocity_damping.hpp>
 
 namespace weft::forces {
@@ -41,8 +44,14 @@ Row row() {
 // The one list of laws. Everything that enumerates laws reads this table.
 const auto& rows() {
   static const std::array kRows = {
-      row<Tension>(),         row<SpringDamping>(), row<HingeTorsion>(),
-      row<VelocityDamping>(), row<Gravity>(),
+      row<Tension>(),
+      row<SpringDamping>(),
+      row<HingeTorsion>(),
+      row<VelocityDamping>(),
+      row<Gravity>(),
+      row<RotationDamping>(),
+      row<TorsionalRotationDamping>(),
+      row<AccelerationDamping>(),
   };
   return kRows;
 }
