@@ -27,7 +27,7 @@ const LawInfo AccelerationDamping<Scalar>::kInfo{
 template <class Scalar>
 AccelerationDamping<Scalar>::AccelerationDamping(const LawSpecification& specification,
                                                  const ClothMesh& mesh)
-    : beta_(static_cast<Scalar>(law_scalar(specification, "beta"))), free_(free_nodes(mesh)) {}
+    : beta_(static_cast<Scalar>(law_scalar(specification, "beta"))), free_(mesh) {}
 
 template <class Scalar>
 void AccelerationDamping<Scalar>::add_forces(const State<Scalar>& /*state*/,
@@ -38,16 +38,17 @@ template <class Scalar>
 void AccelerationDamping<Scalar>::redistribute_forces(const State<Scalar>& state,
                                                       Matrix3XRef<Scalar> forces) const {
   using Number = Wide<Scalar>;
-  if (free_.empty()) return;
+  const std::vector<int>& free = free_.of(forces.cols());
+  if (free.empty()) return;
   Number mass(0);
   Vector3<Number> force = Vector3<Number>::Constant(Number(0));
-  for (const int node : free_) {
+  for (const int node : free) {
     mass += Number(state.masses[node]);
     force += forces.col(node).template cast<Number>();
   }
   const Number kept = Number(1) / (Number(1) + Number(beta_));
   const Vector3<Number> shared = force * Number((Number(1) - kept) / mass);
-  for (const int node : free_) {
+  for (const int node : free) {
     const Vector3<Number> own = forces.col(node).template cast<Number>();
     const Vector3<Number> result = kept * own + Number(state.masses[node]) * shared;
     forces.col(node) = result.template cast<Scalar>();
@@ -57,17 +58,17 @@ void AccelerationDamping<Scalar>::redistribute_forces(const State<Scalar>& state
 template <class Scalar>
 Scalar AccelerationDamping<Scalar>::added_kinetic_energy(const State<Scalar>& state) const {
   using Number = Wide<Scalar>;
-  const BodyNodes<Scalar> nodes{state, free_, state.velocities};
-  if (free_.empty()) return Scalar(0);
+  const BodyNodes<Scalar> nodes{state, free_.of(state.positions.cols()), state.velocities};
+  if (nodes.free.empty()) return Scalar(0);
   Number mass(0);
   Vector3<Number> mean = Vector3<Number>::Constant(Number(0));
-  for (const int node : free_) {
+  for (const int node : nodes.free) {
     mass += nodes.mass(node);
     mean += nodes.mass(node) * nodes.velocity(node);
   }
   mean /= mass;
   Number sum(0);
-  for (const int node : free_) {
+  for (const int node : nodes.free) {
     sum += nodes.mass(node) * Vector3<Number>(nodes.velocity(node) - mean).squaredNorm();
   }
   return static_cast<Scalar>(Number(0.5) * Number(beta_) * sum);

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <vector>
-
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/core/dual.hpp>
 #include <weft/custom_forces/force_law.hpp>
+#include <weft/custom_forces/free_nodes.hpp>
 
 namespace weft::forces {
 
@@ -39,8 +38,8 @@ class AccelerationDamping final : public ForceLaw<Scalar> {
   [[nodiscard]] Scalar added_kinetic_energy(const State<Scalar>& state) const override;
 
  private:
-  Scalar beta_;            ///< [-]
-  std::vector<int> free_;  ///< node indices, sorted
+  Scalar beta_;  ///< [-]
+  FreeNodes free_;
 };
 
 extern template class AccelerationDamping<float>;

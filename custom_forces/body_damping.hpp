@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include <weft/custom_forces/body_motion.hpp>
+#include <weft/custom_forces/free_nodes.hpp>
 
 namespace weft::forces {
 
@@ -23,15 +23,15 @@ namespace weft::forces {
 template <class Scalar, template <class> class Part>
 class BodyDamping {
  public:
-  BodyDamping(double rate, std::vector<int> free_nodes)
-      : rate_(static_cast<Scalar>(rate)), free_(std::move(free_nodes)) {}
+  /// rate [1/s]
+  BodyDamping(double rate, const ClothMesh& mesh) : rate_(static_cast<Scalar>(rate)), free_(mesh) {}
 
   /// result -= m rate Q velocities [N]
   void subtract(const State<Scalar>& state, ConstMatrix3XRef<Scalar> velocities,
                 Matrix3XRef<Scalar> result) const {
-    const BodyNodes<Scalar> nodes{state, free_, velocities};
+    const BodyNodes<Scalar> nodes{state, free_.of(state.positions.cols()), velocities};
     const Part<BodyNodes<Scalar>> part(nodes);
-    for (const int node : free_) {
+    for (const int node : nodes.free) {
       const Vector3<Wide<Scalar>> force =
           (Wide<Scalar>(rate_) * nodes.mass(node)) * part.velocity(node);
       result.col(node) -= force.template cast<Scalar>();
@@ -42,9 +42,10 @@ class BodyDamping {
   void subtract_derivative(const State<Scalar>& state, ConstMatrix3XRef<Scalar> displacements,
                            Matrix3XRef<Scalar> result) const {
     using Nodes = MovingBodyNodes<Scalar>;
-    const Nodes nodes{{state, free_, state.velocities}, free_, displacements};
+    const std::vector<int>& free = free_.of(state.positions.cols());
+    const Nodes nodes{{state, free, state.velocities}, free, displacements};
     const Part<Nodes> part(nodes);
-    for (const int node : free_) {
+    for (const int node : nodes.free) {
       const Wide<Scalar> factor = Wide<Scalar>(rate_) * nodes.nodes.mass(node);
       const Vector3<typename Nodes::Number> v = part.velocity(node);
       for (int axis = 0; axis < 3; ++axis) {
@@ -55,19 +56,19 @@ class BodyDamping {
 
   /// -rate sum m |Q v|^2 [W]
   [[nodiscard]] Scalar power(const State<Scalar>& state) const {
-    const BodyNodes<Scalar> nodes{state, free_, state.velocities};
+    const BodyNodes<Scalar> nodes{state, free_.of(state.positions.cols()), state.velocities};
     const Part<BodyNodes<Scalar>> part(nodes);
     Wide<Scalar> sum(0);
-    for (const int node : free_) sum += nodes.mass(node) * part.velocity(node).squaredNorm();
+    for (const int node : nodes.free) sum += nodes.mass(node) * part.velocity(node).squaredNorm();
     return static_cast<Scalar>(-Wide<Scalar>(rate_) * sum);
   }
 
   /// velocities -= (1 - exp(-time_step rate)) Q velocities
   void advance(const State<Scalar>& state, Scalar time_step, Matrix3XRef<Scalar> velocities) const {
-    const BodyNodes<Scalar> nodes{state, free_, velocities};
+    const BodyNodes<Scalar> nodes{state, free_.of(state.positions.cols()), velocities};
     const Part<BodyNodes<Scalar>> part(nodes);
     const Wide<Scalar> factor = loss(Wide<Scalar>(rate_) * Wide<Scalar>(time_step));
-    for (const int node : free_) {
+    for (const int node : nodes.free) {
       const Vector3<Wide<Scalar>> v = nodes.velocity(node) - factor * part.velocity(node);
       velocities.col(node) = v.template cast<Scalar>();
     }
@@ -79,8 +80,8 @@ class BodyDamping {
     return Wide<Scalar>(1) - Wide<Scalar>(exp(Wide<Scalar>(-exponent)));
   }
 
-  Scalar rate_;            ///< [1/s]
-  std::vector<int> free_;  ///< node indices, sorted
+  Scalar rate_;  ///< [1/s]
+  FreeNodes free_;
 };
 
 }  // namespace weft::forces

@@ -26,7 +26,7 @@ const LawInfo RotationDamping<Scalar>::kInfo{
 template <class Scalar>
 RotationDamping<Scalar>::RotationDamping(const LawSpecification& specification,
                                          const ClothMesh& mesh)
-    : damping_(law_scalar(specification, "rate"), free_nodes(mesh)) {}
+    : damping_(law_scalar(specification, "rate"), mesh) {}
 
 template <class Scalar>
 void RotationDamping<Scalar>::add_forces(const State<Scalar>& state,

@@ -30,7 +30,7 @@ const LawInfo TorsionalRotationDamping<Scalar>::kInfo{
 template <class Scalar>
 TorsionalRotationDamping<Scalar>::TorsionalRotationDamping(const LawSpecification& specification,
                                                            const ClothMesh& mesh)
-    : damping_(law_scalar(specification, "rate"), free_nodes(mesh)) {}
+    : damping_(law_scalar(specification, "rate"), mesh) {}
 
 template <class Scalar>
 void TorsionalRotationDamping<Scalar>::add_forces(const State<Scalar>& state,

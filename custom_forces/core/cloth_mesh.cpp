@@ -64,14 +64,6 @@ void connect(ClothMesh& mesh, const std::string& name, int node,
   mesh.connection_sets.push_back(std::move(set));
 }
 
-std::vector<int> free_nodes(const ClothMesh& mesh) {
-  std::vector<int> nodes;
-  for (int node = 0; node < mesh.num_nodes(); ++node) {
-    if (!std::binary_search(mesh.pinned.begin(), mesh.pinned.end(), node)) nodes.push_back(node);
-  }
-  return nodes;
-}
-
 VectorX<double> node_areas(const ClothMesh& mesh) {
   VectorX<double> areas = VectorX<double>::Zero(mesh.num_nodes());
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {

@@ -57,9 +57,6 @@ struct ClothMesh {
 /// is taken.
 void connect(ClothMesh& mesh, const std::string& name, int node, const std::vector<int>& far_nodes);
 
-/// Indices of the nodes that are not pinned, sorted.
-[[nodiscard]] std::vector<int> free_nodes(const ClothMesh& mesh);
-
 /// Rest area that belongs to each node: a third of each triangle around it. n [m^2].
 [[nodiscard]] VectorX<double> node_areas(const ClothMesh& mesh);
 

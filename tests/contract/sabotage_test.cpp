@@ -86,6 +86,13 @@ const std::vector<Control> kControls = {
      two_half_steps_are_one<double>},
     {"ChangedVelocitiesFailForceLevel", "tension", Fault::kChangesVelocities,
      advance_changes_nothing<double>},
+    {"EulerDecayFailsRotationDamping", "rotation_damping", Fault::kEulerDecay,
+     advance_solves_the_equation},
+    {"EulerDecayFailsTorsionalDamping", "torsional_rotation_damping", Fault::kEulerDecay,
+     advance_solves_the_equation},
+};
+
+const std::vector<Control> kInertiaControls = {
     {"NetForceFailsAddingNothingFloat", "acceleration_damping", Fault::kNetForce,
      inertia_adds_nothing<float>},
     {"NetForceFailsAddingNothingDouble", "acceleration_damping", Fault::kNetForce,
@@ -128,15 +135,13 @@ const std::vector<Control> kControls = {
      inertia_in_float_agrees_with_double},
     {"RedistributingFailsForceLevel", "tension", Fault::kInertiaOfAll,
      redistribution_changes_nothing<double>},
-    {"EulerDecayFailsRotationDamping", "rotation_damping", Fault::kEulerDecay,
-     advance_solves_the_equation},
-    {"EulerDecayFailsTorsionalDamping", "torsional_rotation_damping", Fault::kEulerDecay,
-     advance_solves_the_equation},
 };
 
 class Sabotage : public testing::TestWithParam<Control> {};
 
 INSTANTIATE_TEST_SUITE_P(Battery, Sabotage, testing::ValuesIn(kControls),
+                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Inertia, Sabotage, testing::ValuesIn(kInertiaControls),
                          [](const auto& info) { return info.param.name; });
 
 TEST_P(Sabotage, IsFoundAndTheRightLawPasses) {
