@@ -9,4 +9,7 @@ void evaluate_oscillator(const CaseInfo&, const CaseOptions&, const EngineRuns&,
 void evaluate_observed_orders(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 void evaluate_hanging_chain(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
+void evaluate_acceleration_damping(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+void evaluate_rotation_damping(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+
 }  // namespace weft::validation
