@@ -13,4 +13,7 @@ void evaluate_cantilever(const CaseInfo&, const CaseOptions&, const EngineRuns&,
 void evaluate_torsion_beam(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 void evaluate_nonlocal_torsion(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
+void evaluate_acceleration_damping(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+void evaluate_rotation_damping(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+
 }  // namespace weft::validation
