@@ -62,4 +62,13 @@ VectorX<double> law_rest_lengths(const LawSpecification& specification, const Cl
   return lengths;
 }
 
+Triangles law_faces(const LawSpecification& specification, const ClothMesh& mesh) {
+  const Triangles& faces = mesh.triangles;
+  if (faces.size() > 0 && (faces.minCoeff() < 0 || faces.maxCoeff() >= mesh.num_nodes())) {
+    throw InvalidArgument(specification.law + ": a triangle names a node outside 0 to " +
+                          std::to_string(mesh.num_nodes() - 1));
+  }
+  return faces;
+}
+
 }  // namespace weft::forces

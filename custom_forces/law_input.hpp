@@ -22,4 +22,7 @@ namespace weft::forces {
 [[nodiscard]] VectorX<double> law_rest_lengths(const LawSpecification& specification,
                                                const ClothMesh& mesh, const Edges& edges);
 
+/// The triangles of the mesh. Throws InvalidArgument for one with a node the mesh does not have.
+[[nodiscard]] Triangles law_faces(const LawSpecification& specification, const ClothMesh& mesh);
+
 }  // namespace weft::forces
