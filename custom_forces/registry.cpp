@@ -10,9 +10,11 @@
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/gravity.hpp>
 #include <weft/custom_forces/hinge_torsion.hpp>
+#include <weft/custom_forces/nonlocal_torsion.hpp>
 #include <weft/custom_forces/pressure.hpp>
 #include <weft/custom_forces/spring_damping.hpp>
 #include <weft/custom_forces/tension.hpp>
+#include <weft/custom_forces/torsion.hpp>
 #include <weft/custom_forces/velocity_damping.hpp>
 #include <weft/custom_forces/wind.hpp>
 
@@ -42,10 +44,19 @@ Row row() {
 
 // The one list of laws. Everything that enumerates laws reads this table.
 const auto& rows() {
+  // clang-format off
   static const std::array kRows = {
-      row<Tension>(), row<SpringDamping>(), row<HingeTorsion>(), row<VelocityDamping>(),
-      row<Gravity>(), row<Wind>(),          row<Pressure>(),
+      row<Tension>(),
+      row<SpringDamping>(),
+      row<Torsion>(),
+      row<HingeTorsion>(),
+      row<NonlocalTorsion>(),
+      row<VelocityDamping>(),
+      row<Gravity>(),
+      row<Wind>(),
+      row<Pressure>(),
   };
+  // clang-format on
   return kRows;
 }
 
