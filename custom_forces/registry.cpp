@@ -8,6 +8,7 @@
 #include <string>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/drive.hpp>
 #include <weft/custom_forces/gravity.hpp>
 #include <weft/custom_forces/hinge_torsion.hpp>
 #include <weft/custom_forces/nonlocal_torsion.hpp>
@@ -55,6 +56,7 @@ const auto& rows() {
       row<Gravity>(),
       row<Wind>(),
       row<Pressure>(),
+      row<Drive>(),
   };
   // clang-format on
   return kRows;
@@ -135,6 +137,8 @@ std::string_view set_key(ElementKind elements) {
       return "line_sets";
     case ElementKind::kConnections:
       return "connection_sets";
+    case ElementKind::kNodeSets:
+      return "node_sets";
     case ElementKind::kNodes:
     case ElementKind::kHinges:
     case ElementKind::kFaces:
@@ -170,7 +174,9 @@ LawSpecification checked(const LawSpecification& specification) {
         throw InvalidArgument(specification.law + ": parameter '" + std::string(parameter.name) +
                               "' is missing, expected a value in " + std::string(parameter.unit));
       }
-      result.parameters.emplace(parameter.name, std::vector<double>{parameter.default_value});
+      result.parameters.emplace(
+          parameter.name,
+          std::vector<double>(static_cast<std::size_t>(parameter.size), parameter.default_value));
       continue;
     }
     check_values(specification, parameter, given->second);

@@ -27,6 +27,12 @@ struct ConnectionSet {
   Edges connections;  ///< 2 x m: the node whose frame counts, the far node
 };
 
+/// A named region of the mesh, so that a law can act on some nodes and not on others.
+struct NodeSet {
+  std::string name;
+  std::vector<int> nodes;  ///< sorted
+};
+
 /// How the triangles were laid out, which decides what a hinge stands for (hinge_torsion).
 enum class Tessellation {
   kGeneral,
@@ -42,6 +48,7 @@ struct ClothMesh {
   std::vector<EdgeSet> edge_sets;
   std::vector<LineSet> line_sets = {};
   std::vector<ConnectionSet> connection_sets = {};
+  std::vector<NodeSet> node_sets = {};
   VectorX<double> masses;   ///< n [kg], > 0 for every node, also for pinned ones
   std::vector<int> pinned;  ///< sorted node indices that do not move
 
