@@ -27,6 +27,7 @@ struct SoftBodySolver::Attachment {
   Matrix3X<btScalar> forces;
   std::optional<BodyBlowUp> blow_up;
   bool was_in_world = false;
+  double time = 0.0;  // [s] of the steps since the body was attached
 
   void add_forces(btScalar time_step);
   void advance_velocities(btScalar time_step);
@@ -41,7 +42,7 @@ struct SoftBodySolver::Attachments {
 void SoftBodySolver::Attachment::add_forces(btScalar time_step) {
   read_nodes(*body, positions, velocities);
   forces.setZero(3, positions.cols());
-  const forces::ForceReport report = laws.add_forces(State{positions, velocities, masses},
+  const forces::ForceReport report = laws.add_forces(State{positions, velocities, masses, time},
                                                      LawSet::VelocityLaws::kSeparate, forces);
   if (!report.ok()) {
     blow_up = BodyBlowUp{*report.first_non_finite_node, "position or velocity is not finite"};
@@ -82,7 +83,7 @@ void SoftBodySolver::Attachment::check_laws() {
 void SoftBodySolver::Attachment::advance_velocities(btScalar time_step) {
   read_nodes(*body, positions, velocities);
   forces = velocities;  // the laws see the state as it is and change a copy
-  laws.advance_velocities(State{positions, velocities, masses}, time_step, forces);
+  laws.advance_velocities(State{positions, velocities, masses, time}, time_step, forces);
   write_node_velocities(forces, *body);
 }
 
@@ -189,6 +190,9 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
     if (!body.isActive() || is_frozen(body)) continue;
     body.solveConstraints();
     if (Attachment* attachment = find(body)) attachment->advance_velocities(time_step_);
+  }
+  for (const auto& attachment : attachments_->list) {
+    if (attachment->was_in_world) attachment->time += static_cast<double>(time_step_);
   }
 }
 

@@ -50,11 +50,15 @@ struct ClothMesh {
   std::vector<ConnectionSet> connection_sets = {};
   std::vector<NodeSet> node_sets = {};
   VectorX<double> masses;   ///< n [kg], > 0 for every node, also for pinned ones
-  std::vector<int> pinned;  ///< sorted node indices that do not move
+  std::vector<int> pinned;  ///< sorted node indices that no force moves
+  /// Of the pinned nodes, 3 x pinned.size() [m/s]: they keep moving so. Empty: they stand still.
+  Matrix3X<double> pinned_velocities = {};
 
   [[nodiscard]] int num_nodes() const { return static_cast<int>(rest_positions.cols()); }
   [[nodiscard]] int num_edges() const;
   [[nodiscard]] bool has_edge_set(std::string_view name) const;
+  /// Velocity of the i-th pinned node [m/s].
+  [[nodiscard]] Vector3<double> pinned_velocity(std::size_t i) const;
   /// The edges of the named sets, one after the other. Throws InvalidArgument for an unknown set.
   [[nodiscard]] Edges edges_of(const std::vector<std::string>& set_names) const;
 };

@@ -8,5 +8,7 @@ namespace weft::validation {
 void evaluate_oscillator(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 void evaluate_observed_orders(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 void evaluate_hanging_chain(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+void evaluate_hover(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+void evaluate_balloon(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
 }  // namespace weft::validation

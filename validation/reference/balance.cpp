@@ -2,10 +2,10 @@
 
 namespace weft::reference {
 
-Energies energies(const System& system) {
+Energies energies(const System& system, double time) {
   Energies sum;
   for (const Body& body : system.bodies) {
-    const forces::State<double> state{body.positions, body.velocities, body.mesh.masses};
+    const forces::State<double> state{body.positions, body.velocities, body.mesh.masses, time};
     sum.kinetic += 0.5 * body.velocities.colwise().squaredNorm().dot(body.mesh.masses);
     sum.potential += body.laws.potential_energy(state);
     sum.power += body.laws.non_conservative_power(state);

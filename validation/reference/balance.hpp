@@ -12,7 +12,8 @@ struct Energies {
   [[nodiscard]] double total() const { return kinetic + potential; }
 };
 
-[[nodiscard]] Energies energies(const System& system);
+/// time [s]: what the laws get to know as the time, for drive.
+[[nodiscard]] Energies energies(const System& system, double time = 0.0);
 
 /// Sum of m v over cloth nodes and colliders with a mass [kg m/s].
 [[nodiscard]] Vector3<double> linear_momentum(const System& system);
