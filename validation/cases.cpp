@@ -18,6 +18,7 @@ std::span<const CaseInfo> all_cases() {
       CaseInfo{"drop_box", "A cloth falls over the edges of a box", &plan_scene, &evaluate_scene},
       CaseInfo{"ball_on_cloth", "A ball falls on a pinned cloth: both move", &plan_scene,
                &evaluate_scene},
+      CaseInfo{"wind_hover", "A wind catches a falling cloth", &plan_scene, &evaluate_scene},
       CaseInfo{"oscillator", "Four integrators against their own exact recurrence", nullptr,
                &evaluate_oscillator},
       CaseInfo{"observed_orders", "The error falls with the step as each integrator promises",
