@@ -23,12 +23,12 @@ constexpr ParameterInfo kParameters[] = {
      .default_value = 2.0},
 };
 
-/// A hinge at rest.
+/// A hinge at rest, unfolded into a plane with the edge along t and n across it.
 struct RestHinge {
-  double length;      ///< of the edge [m]
-  double areas;       ///< sum of both triangles [m^2]
-  double normals[2];  ///< twice the area of each triangle [m^2]
-  bool is_diagonal;   ///< the longest side of both triangles
+  double length = 0;       ///< of the edge [m]
+  double heights[2] = {};  ///< of the triangles above the edge [m]
+  double feet[2] = {};     ///< of the heights, from the edge's first node [m]
+  [[nodiscard]] double areas() const { return length * (heights[0] + heights[1]) / 2; }
 };
 
 RestHinge rest_hinge(const ClothMesh& mesh, const Eigen::Vector4i& nodes) {
@@ -36,32 +36,38 @@ RestHinge rest_hinge(const ClothMesh& mesh, const Eigen::Vector4i& nodes) {
     return mesh.rest_positions.col(nodes[corner]);
   };
   const Vector3<double> edge = x(1) - x(0);
-  RestHinge hinge{};
+  RestHinge hinge;
   hinge.length = edge.norm();
-  hinge.is_diagonal = true;
   for (int side = 0; side < 2; ++side) {
     const Vector3<double> wing = x(2 + side) - x(0);
-    hinge.normals[side] = edge.cross(wing).norm();
-    hinge.is_diagonal = hinge.is_diagonal && wing.norm() < hinge.length &&
-                        (x(2 + side) - x(1)).norm() < hinge.length;
-    if (!(hinge.normals[side] > 0) || !std::isfinite(hinge.normals[side])) {
-      throw InvalidArgument(
-          "hinge_torsion: area of the triangle of nodes " + std::to_string(nodes[0]) + ", " +
-          std::to_string(nodes[1]) + " and " + std::to_string(nodes[2 + side]) + " = " +
-          std::to_string(hinge.normals[side] / 2) + " [m^2], expected > 0 and finite");
+    const double twice_area = edge.cross(wing).norm();
+    if (!(twice_area > 0) || !std::isfinite(twice_area)) {
+      throw InvalidArgument("hinge_torsion: area of the triangle of nodes " +
+                            std::to_string(nodes[0]) + ", " + std::to_string(nodes[1]) + " and " +
+                            std::to_string(nodes[2 + side]) + " = " +
+                            std::to_string(twice_area / 2) + " [m^2], expected > 0 and finite");
     }
+    hinge.heights[side] = twice_area / hinge.length;
+    hinge.feet[side] = wing.dot(edge) / hinge.length;
   }
-  hinge.areas = (hinge.normals[0] + hinge.normals[1]) / 2;
   return hinge;
+}
+
+/// S : S [m^2], see the header.
+double squared_response(const RestHinge& hinge) {
+  const auto& [h1, h2] = hinge.heights;
+  const auto& [f1, f2] = hinge.feet;
+  const double l = hinge.length;
+  const double across = (h1 + h2) / 2;
+  const double along = (f1 * (f1 - l) / h1 + f2 * (f2 - l) / h2) / 2;
+  const double mixed = (f1 - f2) / 2;
+  return across * across + along * along + 2 * mixed * mixed;
 }
 
 /// k / D, see the header.
 double weight(const RestHinge& hinge, Tessellation tessellation) {
-  const double squared_length = hinge.length * hinge.length;
-  if (tessellation == Tessellation::kUnionJack && hinge.is_diagonal) {
-    return 2 * hinge.areas / squared_length;
-  }
-  return squared_length / hinge.areas;  // l / h with the mean height h = areas / l
+  if (tessellation == Tessellation::kUnionJack) return hinge.areas() / squared_response(hinge);
+  return hinge.length * hinge.length / hinge.areas();  // l / h with the mean height h = areas / l
 }
 
 bool is_at_clamp(const std::vector<bool>& pinned, const Eigen::Vector4i& nodes) {
@@ -116,9 +122,10 @@ const LawInfo HingeTorsion<Scalar>::kInfo{
     .id = "hinge_torsion",
     .summary = "Bending of a surface by torsion springs in its hinges",
     .formula =
-        "E = k (theta - theta0)^2 / 2, k = D on square union-jack cells, D l / h elsewhere, "
-        "times factor at a clamp",
-    .source = "own derivation: energy of a quadratic surface; length weighting as Feng et al. 2022",
+        "E = k (theta - theta0)^2 / 2, k = D A / (S : S) on union-jack grids (D on square cells), "
+        "D l / h elsewhere, times factor at a clamp",
+    .source =
+        "own derivation: energy of a quadratic surface; length weighting as in Feng et al. 2022",
     .traits = {.internal = true,
                .ignores_rigid_motion = true,
                .free_at_rest = true,
@@ -142,7 +149,7 @@ HingeTorsion<Scalar>::HingeTorsion(const LawSpecification& specification, const 
     const double factor = is_at_clamp(pinned, nodes) ? clamp_factor : 1.0;
     stiffness_[h] = Scalar(rigidity * factor * weight(hinge, mesh.tessellation));
     for (int side = 0; side < 2; ++side) {
-      const double smallest = kMinAreaRatio * hinge.normals[side];
+      const double smallest = kMinAreaRatio * hinge.length * hinge.heights[side];
       smallest_normals_(side, h) = Scalar(smallest * smallest);
     }
     smallest_normals_(2, h) = Scalar(0);
