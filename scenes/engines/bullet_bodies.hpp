@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <weft/scenes/scene.hpp>
+#include <weft/scenes/simulator.hpp>
+
+namespace weft::scenes {
+
+/// The bodies of a scene in one of Bullet's worlds, and their state as the port reports it.
+class BulletBodies {
+ public:
+  /// body is the cloth's; its free nodes get the cloth's initial velocity.
+  void add(const Cloth& cloth, btSoftBody& body);
+  void add(const Collider& collider, btRigidBody& body);
+  /// Reads all positions and velocities from Bullet; time is [s].
+  void read_state(double time);
+
+  [[nodiscard]] const std::vector<btSoftBody*>& cloths() const { return cloths_; }
+  [[nodiscard]] const SceneState& state() const { return state_; }
+
+ private:
+  std::vector<btSoftBody*> cloths_;
+  std::vector<btRigidBody*> rigids_;
+  std::vector<double> rigid_offsets_;  ///< [m] see bullet_shape_offset()
+  SceneState state_;
+};
+
+}  // namespace weft::scenes
