@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
+
+#include <weft/bridge/node_colors.hpp>
 #include <weft/custom_forces/core/error.hpp>
 
 namespace weft::bridge {
@@ -24,6 +27,7 @@ struct DeformableForces::Attachment {
   Matrix3X<btScalar> still_positions;  ///< where still_forces were evaluated
   Matrix3X<btScalar> still_forces;     ///< f(x, 0) [N]
   Matrix3X<btScalar> no_velocities;
+  std::vector<std::vector<int>> colors;  ///< see node_colors(); empty if the mesh is not known
   std::optional<BodyBlowUp> blow_up;
 
   [[nodiscard]] State state() const { return {positions, velocities, masses}; }
@@ -36,6 +40,7 @@ struct DeformableForces::Attachment {
   void write(btScalar scale, Stack& out) const;
   void explode(int node, std::string reason);
   [[nodiscard]] double clamp_speed(btScalar time_step) const;
+  void add_effective_mass(btScalar time_step);
 };
 
 void DeformableForces::Attachment::read(NodeVector position) {
@@ -118,6 +123,67 @@ double DeformableForces::Attachment::clamp_speed(btScalar time_step) const {
   return static_cast<double>((size + Vector3<btScalar>::Constant(margin)).norm() / time_step);
 }
 
+namespace {
+
+/// Hears of everything near a box that is not soft.
+struct RigidNearby : btBroadphaseAabbCallback {
+  bool found = false;
+  bool process(const btBroadphaseProxy* proxy) override {
+    const auto* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);
+    found = found || !btSoftBody::upcast(object);
+    return !found;
+  }
+};
+
+// Whether a step could bring the body into contact: half its size around it is far beyond that.
+bool may_touch_rigid(const btSoftBody& body, const Matrix3X<btScalar>& positions) {
+  const Vector3<btScalar> low = positions.rowwise().minCoeff();
+  const Vector3<btScalar> high = positions.rowwise().maxCoeff();
+  const btScalar reach = (high - low).norm() / 2 + 2 * body.getCollisionShape()->getMargin();
+  const btVector3 around(reach, reach, reach);
+  RigidNearby nearby;
+  body.m_worldInfo->m_broadphase->aabbTest(btVector3(low[0], low[1], low[2]) - around,
+                                           btVector3(high[0], high[1], high[2]) + around, nearby);
+  return nearby.found;
+}
+
+// The part of a symmetric 3 x 3 block that makes a node heavier.
+Eigen::Matrix<btScalar, 3, 3> positive_part(const Eigen::Matrix<btScalar, 3, 3>& block) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix<btScalar, 3, 3>> solver((block + block.transpose()) /
+                                                                      2);
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(btScalar(0)).asDiagonal() *
+         solver.eigenvectors().transpose();
+}
+
+}  // namespace
+
+void DeformableForces::Attachment::add_effective_mass(btScalar time_step) {
+  std::vector<Eigen::Matrix<btScalar, 3, 3>> blocks(static_cast<std::size_t>(body->m_nodes.size()));
+  for (const std::vector<int>& group : colors) {
+    for (int axis = 0; axis < 3; ++axis) {
+      direction.setZero(3, positions.cols());
+      for (const int node : group) direction(axis, node) = 1;
+      forces.setZero(3, positions.cols());
+      laws.add_stiffness_product(state(), direction, forces);
+      forces *= time_step;
+      laws.add_damping_product(state(), direction, forces);
+      forces *= -time_step;
+      for (const int node : group) {
+        blocks[static_cast<std::size_t>(node)].col(axis) = forces.col(node);
+      }
+    }
+  }
+  for (const std::vector<int>& group : colors) {
+    for (const int node : group) {
+      if (!is_movable(node) || !blocks[static_cast<std::size_t>(node)].allFinite()) continue;
+      const auto block = positive_part(blocks[static_cast<std::size_t>(node)]);
+      body->m_nodes[node].m_effectiveMass +=
+          btMatrix3x3(block(0, 0), block(0, 1), block(0, 2), block(1, 0), block(1, 1), block(1, 2),
+                      block(2, 0), block(2, 1), block(2, 2));
+    }
+  }
+}
+
 DeformableForces::DeformableForces(const BulletLayout& caller) {
   require_matching_bullet(caller);
   m_nodes = nullptr;  // Bullet's constructor leaves it as it is
@@ -150,6 +216,7 @@ DeformableForces::Attachment* DeformableForces::find(const btSoftBody& body) con
 void DeformableForces::attach(btSoftBody& body, const ClothMesh& mesh,
                               const std::vector<forces::LawSpecification>& laws) {
   attach(body, make_laws(mesh, laws), mesh.masses.cast<btScalar>());
+  attachments_.back()->colors = node_colors(mesh);
 }
 
 namespace {
@@ -274,6 +341,15 @@ void DeformableForces::addScaledForces(btScalar scale, Stack& force) {
     }
     attachment->write(scale, force);
     attachment->add_node_forces(scale, force);
+  }
+}
+
+void DeformableForces::addScaledHessian(btScalar scale) {
+  for (const auto& attachment : attachments_) {
+    if (!takes_part(*attachment)) continue;
+    attachment->read(&btSoftBody::Node::m_q);
+    if (!may_touch_rigid(*attachment->body, attachment->positions)) continue;
+    attachment->add_effective_mass(scale);
   }
 }
 

@@ -27,8 +27,7 @@ void prepare_for_deformable_world(btSoftBody& body) {
     throw InvalidArgument("deformable world: the body has " + std::to_string(body.m_links.size()) +
                           " links, which this world ignores; expected none and a tension law");
   }
-  body.m_cfg.collisions = btSoftBody::fCollision::SDF_RD | btSoftBody::fCollision::SDF_RDN |
-                          btSoftBody::fCollision::SDF_RDF;
+  body.m_cfg.collisions = btSoftBody::fCollision::SDF_RD | btSoftBody::fCollision::SDF_RDN;
   body.setSelfCollision(false);
   body.forceActivationState(DISABLE_DEACTIVATION);
   for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_vn = body.m_nodes[i].m_v;
@@ -57,7 +56,9 @@ void DeformableSolver::predictMotion(btScalar time_step) {
     body.updateConstants();
     build_face_tree(body);
   }
+  m_objective->m_massPreconditioner->reinitialize(true);
   btDeformableBodySolver::predictMotion(time_step);
+  if (m_implicit) predict_positions(time_step);
 }
 
 void DeformableSolver::setLagrangeMultiplier() {
@@ -65,6 +66,18 @@ void DeformableSolver::setLagrangeMultiplier() {
     setProjection();
   } else {
     btDeformableBodySolver::setLagrangeMultiplier();
+  }
+}
+
+// Bullet looks for contacts of an implicit step where the nodes are, one step too late; here, as in
+// explicit mode, where they will be.
+void DeformableSolver::predict_positions(btScalar time_step) {
+  for (int b = 0; b < m_softBodies.size(); ++b) {
+    btSoftBody& body = *m_softBodies[b];
+    if (!body.isActive()) continue;
+    for (int i = 0; i < body.m_nodes.size(); ++i) {
+      body.m_nodes[i].m_q = body.m_nodes[i].m_x + time_step * body.m_nodes[i].m_v;
+    }
   }
 }
 

@@ -52,6 +52,7 @@ class DeformableSolver : public btDeformableBodySolver {
   void applyTransforms(btScalar time_step) override;
 
  private:
+  void predict_positions(btScalar time_step);
   void add_gravity();
   void apply_predicting_impulses();
 
