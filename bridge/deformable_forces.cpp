@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-
+#include <weft/bridge/deformable_attachment.hpp>
 #include <weft/bridge/node_colors.hpp>
 #include <weft/custom_forces/core/error.hpp>
 
@@ -12,177 +11,7 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
 using LawSet = forces::LawSet<btScalar>;
-using State = forces::State<btScalar>;
 using Stack = btDeformableLagrangianForce::TVStack;
-using NodeVector = btVector3 btSoftBody::Node::*;
-
-struct DeformableForces::Attachment {
-  btSoftBody* body;
-  LawSet laws;
-  VectorX<btScalar> masses;
-  Matrix3X<btScalar> positions;
-  Matrix3X<btScalar> velocities;
-  Matrix3X<btScalar> forces;
-  Matrix3X<btScalar> direction;
-  Matrix3X<btScalar> still_positions;  ///< where still_forces were evaluated
-  Matrix3X<btScalar> still_forces;     ///< f(x, 0) [N]
-  Matrix3X<btScalar> no_velocities;
-  std::vector<std::vector<int>> colors;  ///< see node_colors(); empty if the mesh is not known
-  std::optional<BodyBlowUp> blow_up;
-
-  [[nodiscard]] State state() const { return {positions, velocities, masses}; }
-  [[nodiscard]] bool is_movable(int node) const { return body->m_nodes[node].m_im > 0; }
-  void read(NodeVector position);
-  bool evaluate();
-  bool evaluate_velocity_part();
-  void evaluate_still();
-  void add_node_forces(btScalar scale, Stack& out) const;
-  void write(btScalar scale, Stack& out) const;
-  void explode(int node, std::string reason);
-  [[nodiscard]] double clamp_speed(btScalar time_step) const;
-  void add_effective_mass(btScalar time_step);
-};
-
-void DeformableForces::Attachment::read(NodeVector position) {
-  const int num_nodes = body->m_nodes.size();
-  positions.resize(3, num_nodes);
-  velocities.resize(3, num_nodes);
-  for (int i = 0; i < num_nodes; ++i) {
-    const btSoftBody::Node& node = body->m_nodes[i];
-    const btVector3& x = node.*position;
-    positions.col(i) << x.x(), x.y(), x.z();
-    velocities.col(i) << node.m_v.x(), node.m_v.y(), node.m_v.z();
-  }
-}
-
-// False if the state is beyond use; the body is then frozen.
-bool DeformableForces::Attachment::evaluate() {
-  forces.setZero(3, positions.cols());
-  const forces::ForceReport report =
-      laws.add_forces(state(), LawSet::VelocityLaws::kAsForces, forces);
-  if (!report.ok()) {
-    explode(*report.first_non_finite_node, "position or velocity is not finite");
-    return false;
-  }
-  for (Eigen::Index i = 0; i < forces.cols(); ++i) {
-    if (forces.col(i).allFinite()) continue;
-    explode(static_cast<int>(i), "force is not finite");
-    return false;
-  }
-  return true;
-}
-
-void DeformableForces::Attachment::evaluate_still() {
-  if (still_positions.cols() == positions.cols() && still_positions == positions) return;
-  no_velocities.setZero(3, positions.cols());
-  still_forces.setZero(3, positions.cols());
-  still_positions = positions;
-  (void)laws.add_forces(State{positions, no_velocities, masses}, LawSet::VelocityLaws::kAsForces,
-                        still_forces);
-}
-
-// forces = f(x, v) - f(x, 0). Where nothing depends on velocity this is zero to the last bit.
-bool DeformableForces::Attachment::evaluate_velocity_part() {
-  if (!evaluate()) return false;
-  evaluate_still();
-  forces -= still_forces;
-  return true;
-}
-
-void DeformableForces::Attachment::write(btScalar scale, Stack& out) const {
-  for (int i = 0; i < body->m_nodes.size(); ++i) {
-    if (!is_movable(i)) continue;
-    out[body->m_nodes[i].index] += scale * btVector3(forces(0, i), forces(1, i), forces(2, i));
-  }
-}
-
-void DeformableForces::Attachment::add_node_forces(btScalar scale, Stack& out) const {
-  for (int i = 0; i < body->m_nodes.size(); ++i) {
-    if (is_movable(i)) out[body->m_nodes[i].index] += scale * body->m_nodes[i].m_f;
-  }
-}
-
-void DeformableForces::Attachment::explode(int node, std::string reason) {
-  blow_up = BodyBlowUp{node, std::move(reason)};
-  for (int i = 0; i < body->m_nodes.size(); ++i) {
-    body->m_nodes[i].m_v.setZero();
-    body->m_nodes[i].m_vn.setZero();
-    body->m_nodes[i].m_splitv.setZero();
-  }
-  body->m_nodeRigidContacts.resize(0);
-  body->m_faceRigidContacts.resize(0);
-  body->m_faceNodeContacts.resize(0);
-  body->m_faceNodeContactsCCD.resize(0);
-  body->forceActivationState(DISABLE_SIMULATION);
-}
-
-// Bullet's explicit step clamps every node to the diagonal of the body's bounds per step.
-double DeformableForces::Attachment::clamp_speed(btScalar time_step) const {
-  const Vector3<btScalar> size = positions.rowwise().maxCoeff() - positions.rowwise().minCoeff();
-  const btScalar margin = 2 * body->getCollisionShape()->getMargin();
-  return static_cast<double>((size + Vector3<btScalar>::Constant(margin)).norm() / time_step);
-}
-
-namespace {
-
-/// Hears of everything near a box that is not soft.
-struct RigidNearby : btBroadphaseAabbCallback {
-  bool found = false;
-  bool process(const btBroadphaseProxy* proxy) override {
-    const auto* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);
-    found = found || !btSoftBody::upcast(object);
-    return !found;
-  }
-};
-
-// Whether a step could bring the body into contact: half its size around it is far beyond that.
-bool may_touch_rigid(const btSoftBody& body, const Matrix3X<btScalar>& positions) {
-  const Vector3<btScalar> low = positions.rowwise().minCoeff();
-  const Vector3<btScalar> high = positions.rowwise().maxCoeff();
-  const btScalar reach = (high - low).norm() / 2 + 2 * body.getCollisionShape()->getMargin();
-  const btVector3 around(reach, reach, reach);
-  RigidNearby nearby;
-  body.m_worldInfo->m_broadphase->aabbTest(btVector3(low[0], low[1], low[2]) - around,
-                                           btVector3(high[0], high[1], high[2]) + around, nearby);
-  return nearby.found;
-}
-
-// The part of a symmetric 3 x 3 block that makes a node heavier.
-Eigen::Matrix<btScalar, 3, 3> positive_part(const Eigen::Matrix<btScalar, 3, 3>& block) {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix<btScalar, 3, 3>> solver((block + block.transpose()) /
-                                                                      2);
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(btScalar(0)).asDiagonal() *
-         solver.eigenvectors().transpose();
-}
-
-}  // namespace
-
-void DeformableForces::Attachment::add_effective_mass(btScalar time_step) {
-  std::vector<Eigen::Matrix<btScalar, 3, 3>> blocks(static_cast<std::size_t>(body->m_nodes.size()));
-  for (const std::vector<int>& group : colors) {
-    for (int axis = 0; axis < 3; ++axis) {
-      direction.setZero(3, positions.cols());
-      for (const int node : group) direction(axis, node) = 1;
-      forces.setZero(3, positions.cols());
-      laws.add_stiffness_product(state(), direction, forces);
-      forces *= time_step;
-      laws.add_damping_product(state(), direction, forces);
-      forces *= -time_step;
-      for (const int node : group) {
-        blocks[static_cast<std::size_t>(node)].col(axis) = forces.col(node);
-      }
-    }
-  }
-  for (const std::vector<int>& group : colors) {
-    for (const int node : group) {
-      if (!is_movable(node) || !blocks[static_cast<std::size_t>(node)].allFinite()) continue;
-      const auto block = positive_part(blocks[static_cast<std::size_t>(node)]);
-      body->m_nodes[node].m_effectiveMass +=
-          btMatrix3x3(block(0, 0), block(0, 1), block(0, 2), block(1, 0), block(1, 1), block(1, 2),
-                      block(2, 0), block(2, 1), block(2, 2));
-    }
-  }
-}
 
 DeformableForces::DeformableForces(const BulletLayout& caller) {
   require_matching_bullet(caller);
@@ -206,7 +35,7 @@ void DeformableForces::remove_from(btDeformableBodySolver& solver) {
   m_nodes = nullptr;
 }
 
-DeformableForces::Attachment* DeformableForces::find(const btSoftBody& body) const {
+DeformableAttachment* DeformableForces::find(const btSoftBody& body) const {
   for (const auto& attachment : attachments_) {
     if (attachment->body == &body) return attachment.get();
   }
@@ -243,7 +72,7 @@ void DeformableForces::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> m
   }
   check_attachment("deformable forces", body, masses);
   check_ignored_features(body);
-  auto attachment = std::make_unique<Attachment>();
+  auto attachment = std::make_unique<DeformableAttachment>();
   attachment->body = &body;
   attachment->laws = std::move(laws);
   attachment->masses = std::move(masses);
@@ -273,12 +102,12 @@ bool DeformableForces::has_laws(const btSoftBody& body) const {
 }
 
 std::optional<BodyBlowUp> DeformableForces::blow_up(const btSoftBody& body) const {
-  const Attachment* attachment = find(body);
+  const DeformableAttachment* attachment = find(body);
   return attachment ? attachment->blow_up : std::nullopt;
 }
 
 // A body takes part once the solver has numbered its nodes.
-bool DeformableForces::takes_part(const Attachment& attachment) const {
+bool DeformableForces::takes_part(const DeformableAttachment& attachment) const {
   const auto& nodes = attachment.body->m_nodes;
   if (!m_nodes || attachment.blow_up || !attachment.body->isActive()) return false;
   if (nodes.size() != attachment.masses.size()) return false;
@@ -299,9 +128,7 @@ void DeformableForces::addScaledExplicitForce(btScalar scale, Stack& force) {
   for (const auto& attachment : attachments_) {
     if (!takes_part(*attachment)) continue;
     attachment->read(&btSoftBody::Node::m_x);
-    if (!attachment->evaluate()) continue;  // the velocity may be the part that is not finite
-    attachment->still_positions.resize(3, 0);
-    attachment->evaluate_still();
+    if (!attachment->evaluate_still()) continue;
     attachment->forces = attachment->still_forces;
     const double clamp = attachment->clamp_speed(scale);
     auto found = predicted_blow_up(*attachment->body, attachment->velocities, attachment->forces,
@@ -311,7 +138,7 @@ void DeformableForces::addScaledExplicitForce(btScalar scale, Stack& force) {
       continue;
     }
     attachment->write(scale, force);
-    attachment->add_node_forces(scale, force);
+    attachment->write_node_forces(scale, force);
     for (int i = 0; i < attachment->body->m_nodes.size(); ++i) {
       attachment->body->m_nodes[i].m_f.setZero();
     }
@@ -340,7 +167,7 @@ void DeformableForces::addScaledForces(btScalar scale, Stack& force) {
       continue;
     }
     attachment->write(scale, force);
-    attachment->add_node_forces(scale, force);
+    attachment->write_node_forces(scale, force);
   }
 }
 
@@ -348,7 +175,6 @@ void DeformableForces::addScaledHessian(btScalar scale) {
   for (const auto& attachment : attachments_) {
     if (!takes_part(*attachment)) continue;
     attachment->read(&btSoftBody::Node::m_q);
-    if (!may_touch_rigid(*attachment->body, attachment->positions)) continue;
     attachment->add_effective_mass(scale);
   }
 }
@@ -358,7 +184,7 @@ void DeformableForces::add_differential(btScalar scale, bool elastic, const Stac
   const bool implicit = elastic || (solver_ && solver_->m_objective->m_implicit);
   for (const auto& attachment : attachments_) {
     if (!takes_part(*attachment)) continue;
-    Attachment& a = *attachment;
+    DeformableAttachment& a = *attachment;
     a.read(implicit ? &btSoftBody::Node::m_q : &btSoftBody::Node::m_x);
     a.direction.resize(3, a.positions.cols());
     for (int i = 0; i < a.body->m_nodes.size(); ++i) {

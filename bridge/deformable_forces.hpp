@@ -12,6 +12,8 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
+struct DeformableAttachment;
+
 /// Weft's forces in Bullet's deformable world: one Lagrangian force that carries the laws of any
 /// number of bodies. It comes with DeformableSolver; with Bullet's own solver it works in explicit
 /// mode:
@@ -90,12 +92,11 @@ class DeformableForces : public btDeformableLagrangianForce {
 
  private:
   explicit DeformableForces(const BulletLayout& caller);
-  struct Attachment;
-  [[nodiscard]] Attachment* find(const btSoftBody& body) const;
-  [[nodiscard]] bool takes_part(const Attachment& attachment) const;
+  [[nodiscard]] DeformableAttachment* find(const btSoftBody& body) const;
+  [[nodiscard]] bool takes_part(const DeformableAttachment& attachment) const;
   void add_differential(btScalar scale, bool elastic, const TVStack& direction, TVStack& product);
 
-  std::vector<std::unique_ptr<Attachment>> attachments_;
+  std::vector<std::unique_ptr<DeformableAttachment>> attachments_;
   const btDeformableBodySolver* solver_ = nullptr;
   bool repairs_implicit_ = false;
   bool solve_has_failed_ = false;  ///< in this step, and the body that made it fail is known
