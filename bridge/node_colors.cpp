@@ -10,30 +10,59 @@ namespace {
 
 using Neighbours = std::vector<std::vector<int>>;
 
-void connect(int a, int b, Neighbours& neighbours) {
-  neighbours[static_cast<std::size_t>(a)].push_back(b);
-  neighbours[static_cast<std::size_t>(b)].push_back(a);
+void couple(const std::vector<int>& group, Neighbours& neighbours) {
+  for (const int a : group) {
+    for (const int b : group) {
+      if (a != b) neighbours[static_cast<std::size_t>(a)].push_back(b);
+    }
+  }
+}
+
+// Triangles, and pairs of triangles that share an edge.
+void couple_triangles(const ClothMesh& mesh, Neighbours& neighbours) {
+  std::map<std::pair<int, int>, std::vector<int>> opposite;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles(k, t);
+      const int b = mesh.triangles((k + 1) % 3, t);
+      const int c = mesh.triangles((k + 2) % 3, t);
+      couple({a, b}, neighbours);
+      std::vector<int>& others = opposite[std::minmax(a, b)];
+      for (const int other : others) couple({other, c}, neighbours);
+      others.push_back(c);
+    }
+  }
+}
+
+// A connection feels the frame of its node, and so the nodes of all triangles around it.
+void couple_connections(const ClothMesh& mesh, Neighbours& neighbours) {
+  for (const ConnectionSet& set : mesh.connection_sets) {
+    for (Eigen::Index c = 0; c < set.connections.cols(); ++c) {
+      const int node = set.connections(0, c);
+      std::vector<int> group = {node, set.connections(1, c)};
+      for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+        if ((mesh.triangles.col(t).array() != node).all()) continue;
+        for (int k = 0; k < 3; ++k) group.push_back(mesh.triangles(k, t));
+      }
+      couple(group, neighbours);
+    }
+  }
 }
 
 Neighbours neighbours_of(const ClothMesh& mesh) {
   Neighbours neighbours(static_cast<std::size_t>(mesh.num_nodes()));
   for (const EdgeSet& set : mesh.edge_sets) {
     for (Eigen::Index e = 0; e < set.edges.cols(); ++e) {
-      connect(set.edges(0, e), set.edges(1, e), neighbours);
+      couple({set.edges(0, e), set.edges(1, e)}, neighbours);
     }
   }
-  std::map<std::pair<int, int>, std::vector<int>> opposite;  // of each edge of a triangle
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = mesh.triangles(k, t);
-      const int b = mesh.triangles((k + 1) % 3, t);
-      const int c = mesh.triangles((k + 2) % 3, t);
-      connect(a, b, neighbours);
-      std::vector<int>& others = opposite[std::minmax(a, b)];
-      for (const int other : others) connect(other, c, neighbours);
-      others.push_back(c);
+  for (const LineSet& set : mesh.line_sets) {
+    for (Eigen::Index l = 0; l < set.triples.cols(); ++l) {
+      couple({set.triples(0, l), set.triples(1, l), set.triples(2, l)}, neighbours);
     }
   }
+  couple_triangles(mesh, neighbours);
+  couple_connections(mesh, neighbours);
   return neighbours;
 }
 

@@ -43,20 +43,19 @@ btRigidBody& add_rigid(DeformableWorld& world, std::unique_ptr<btCollisionShape>
   return world.add(std::move(body), std::move(shape));
 }
 
-class DeformableContact : public ::testing::TestWithParam<DeformableScheme> {
- protected:
-  [[nodiscard]] static DeformableWorldSettings settings() {
-    DeformableWorldSettings result;
-    result.gravity = {0, 0, 0};
-    result.scheme = GetParam();
-    result.contact_iterations = 20;
-    result.distance_field_voxel = 0.02;
-    return result;
-  }
-};
+DeformableWorldSettings settings_of(DeformableScheme scheme) {
+  DeformableWorldSettings result;
+  result.gravity = {0, 0, 0};
+  result.scheme = scheme;
+  result.contact_iterations = 20;
+  result.distance_field_voxel = 0.02;
+  return result;
+}
+
+class DeformableContact : public ::testing::TestWithParam<DeformableScheme> {};
 
 TEST_P(DeformableContact, ClothStaysOnASphere) {
-  DeformableWorld world(settings());
+  DeformableWorld world(settings_of(GetParam()));
   const double radius = 0.4;  // [m]
   add_rigid(world, std::make_unique<btSphereShape>(static_cast<btScalar>(radius)), 0, {0, 0, 0});
   btSoftBody& body = add_cloth(
@@ -81,7 +80,7 @@ TEST_P(DeformableContact, ClothStaysOnASphere) {
 }
 
 TEST_P(DeformableContact, ClothLandsOnABox) {
-  DeformableWorld world(settings());
+  DeformableWorld world(settings_of(GetParam()));
   add_rigid(world, std::make_unique<btBoxShape>(btVector3(1, btScalar(0.5), 1)), 0,
             {0, btScalar(-0.5), 0});
   btSoftBody& body =
@@ -98,7 +97,7 @@ TEST_P(DeformableContact, ClothLandsOnABox) {
 
 // A ball meets a cloth, both free and without gravity: what one loses the other gains.
 TEST_P(DeformableContact, BallAndClothKeepTheirMomentum) {
-  DeformableWorld world(settings());
+  DeformableWorld world(settings_of(GetParam()));
   const double mass = 0.4;  // [kg]
   btRigidBody& ball =
       add_rigid(world, std::make_unique<btSphereShape>(btScalar(0.2)), mass, {0, btScalar(0.3), 0});
@@ -124,9 +123,16 @@ TEST_P(DeformableContact, BallAndClothKeepTheirMomentum) {
   EXPECT_NEAR(total() / before, 1.0, tolerance);
 }
 
-TEST_P(DeformableContact, ABodyOfManyTimesTheExplicitStiffnessDoesNotKickTheBall) {
-  if (GetParam() == DeformableScheme::kExplicit) GTEST_SKIP() << "unstable at this step";
-  DeformableWorld world(settings());
+INSTANTIATE_TEST_SUITE_P(Schemes, DeformableContact,
+                         ::testing::Values(DeformableScheme::kExplicit,
+                                           DeformableScheme::kImplicit),
+                         [](const auto& scheme) {
+                           return scheme.param == DeformableScheme::kExplicit ? "explicit_step"
+                                                                              : "implicit_step";
+                         });
+
+TEST(DeformableImplicitContact, StiffnessFarBeyondTheExplicitLimitDoesNotKickTheBall) {
+  DeformableWorld world(settings_of(DeformableScheme::kImplicit));
   btRigidBody& ball =
       add_rigid(world, std::make_unique<btSphereShape>(btScalar(0.2)), 0.4, {0, btScalar(0.3), 0});
   ball.setLinearVelocity({0, -1, 0});
@@ -140,14 +146,6 @@ TEST_P(DeformableContact, ABodyOfManyTimesTheExplicitStiffnessDoesNotKickTheBall
   EXPECT_LT(ball.getLinearVelocity().y(), btScalar(0));  // slowed down, not thrown back
   EXPECT_FALSE(world.forces().blow_up(body).has_value());
 }
-
-INSTANTIATE_TEST_SUITE_P(Schemes, DeformableContact,
-                         ::testing::Values(DeformableScheme::kExplicit,
-                                           DeformableScheme::kImplicit),
-                         [](const auto& scheme) {
-                           return scheme.param == DeformableScheme::kExplicit ? "explicit_step"
-                                                                              : "implicit_step";
-                         });
 
 }  // namespace
 }  // namespace weft::bridge

@@ -53,12 +53,14 @@ class Oscillator : public ::testing::Test {
   static constexpr double kStiffness = 400.0;  // [N/m] on 1 kg: w = 20 / s, h w = 0.16
   static constexpr double kOffset = 0.125;     // [m]
   static constexpr int kSteps = 200;
+  bool line_search_ = false;  // of implicit steps, with the laws' energies
 
   template <class Step>
   void expect_recurrence(const DeformableWorldSettings& settings,
                          const std::vector<forces::LawSpecification>& laws, double solver_error,
                          Step step) {
     DeformableWorld world(settings);
+    world.world().setLineSearch(line_search_);
     btSoftBody& body = add_body(world, spring_chain(2, 1), laws);
     displace(body, 1, {btScalar(kOffset), 0, 0});
     double x = kOffset;
@@ -93,16 +95,19 @@ TEST_F(Oscillator, ExplicitStepTakesTheDamperImplicitly) {
       });
 }
 
-TEST_F(Oscillator, ImplicitStepIsBackwardEuler) {
-  const double damping = 3.0;  // [N s/m]
-  expect_recurrence(
-      implicit_settings(),
-      {law("tension", "stiffness", {kStiffness}), law("spring_damping", "damping", {damping})}, 0.0,
-      [&](double& x, double& v) {
-        v = (v - kTimeStep * kStiffness * x) /
-            (1 + kTimeStep * damping + kTimeStep * kTimeStep * kStiffness);
-        x += kTimeStep * v;
-      });
+TEST_F(Oscillator, ImplicitStepIsBackwardEulerWithAndWithoutLineSearch) {
+  for (const bool line_search : {false, true}) {
+    line_search_ = line_search;
+    const double damping = 3.0;  // [N s/m]
+    expect_recurrence(
+        implicit_settings(),
+        {law("tension", "stiffness", {kStiffness}), law("spring_damping", "damping", {damping})},
+        0.0, [&](double& x, double& v) {
+          v = (v - kTimeStep * kStiffness * x) /
+              (1 + kTimeStep * damping + kTimeStep * kTimeStep * kStiffness);
+          x += kTimeStep * v;
+        });
+  }
 }
 
 TEST_F(Oscillator, ImplicitStepIsStableFarBeyondTheExplicitLimit) {
