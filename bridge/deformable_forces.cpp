@@ -72,6 +72,11 @@ void DeformableForces::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> m
   }
   check_attachment("deformable forces", body, masses);
   check_ignored_features(body);
+  if (laws.has_level(forces::LawTraits::Level::kInertia)) {
+    throw InvalidArgument(
+        "deformable forces: a law of inertia level (acceleration_damping), which Bullet's linear "
+        "solver cannot carry; expected the classic world for it");
+  }
   auto attachment = std::make_unique<DeformableAttachment>();
   attachment->body = &body;
   attachment->laws = std::move(laws);

@@ -57,7 +57,7 @@ class DeformableForces : public btDeformableLagrangianForce {
   void attach(btSoftBody& body, const ClothMesh& mesh,
               const std::vector<forces::LawSpecification>& laws);
   /// masses: n [kg], > 0, those of pinned nodes too. Throws InvalidArgument if masses or laws do not
-  /// fit the body's nodes, if laws are attached already, for a timescale other than 1, and for a
+  /// fit the body's nodes, for a law of inertia level, if laws are attached already, for a timescale other than 1, and for a
   /// body that asks for what this world ignores: anchors of the classic world, wind, lift, drag,
   /// pressure, volume or pose forces, kDP. The body must not gain or lose nodes afterwards.
   void attach(btSoftBody& body, forces::LawSet<btScalar> laws, VectorX<btScalar> masses);

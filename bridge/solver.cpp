@@ -13,20 +13,26 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
 using LawSet = forces::LawSet<btScalar>;
+using Level = forces::LawTraits::Level;
 using State = forces::State<btScalar>;
 
 struct SoftBodySolver::Attachment {
   btSoftBody* body;
   LawSet laws;
   VectorX<btScalar> masses;
+  DampingPlace damping = DampingPlace::kAutomatic;
+  Matrix3X<btScalar> start_velocities;  // of the step, only for inertia after the projection
   Matrix3X<btScalar> positions;
   Matrix3X<btScalar> velocities;
   Matrix3X<btScalar> forces;
   std::optional<BodyBlowUp> blow_up;
   bool was_in_world = false;
 
+  [[nodiscard]] bool acts_after_projection(Level level) const;
   void add_forces(btScalar time_step);
-  void advance_velocities(btScalar time_step);
+  void sum_laws();
+  void damp_velocities(btScalar time_step);
+  void slow_down_changes();
   void check_laws();
 };
 
@@ -34,15 +40,33 @@ struct SoftBodySolver::Attachments {
   std::vector<std::unique_ptr<Attachment>> list;
 };
 
-void SoftBodySolver::Attachment::add_forces(btScalar time_step) {
-  read_nodes(*body, positions, velocities);
-  forces.setZero(3, positions.cols());
-  const forces::ForceReport report = laws.add_forces(State{positions, velocities, masses},
-                                                     LawSet::VelocityLaws::kSeparate, forces);
+bool SoftBodySolver::Attachment::acts_after_projection(Level level) const {
+  if (!laws.has_level(level)) return false;
+  if (damping != DampingPlace::kAutomatic) return damping == DampingPlace::kAfterProjection;
+  return level == Level::kVelocity || body->m_links.size() > 0;
+}
+
+// Velocity-level laws state how fast velocities decay: inertia does not slow them down.
+void SoftBodySolver::Attachment::sum_laws() {
+  using VelocityLaws = LawSet::VelocityLaws;
+  const State state{positions, velocities, masses};
+  const forces::ForceReport report = laws.add_forces(state, VelocityLaws::kSeparate, forces);
   if (!report.ok()) {
     blow_up = BodyBlowUp{*report.first_non_finite_node, "position or velocity is not finite"};
     return;
   }
+  if (!acts_after_projection(Level::kInertia)) laws.redistribute_forces(state, forces);
+  if (!acts_after_projection(Level::kVelocity)) {
+    (void)laws.add_forces(state, VelocityLaws::kAlone, forces);
+  }
+}
+
+void SoftBodySolver::Attachment::add_forces(btScalar time_step) {
+  read_nodes(*body, positions, velocities);
+  if (acts_after_projection(Level::kInertia)) start_velocities = velocities;
+  forces.setZero(3, positions.cols());
+  sum_laws();
+  if (blow_up) return;
   // Now, on the velocities that predictMotion is about to make: afterwards would be too late, for a
   // node without a place in space ruins the body's bounding-volume tree.
   blow_up = predicted_blow_up(*body, velocities, forces, time_step, SoftBodySolver::kMaxSpeed);
@@ -53,15 +77,30 @@ void SoftBodySolver::Attachment::add_forces(btScalar time_step) {
 void SoftBodySolver::Attachment::check_laws() {
   read_nodes(*body, positions, velocities);
   forces.setZero(3, positions.cols());
-  (void)laws.add_forces(State{positions, velocities, masses}, LawSet::VelocityLaws::kAsForces,
-                        forces);
+  const State state{positions, velocities, masses};
+  (void)laws.add_forces(state, LawSet::VelocityLaws::kAsForces, forces);
+  laws.redistribute_forces(state, forces);
 }
 
-void SoftBodySolver::Attachment::advance_velocities(btScalar time_step) {
+// The change of momentum over the step stands for the sum of all forces on the body.
+void SoftBodySolver::Attachment::slow_down_changes() {
+  forces = (velocities - start_velocities) * masses.asDiagonal();
+  laws.redistribute_forces(State{positions, velocities, masses}, forces);
+  velocities = start_velocities + forces * masses.cwiseInverse().asDiagonal();
+}
+
+void SoftBodySolver::Attachment::damp_velocities(btScalar time_step) {
+  const bool slows_down = acts_after_projection(Level::kInertia);
+  const bool advances = acts_after_projection(Level::kVelocity);
+  if (!slows_down && !advances) return;
   read_nodes(*body, positions, velocities);
-  forces = velocities;  // the laws see the state as it is and change a copy
-  laws.advance_velocities(State{positions, velocities, masses}, time_step, forces);
-  write_node_velocities(forces, *body);
+  if (slows_down) slow_down_changes();
+  if (advances) {
+    forces = velocities;  // the laws see the state as it is and change a copy
+    laws.advance_velocities(State{positions, velocities, masses}, time_step, forces);
+    velocities.swap(forces);
+  }
+  write_node_velocities(velocities, *body);
 }
 
 SoftBodySolver::SoftBodySolver(const BulletLayout& caller)
@@ -79,11 +118,13 @@ SoftBodySolver::Attachment* SoftBodySolver::find(const btSoftBody& body) const {
 }
 
 void SoftBodySolver::attach(btSoftBody& body, const ClothMesh& mesh,
-                            const std::vector<forces::LawSpecification>& laws) {
-  attach(body, make_laws(mesh, laws), mesh.masses.cast<btScalar>());
+                            const std::vector<forces::LawSpecification>& laws,
+                            DampingPlace damping) {
+  attach(body, make_laws(mesh, laws), mesh.masses.cast<btScalar>(), damping);
 }
 
-void SoftBodySolver::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> masses) {
+void SoftBodySolver::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> masses,
+                            DampingPlace damping) {
   if (has_laws(body)) {
     throw InvalidArgument("soft body solver: the body has laws already, expected detach() first");
   }
@@ -92,6 +133,7 @@ void SoftBodySolver::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> mas
   attachment->body = &body;
   attachment->laws = std::move(laws);
   attachment->masses = std::move(masses);
+  attachment->damping = damping;
   attachment->check_laws();
   attachments_->list.push_back(std::move(attachment));
 }
@@ -150,7 +192,7 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
     btSoftBody& body = *m_softBodySet[i];
     if (!body.isActive() || is_frozen(body)) continue;
     body.solveConstraints();
-    if (Attachment* attachment = find(body)) attachment->advance_velocities(time_step_);
+    if (Attachment* attachment = find(body)) attachment->damp_velocities(time_step_);
   }
 }
 

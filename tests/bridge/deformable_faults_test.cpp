@@ -11,6 +11,7 @@
 
 #include <weft/bridge/bullet_deformable.hpp>
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/registry.hpp>
 
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 #include <btBulletDynamicsCommon.h>
@@ -206,6 +207,14 @@ TEST(DeformableFaults, WrongUseIsRefused) {
       world.forces().attach(
           body, make_laws(spring_chain(5, 0), {law("tension", "stiffness", {1.0})}), masses),
       InvalidArgument);
+  for (const forces::LawInfo* info : forces::all_laws()) {
+    if (info->traits.level != forces::LawTraits::Level::kInertia) continue;
+    forces::LawSpecification slow{std::string(info->id), {}, {}};
+    for (const auto& parameter : info->parameters) {
+      slow.parameters[std::string(parameter.name)].assign(1, 0.5);
+    }
+    EXPECT_THROW(world.forces().attach(body, mesh, {slow}), InvalidArgument);
+  }
   EXPECT_FALSE(world.forces().has_laws(body));
   EXPECT_THROW(DeformableWorld({.newton_iterations = 0}), InvalidArgument);
   EXPECT_THROW(DeformableWorld({.contact_iterations = 0}), InvalidArgument);
