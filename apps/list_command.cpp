@@ -65,7 +65,7 @@ int list(bool verbose) {
   fmt::print("\nEngines:\n");
   for (const scenes::EngineInfo& engine : scenes::engine_table()) {
     const bool both = engine.name != "reference";
-    fmt::print("  {:<16} {}{}\n", engine.name, engine.summary,
+    fmt::print("  {:<26} {}{}\n", engine.name, engine.summary,
                both ? " (float32 and float64)" : "");
   }
   fmt::print("\nForce laws:\n");

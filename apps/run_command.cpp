@@ -203,7 +203,8 @@ Action add_run_command(CLI::App& parser, const CommandLine& command_line) {
   auto options = std::make_shared<RunOptions>();
   command->add_option("SCENE", options->scene, "Catalog name or scene file")->required();
   command->add_option("-e,--engine", options->engine, "Which engine simulates")
-      ->check(CLI::IsMember({"bullet_soft", "bullet_forces", "reference"}))
+      ->check(CLI::IsMember({"bullet_soft", "bullet_forces", "bullet_deformable",
+                             "bullet_deformable_implicit", "reference"}))
       ->capture_default_str();
   command
       ->add_option("-p,--precision", options->precision,

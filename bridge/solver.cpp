@@ -1,8 +1,6 @@
 #include <weft/bridge/solver.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <utility>
 #include <vector>
 
@@ -10,7 +8,6 @@
 
 #include <weft/bridge/node_state.hpp>
 #include <weft/custom_forces/core/error.hpp>
-#include <weft/custom_forces/registry.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -37,7 +34,6 @@ struct SoftBodySolver::Attachment {
   void sum_laws();
   void damp_velocities(btScalar time_step);
   void slow_down_changes();
-  void check_prediction(btScalar time_step);
   void check_laws();
 };
 
@@ -72,28 +68,10 @@ void SoftBodySolver::Attachment::add_forces(btScalar time_step) {
   forces.setZero(3, positions.cols());
   sum_laws();
   if (blow_up) return;
-  check_prediction(time_step);
+  // Now, on the velocities that predictMotion is about to make: afterwards would be too late, for a
+  // node without a place in space ruins the body's bounding-volume tree.
+  blow_up = predicted_blow_up(*body, velocities, forces, time_step, SoftBodySolver::kMaxSpeed);
   if (!blow_up) add_node_forces(forces, *body);
-}
-
-// Looks at the velocities that predictMotion is about to make. Afterwards would be too late: a node
-// without a place in space ruins the body's bounding-volume tree.
-void SoftBodySolver::Attachment::check_prediction(btScalar time_step) {
-  const auto max_speed = static_cast<btScalar>(kMaxSpeed);
-  for (int i = 0; i < body->m_nodes.size(); ++i) {
-    const btScalar speed =
-        (velocities.col(i) + forces.col(i) * (body->m_nodes[i].m_im * time_step)).norm();
-    if (speed <= max_speed) continue;
-    if (!std::isfinite(speed)) {
-      blow_up = BodyBlowUp{i, "velocity is not finite"};
-    } else {
-      char text[64];
-      std::snprintf(text, sizeof text, "speed %.3g m/s is over %.3g m/s",
-                    static_cast<double>(speed), kMaxSpeed);
-      blow_up = BodyBlowUp{i, text};
-    }
-    return;
-  }
 }
 
 // Laws made for another mesh throw here, at attach, and not out of Bullet's step.
@@ -143,9 +121,7 @@ SoftBodySolver::Attachment* SoftBodySolver::find(const btSoftBody& body) const {
 void SoftBodySolver::attach(btSoftBody& body, const ClothMesh& mesh,
                             const std::vector<forces::LawSpecification>& laws,
                             DampingPlace damping) {
-  LawSet set;
-  for (const forces::LawSpecification& law : laws) set.add(forces::make_law<btScalar>(law, mesh));
-  attach(body, std::move(set), mesh.masses.cast<btScalar>(), damping);
+  attach(body, make_laws(mesh, laws), mesh.masses.cast<btScalar>(), damping);
 }
 
 void SoftBodySolver::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> masses,
@@ -153,21 +129,7 @@ void SoftBodySolver::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> mas
   if (has_laws(body)) {
     throw InvalidArgument("soft body solver: the body has laws already, expected detach() first");
   }
-  if (masses.size() != body.m_nodes.size()) {
-    throw InvalidArgument("soft body solver: " + std::to_string(masses.size()) +
-                          " masses, expected one for each of the " +
-                          std::to_string(body.m_nodes.size()) + " nodes");
-  }
-  for (Eigen::Index i = 0; i < masses.size(); ++i) {
-    if (!(masses[i] > 0) || !std::isfinite(masses[i])) {
-      throw InvalidArgument("soft body solver: mass of node " + std::to_string(i) + " = " +
-                            std::to_string(masses[i]) + " [kg], expected > 0 and finite");
-    }
-  }
-  if (body.m_cfg.timescale != btScalar(1)) {
-    throw InvalidArgument("soft body solver: m_cfg.timescale = " +
-                          std::to_string(body.m_cfg.timescale) + " [1], expected 1");
-  }
+  check_attachment("soft body solver", body, masses);
   auto attachment = std::make_unique<Attachment>();
   attachment->body = &body;
   attachment->laws = std::move(laws);

@@ -8,17 +8,12 @@
 #include <BulletSoftBody/btDefaultSoftBodySolver.h>
 
 #include <weft/bridge/bullet_guard.hpp>
+#include <weft/bridge/law_attachment.hpp>
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_set.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
-
-/// Why a body was taken out of the simulation.
-struct BodyBlowUp {
-  int node = 0;
-  std::string reason;  ///< "velocity is not finite", "speed 2.1e+06 m/s is over 1e+06 m/s"
-};
 
 /// Where the damping laws of a body act in Bullet's step: velocity-level laws (rotation_damping and
 /// the like) and inertia-level laws (acceleration_damping). A force-driven body wants them before
@@ -69,9 +64,8 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   SoftBodySolver(const SoftBodySolver&) = delete;
   SoftBodySolver& operator=(const SoftBodySolver&) = delete;
 
-  /// Speed [m/s] beyond which a node counts as exploded: 3000 times the speed of sound, and still
-  /// small enough for single-precision squares.
-  static constexpr double kMaxSpeed = 1e6;
+  /// Speed [m/s] beyond which a node counts as exploded.
+  static constexpr double kMaxSpeed = kBlowUpSpeed;
 
   /// Makes the laws for the body's mesh and attaches them.
   /// Throws InvalidArgument as forces::make_law() and as the other attach().

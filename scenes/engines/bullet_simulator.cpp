@@ -7,6 +7,7 @@
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
 #include <weft/scenes/engines/blow_up_check.hpp>
+#include <weft/scenes/engines/bullet_bodies.hpp>
 #include <weft/scenes/engines/bullet_shapes.hpp>
 
 namespace weft::scenes {
@@ -20,12 +21,10 @@ class BulletSimulator final : public Simulator {
 
   void load(const Scene& scene) override;
   [[nodiscard]] StepReport step(double time_step) override;
-  [[nodiscard]] const SceneState& state() const override { return state_; }
+  [[nodiscard]] const SceneState& state() const override { return bodies_.state(); }
 
  private:
   void add_cloth(const Cloth& cloth, const Scene& scene);
-  void add_collider(const Collider& collider);
-  void read_state();
   [[nodiscard]] bridge::LinkSet link_set(const Cloth& cloth,
                                          const forces::LawSpecification& law) const;
   [[nodiscard]] std::optional<BlowUp> find_blow_up() const;
@@ -33,31 +32,22 @@ class BulletSimulator final : public Simulator {
   Tension tension_;
   double links_time_step_ = 0.0;
   std::unique_ptr<bridge::SoftWorld> world_;
-  std::vector<btSoftBody*> cloths_;
-  std::vector<ClothMesh> steered_;  ///< as cloths_: pins and their velocities, nothing else
-  std::vector<btRigidBody*> rigids_;
-  std::vector<double> rigid_offsets_;  ///< [m] see bullet_shape_offset()
-  SceneState state_;
+  BulletBodies bodies_;
   StepReport report_;
 };
 
-Vector3<double> from_bullet(const btVector3& v) {
-  return Vector3<btScalar>(v.x(), v.y(), v.z()).cast<double>();
-}
-
 void BulletSimulator::load(const Scene& scene) {
-  cloths_.clear();
-  steered_.clear();
-  rigids_.clear();
-  rigid_offsets_.clear();
-  state_ = {};
+  bodies_ = {};
   report_ = {};
   links_time_step_ = scene.world.time_step;
   world_ = std::make_unique<bridge::SoftWorld>(
       bridge::SoftWorldSettings{scene.world.gravity, distance_field_voxel(scene)});
   for (const Cloth& cloth : scene.cloths) add_cloth(cloth, scene);
-  for (const Collider& collider : scene.colliders) add_collider(collider);
-  read_state();
+  for (const Collider& collider : scene.colliders) {
+    BulletCollider made = make_bullet_collider(collider);
+    bodies_.add(collider, world_->add(std::move(made.body), std::move(made.shape)));
+  }
+  bodies_.read_state(0.0);
 }
 
 bridge::LinkSet BulletSimulator::link_set(const Cloth& cloth,
@@ -86,60 +76,17 @@ void BulletSimulator::add_cloth(const Cloth& cloth, const Scene& scene) {
     }
   }
   btSoftBody& body = world_->add(bridge::make_cloth_body(world_->info(), mesh, settings));
-  const Vector3<btScalar> velocity = cloth.velocity.cast<btScalar>();
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    if (body.m_nodes[i].m_im > 0) {
-      body.m_nodes[i].m_v.setValue(velocity[0], velocity[1], velocity[2]);
-    }
-  }
   world_->solver().attach(body, std::move(laws), mesh.masses.cast<btScalar>());
-  cloths_.push_back(&body);
-  steered_.emplace_back();
-  steered_.back().pinned = mesh.pinned;
-  steered_.back().pinned_velocities = mesh.pinned_velocities;
-  state_.cloths.push_back({cloth.name, {}, {}});
-}
-
-void BulletSimulator::add_collider(const Collider& collider) {
-  BulletCollider made = make_bullet_collider(collider);
-  rigids_.push_back(&world_->add(std::move(made.body), std::move(made.shape)));
-  rigid_offsets_.push_back(bullet_shape_offset(collider.shape));
-  RigidState state;
-  state.name = collider.name;
-  state_.rigids.push_back(std::move(state));
-}
-
-void BulletSimulator::read_state() {
-  for (std::size_t c = 0; c < cloths_.size(); ++c) {
-    ClothState& cloth = state_.cloths[c];
-    const int num_nodes = cloths_[c]->m_nodes.size();
-    cloth.positions.resize(3, num_nodes);
-    cloth.velocities.resize(3, num_nodes);
-    for (int i = 0; i < num_nodes; ++i) {
-      cloth.positions.col(i) = from_bullet(cloths_[c]->m_nodes[i].m_x);
-      cloth.velocities.col(i) = from_bullet(cloths_[c]->m_nodes[i].m_v);
-    }
-  }
-  for (std::size_t r = 0; r < rigids_.size(); ++r) {
-    RigidState& rigid = state_.rigids[r];
-    const btTransform& transform = rigids_[r]->getWorldTransform();
-    const btQuaternion q = transform.getRotation();
-    rigid.orientation = Eigen::Quaterniond(static_cast<double>(q.w()), static_cast<double>(q.x()),
-                                           static_cast<double>(q.y()), static_cast<double>(q.z()));
-    rigid.position = from_bullet(transform.getOrigin()) +
-                     rigid.orientation * Vector3<double>(0, rigid_offsets_[r], 0);
-    rigid.velocity = from_bullet(rigids_[r]->getLinearVelocity());
-    rigid.angular_velocity = from_bullet(rigids_[r]->getAngularVelocity());
-  }
+  bodies_.add(cloth, mesh, body);
 }
 
 std::optional<BlowUp> BulletSimulator::find_blow_up() const {
-  for (std::size_t c = 0; c < cloths_.size(); ++c) {
-    if (const auto found = world_->solver().blow_up(*cloths_[c])) {
-      return BlowUp{report_.step, report_.time, state_.cloths[c].name, found->node, found->reason};
+  for (std::size_t c = 0; c < bodies_.cloths().size(); ++c) {
+    if (const auto found = world_->solver().blow_up(*bodies_.cloths()[c])) {
+      return BlowUp{report_.step, report_.time, state().cloths[c].name, found->node, found->reason};
     }
   }
-  return first_blow_up(state_, report_.step, report_.time);
+  return first_blow_up(state(), report_.step, report_.time);
 }
 
 StepReport BulletSimulator::step(double time_step) {
@@ -152,15 +99,16 @@ StepReport BulletSimulator::step(double time_step) {
   for (std::size_t c = 0; c < cloths_.size(); ++c) {
     bridge::set_pinned_velocities(steered_[c], *cloths_[c]);
   }
+  bodies_.steer_pins();
   world_->step(time_step);
   // Bullet hands its soft bodies a single-precision step in both builds.
   report_.time_step = static_cast<double>(static_cast<float>(time_step));
   report_.step += 1;
   report_.time += report_.time_step;
   report_.num_contacts = 0;
-  for (const btSoftBody* cloth : cloths_) report_.num_contacts += cloth->m_rcontacts.size();
-  read_state();
-  state_.time = report_.time;
+  for (const btSoftBody* cloth : bodies_.cloths())
+    report_.num_contacts += cloth->m_rcontacts.size();
+  bodies_.read_state(report_.time);
   report_.blow_up = find_blow_up();
   return report_;
 }

@@ -5,6 +5,7 @@
 #include <weft/scenes/engines/reference_simulator.hpp>
 
 #ifdef WEFT_WITH_BULLET
+#include <weft/scenes/engines/bullet_deformable_simulator.hpp>
 #include <weft/scenes/engines/bullet_simulator.hpp>
 #endif
 
@@ -18,6 +19,12 @@ std::span<const EngineInfo> engine_table() {
       {"bullet_forces", bullet_precision(),
        "Weft's laws in Bullet's world, no links: the equations of the reference",
        &make_bullet_forces},
+      {"bullet_deformable", bullet_precision(),
+       "Weft's laws in Bullet's deformable world: forces explicit, dampers implicit",
+       &make_bullet_deformable},
+      {"bullet_deformable_implicit", bullet_precision(),
+       "Weft's laws in Bullet's deformable world, all of them implicit",
+       &make_bullet_deformable_implicit},
 #endif
       {"reference", StoredPrecision::kFloat64,
        "Weft's own spring solver, double precision, no Bullet", &make_reference},

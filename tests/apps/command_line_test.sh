@@ -93,6 +93,7 @@ check "stable step of the classic" grep -qE "time step 0.01 s, stable up to 0.01
 sed 's|"0.5 N/m"|"5000 N/m"|; s|duration = "6 s"|duration = "0.6 s"|' "$source_dir/scenes/catalog/drape_sphere.toml" >stiff.toml
 engines="reference:float64"
 [ "$bullet" = with ] && engines="$engines bullet_forces:float32 bullet_forces:float64 bullet_soft:float32 bullet_soft:float64"
+[ "$bullet" = with ] && engines="$engines bullet_deformable:float32 bullet_deformable:float64 bullet_deformable_implicit:float32"
 for engine in $engines; do
   "$weft" run stiff.toml -e "${engine%:*}" -p "${engine#*:}" -o stiff.weftrec -f >out 2>err
   code=$?
@@ -109,9 +110,13 @@ check "render of nothing" exits 2 render no_such.weftrec -o b.png
 
 # Engines of both precisions from one command
 if [ "$bullet" = with ]; then
-  for engine in bullet_soft bullet_forces; do
+  for engine in bullet_soft bullet_forces bullet_deformable bullet_deformable_implicit; do
     for precision in float32 float64; do
       check "$engine $precision" exits 0 "${short[@]}" -e $engine -p $precision -o $engine-$precision.weftrec
+      grep "content hash" out >hash_a
+      check "$engine $precision again" exits 0 "${short[@]}" -e $engine -p $precision -o again.weftrec -f --threads 2
+      grep "content hash" out >hash_b
+      check "$engine $precision: same hash in another process" cmp -s hash_a hash_b
     done
   done
 else

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <weft/scenes/scene.hpp>
+#include <weft/scenes/simulator.hpp>
+
+namespace weft::scenes {
+
+/// The bodies of a scene in one of Bullet's worlds, and their state as the port reports it.
+class BulletBodies {
+ public:
+  /// mesh and body are the cloth's; its free nodes get the cloth's initial velocity.
+  void add(const Cloth& cloth, const ClothMesh& mesh, btSoftBody& body);
+  void add(const Collider& collider, btRigidBody& body);
+  /// Gives pinned nodes the velocities of their pins; before every step.
+  void steer_pins();
+  /// Reads all positions and velocities from Bullet; time is [s].
+  void read_state(double time);
+
+  [[nodiscard]] const std::vector<btSoftBody*>& cloths() const { return cloths_; }
+  [[nodiscard]] const SceneState& state() const { return state_; }
+
+ private:
+  std::vector<btSoftBody*> cloths_;
+  std::vector<ClothMesh> steered_;  ///< as cloths_: pins and their velocities, nothing else
+  std::vector<btRigidBody*> rigids_;
+  std::vector<double> rigid_offsets_;  ///< [m] see bullet_shape_offset()
+  SceneState state_;
+};
+
+}  // namespace weft::scenes
