@@ -111,11 +111,11 @@ std::optional<BodyBlowUp> DeformableForces::blow_up(const btSoftBody& body) cons
   return attachment ? attachment->blow_up : std::nullopt;
 }
 
-// A body takes part once the solver has numbered its nodes.
 void DeformableForces::advance_time(double time_step) {
   for (const auto& attachment : attachments_) attachment->time += time_step;
 }
 
+// A body takes part once the solver has numbered its nodes.
 bool DeformableForces::takes_part(const DeformableAttachment& attachment) const {
   const auto& nodes = attachment.body->m_nodes;
   if (!m_nodes || attachment.blow_up || !attachment.body->isActive()) return false;
