@@ -10,6 +10,8 @@
 
 #include <weft/bridge/node_state.hpp>
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/core/trace.hpp>
+#include <weft/custom_forces/deferred_forces.hpp>
 #include <weft/custom_forces/registry.hpp>
 
 namespace weft::bridge {
@@ -21,6 +23,7 @@ using State = forces::State<btScalar>;
 struct SoftBodySolver::Attachment {
   btSoftBody* body;
   LawSet laws;
+  forces::DeferredForces<btScalar> deferred{laws, LawSet::VelocityLaws::kSeparate};
   VectorX<btScalar> masses;
   Matrix3X<btScalar> positions;
   Matrix3X<btScalar> velocities;
@@ -29,6 +32,7 @@ struct SoftBodySolver::Attachment {
   bool was_in_world = false;
 
   void add_forces(btScalar time_step);
+  void begin_forces();
   void advance_velocities(btScalar time_step);
   void check_prediction(btScalar time_step);
   void check_laws();
@@ -39,16 +43,21 @@ struct SoftBodySolver::Attachments {
 };
 
 void SoftBodySolver::Attachment::add_forces(btScalar time_step) {
+  const TraceScope trace("forces");
   read_nodes(*body, positions, velocities);
-  forces.setZero(3, positions.cols());
-  const forces::ForceReport report = laws.add_forces(State{positions, velocities, masses},
-                                                     LawSet::VelocityLaws::kSeparate, forces);
+  const forces::ForceReport report = deferred.finish({positions, velocities, masses}, forces);
   if (!report.ok()) {
     blow_up = BodyBlowUp{*report.first_non_finite_node, "position or velocity is not finite"};
     return;
   }
   check_prediction(time_step);
   if (!blow_up) add_node_forces(forces, *body);
+}
+
+// On other threads, from a copy of the state: the body may leave or be deleted meanwhile.
+void SoftBodySolver::Attachment::begin_forces() {
+  read_nodes(*body, positions, velocities);
+  deferred.begin({positions, velocities, masses});
 }
 
 // Looks at the velocities that predictMotion is about to make. Afterwards would be too late: a node
@@ -80,6 +89,7 @@ void SoftBodySolver::Attachment::check_laws() {
 }
 
 void SoftBodySolver::Attachment::advance_velocities(btScalar time_step) {
+  const TraceScope trace("velocity laws");
   read_nodes(*body, positions, velocities);
   forces = velocities;  // the laws see the state as it is and change a copy
   laws.advance_velocities(State{positions, velocities, masses}, time_step, forces);
@@ -141,6 +151,17 @@ void SoftBodySolver::detach(btSoftBody& body) {
              list.end());
 }
 
+void SoftBodySolver::set_deferred(bool is_deferred) {
+  is_deferred_ = is_deferred;
+  if (is_deferred) return;
+  for (const auto& attachment : attachments_->list) attachment->deferred.drop();
+}
+
+long SoftBodySolver::num_recomputed(const btSoftBody& body) const {
+  const Attachment* attachment = find(body);
+  return attachment ? attachment->deferred.num_recomputed() : 0;
+}
+
 bool SoftBodySolver::has_laws(const btSoftBody& body) const {
   return find(body) != nullptr;
 }
@@ -171,6 +192,7 @@ void SoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool fo
 }
 
 void SoftBodySolver::predictMotion(btScalar time_step) {
+  const TraceScope trace("predict motion");
   time_step_ = time_step;
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
@@ -182,6 +204,7 @@ void SoftBodySolver::predictMotion(btScalar time_step) {
 }
 
 void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
+  const TraceScope trace("solve constraints");
   // Velocities decay over the step that predictMotion was given. The argument here is the same time
   // before Bullet rounds it to single precision; to use it would mix two clocks in one step.
   for (int i = 0; i < m_softBodySet.size(); ++i) {
@@ -192,10 +215,14 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
   }
 }
 
+// The last thing that Bullet does in a step: positions and velocities are final.
 void SoftBodySolver::updateSoftBodies() {
+  const TraceScope trace("update soft bodies");
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
-    if (body.isActive() && !is_frozen(body)) body.integrateMotion();
+    if (!body.isActive() || is_frozen(body)) continue;
+    body.integrateMotion();
+    if (Attachment* attachment = is_deferred_ ? find(body) : nullptr) attachment->begin_forces();
   }
 }
 

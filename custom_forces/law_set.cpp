@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/core/trace.hpp>
 #include <weft/custom_forces/registry.hpp>
 
 namespace weft::forces {
@@ -78,7 +79,9 @@ ForceReport LawSet<Scalar>::add_forces(const State<Scalar>& state, VelocityLaws 
   ForceReport report{first_non_finite_node(state)};
   if (!report.ok()) return report;
   for (const auto& law : laws_) {
-    if (!is_separate(*law, velocity_laws)) law->add_forces(state, scratch_, forces);
+    if (is_separate(*law, velocity_laws)) continue;
+    const TraceScope trace(law->info().id);
+    law->add_forces(state, scratch_, forces);
   }
   return report;
 }
@@ -109,6 +112,7 @@ void LawSet<Scalar>::advance_velocities(const State<Scalar>& state, Scalar time_
   check_shapes(state, velocities.cols());
   for (const auto& law : laws_) {
     if (law->info().traits.level == LawTraits::Level::kVelocity) {
+      const TraceScope trace(law->info().id);
       law->advance_velocities(state, time_step, velocities);
     }
   }

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/core/trace.hpp>
 #include <weft/custom_forces/core/types.hpp>
 #include <weft/custom_forces/element_chunks.hpp>
 
@@ -37,6 +38,7 @@ void parallel_sum(const ElementChunks& chunks, const Accumulate& accumulate,
     }
   };
   const auto join = [&](const tbb::blocked_range<std::size_t>& range) {
+    const TraceScope trace("join");
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       const ElementChunks::SharedNode& shared = chunks.shared_nodes()[i];
       for (int s = shared.first_slot; s < shared.last_slot; ++s) {
@@ -45,8 +47,10 @@ void parallel_sum(const ElementChunks& chunks, const Accumulate& accumulate,
       }
     }
   };
-  tbb::parallel_for(std::size_t{0}, chunks.chunks().size(),
-                    [&](std::size_t c) { accumulate(chunks.chunks()[c], sum_of_slot); });
+  tbb::parallel_for(std::size_t{0}, chunks.chunks().size(), [&](std::size_t c) {
+    const TraceScope trace("chunk");
+    accumulate(chunks.chunks()[c], sum_of_slot);
+  });
   const tbb::blocked_range<std::size_t> shared(0, chunks.shared_nodes().size(), kJoinGrain);
   if (shared.size() > kJoinGrain) {
     tbb::parallel_for(shared, join);
