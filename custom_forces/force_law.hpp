@@ -12,6 +12,7 @@ struct State {
   Eigen::Ref<const Matrix3X<Scalar>> positions;   ///< x, 3 x n [m]
   Eigen::Ref<const Matrix3X<Scalar>> velocities;  ///< v, 3 x n [m/s]
   Eigen::Ref<const VectorX<Scalar>> masses;       ///< m, n [kg]; a pinned node has its mass too
+  double time = 0.0;                              ///< t [s], for laws with targets that move
 };
 
 /// A force law: a pure function of State. It holds its topology and parameters, checked when it was
@@ -66,6 +67,12 @@ class ForceLaw {
   /// add_forces is not called.
   virtual void advance_velocities(const State<Scalar>& /*state*/, Scalar /*time_step*/,
                                   Matrix3XRef<Scalar> /*velocities*/) const {}
+
+  /// Only for traits.level == kInertia: replaces the sum of all other forces on the body by those
+  /// that give the law's accelerations. Linear in forces, so that products of the others can be
+  /// redistributed as well.
+  virtual void redistribute_forces(const State<Scalar>& /*state*/,
+                                   Matrix3XRef<Scalar> /*forces*/) const {}
 };
 
 }  // namespace weft::forces

@@ -21,7 +21,7 @@ const LawInfo Gravity<Scalar>::kInfo{.id = "gravity",
                                      .summary = "Uniform gravity",
                                      .formula = "f = m g, E = -m g . x",
                                      .source = "uniform field",
-                                     .traits = {.internal = false, .has_energy = true},
+                                     .traits = {.ignores_rigid_motion = true, .has_energy = true},
                                      .parameters = kParameters};
 
 template <class Scalar>

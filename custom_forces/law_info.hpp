@@ -8,15 +8,37 @@
 
 namespace weft::forces {
 
+/// What the elements are that a law sums over.
+enum class ElementKind {
+  kNodes,        ///< every node by itself, or the body as a whole
+  kEdges,        ///< edge sets of the mesh
+  kLines,        ///< line sets: three nodes in a row
+  kHinges,       ///< pairs of triangles with an edge in common
+  kFaces,        ///< triangles
+  kConnections,  ///< connection sets: a node with its ring, and a far node
+};
+
 /// What a law claims about itself. The contract tests hold every registered law to its claims.
 struct LawTraits {
-  bool internal = false;  ///< conserves linear and angular momentum; feels no rigid motion
-  bool has_energy =
-      false;  ///< the position-dependent force is minus the gradient of potential_energy
+  /// conserves linear and angular momentum and knows no direction of the world
+  bool internal = false;
+  bool ignores_rigid_motion = false;  ///< velocities of a rigid motion add no force
+  bool free_at_rest = false;          ///< no force at the rest shape without velocity
+  /// the position-dependent force is minus the gradient of potential_energy
+  bool has_energy = false;
   bool dissipative = false;  ///< non_conservative_power <= 0 always
-  bool uses_edges = false;   ///< acts on edge sets of the mesh
-  enum class Level { kForce, kVelocity } level = Level::kForce;
+  ElementKind elements = ElementKind::kNodes;
+  bool needs_closed_surface = false;  ///< refuses a mesh whose triangles leave a hole
+  enum class Level {
+    kForce,     ///< adds forces
+    kVelocity,  ///< a damper whose exact action on velocities is known: advance_velocities
+    kInertia,   ///< adds no force, but shares out the sum of all others: redistribute_forces
+  } level = Level::kForce;
 };
+
+/// Name of the key that holds the sets of a law: "edge_sets", "line_sets", "connection_sets"; empty
+/// for a law that takes no sets.
+[[nodiscard]] std::string_view set_key(ElementKind elements);
 
 /// One parameter of a law, as scene files, documentation and error messages show it.
 struct ParameterInfo {
@@ -44,8 +66,8 @@ struct LawInfo {
 /// A law as a scene or an application asks for it: values in SI units, vectors as three numbers.
 struct LawSpecification {
   std::string law;  ///< id of the law
-  std::vector<std::string>
-      edge_sets;  ///< for laws that use edges; empty means all sets of the mesh
+  /// Edge, line or connection sets, as the law's elements are; empty means all of the mesh.
+  std::vector<std::string> sets;
   std::map<std::string, std::vector<double>, std::less<>> parameters;
 };
 

@@ -30,14 +30,14 @@ Vector3<double> law_vector(const LawSpecification& specification, std::string_vi
 }
 
 Edges law_edges(const LawSpecification& specification, const ClothMesh& mesh) {
-  for (const std::string& name : specification.edge_sets) {
+  for (const std::string& name : specification.sets) {
     if (mesh.has_edge_set(name)) continue;
     std::string known;
     for (const EdgeSet& set : mesh.edge_sets) known += (known.empty() ? "" : ", ") + set.name;
     throw InvalidArgument(specification.law + ": edge_sets = '" + name +
                           "', expected sets of the mesh: " + known);
   }
-  std::vector<std::string> names = specification.edge_sets;
+  std::vector<std::string> names = specification.sets;
   if (names.empty()) {
     for (const EdgeSet& set : mesh.edge_sets) names.push_back(set.name);
   }

@@ -119,6 +119,23 @@ void LawSet<Scalar>::advance_velocities(const State<Scalar>& state, Scalar time_
 }
 
 template <class Scalar>
+void LawSet<Scalar>::redistribute_forces(const State<Scalar>& state,
+                                         Matrix3XRef<Scalar> forces) const {
+  check_shapes(state, forces.cols());
+  for (const auto& law : laws_) {
+    if (law->info().traits.level == LawTraits::Level::kInertia) {
+      law->redistribute_forces(state, forces);
+    }
+  }
+}
+
+template <class Scalar>
+bool LawSet<Scalar>::has_level(LawTraits::Level level) const {
+  return std::any_of(laws_.begin(), laws_.end(),
+                     [&](const auto& law) { return law->info().traits.level == level; });
+}
+
+template <class Scalar>
 Scalar LawSet<Scalar>::potential_energy(const State<Scalar>& state) const {
   check_shapes(state, state.positions.cols());
   Scalar energy(0);

@@ -46,6 +46,11 @@ class LawSet {
   void advance_velocities(const State<Scalar>& state, Scalar time_step,
                           Matrix3XRef<Scalar> velocities) const;
 
+  /// Applies every inertia-level law to forces, the sum of all that acts on the body [N], or to a
+  /// product of such a sum. Nothing happens if there is none. Engines call this last.
+  void redistribute_forces(const State<Scalar>& state, Matrix3XRef<Scalar> forces) const;
+  [[nodiscard]] bool has_level(LawTraits::Level level) const;
+
   [[nodiscard]] Scalar potential_energy(const State<Scalar>& state) const;
   [[nodiscard]] Scalar non_conservative_power(const State<Scalar>& state) const;
 

@@ -9,8 +9,11 @@
 
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/gravity.hpp>
+#include <weft/custom_forces/hinge_torsion.hpp>
+#include <weft/custom_forces/nonlocal_torsion.hpp>
 #include <weft/custom_forces/spring_damping.hpp>
 #include <weft/custom_forces/tension.hpp>
+#include <weft/custom_forces/torsion.hpp>
 #include <weft/custom_forces/velocity_damping.hpp>
 
 namespace weft::forces {
@@ -39,12 +42,17 @@ Row row() {
 
 // The one list of laws. Everything that enumerates laws reads this table.
 const auto& rows() {
+  // clang-format off
   static const std::array kRows = {
       row<Tension>(),
       row<SpringDamping>(),
+      row<Torsion>(),
+      row<HingeTorsion>(),
+      row<NonlocalTorsion>(),
       row<VelocityDamping>(),
       row<Gravity>(),
   };
+  // clang-format on
   return kRows;
 }
 
@@ -100,19 +108,36 @@ void check_names(const LawSpecification& specification, const LawInfo& info) {
                             "' is unknown, expected one of: " + known);
     }
   }
-  for (auto name = specification.edge_sets.begin(); name != specification.edge_sets.end(); ++name) {
-    if (std::find(specification.edge_sets.begin(), name, *name) != name) {
-      throw InvalidArgument(specification.law + ": edge_sets names '" + *name +
+  const std::string key(set_key(info.traits.elements));
+  if (key.empty() && !specification.sets.empty()) {
+    throw InvalidArgument(specification.law + ": sets = '" + specification.sets.front() +
+                          "', expected none, for this law takes no sets");
+  }
+  for (auto name = specification.sets.begin(); name != specification.sets.end(); ++name) {
+    if (std::find(specification.sets.begin(), name, *name) != name) {
+      throw InvalidArgument(specification.law + ": " + key + " names '" + *name +
                             "' twice, expected each set once");
     }
-  }
-  if (!info.traits.uses_edges && !specification.edge_sets.empty()) {
-    throw InvalidArgument(specification.law + ": edge_sets = '" + specification.edge_sets.front() +
-                          "', expected none, for this law acts on nodes");
   }
 }
 
 }  // namespace
+
+std::string_view set_key(ElementKind elements) {
+  switch (elements) {
+    case ElementKind::kEdges:
+      return "edge_sets";
+    case ElementKind::kLines:
+      return "line_sets";
+    case ElementKind::kConnections:
+      return "connection_sets";
+    case ElementKind::kNodes:
+    case ElementKind::kHinges:
+    case ElementKind::kFaces:
+      break;
+  }
+  return {};
+}
 
 std::span<const LawInfo* const> all_laws() {
   static const auto kInfos = [] {

@@ -12,13 +12,16 @@ constexpr ParameterInfo kParameters[] = {
 }  // namespace
 
 template <class Scalar>
-const LawInfo SpringDamping<Scalar>::kInfo{
-    .id = "spring_damping",
-    .summary = "Viscous dampers along edges",
-    .formula = "f_i = c ((v_j - v_i) . u) u, f_j = -f_i",
-    .source = "dashpot parallel to each spring",
-    .traits = {.internal = true, .has_energy = false, .dissipative = true, .uses_edges = true},
-    .parameters = kParameters};
+const LawInfo SpringDamping<Scalar>::kInfo{.id = "spring_damping",
+                                           .summary = "Viscous dampers along edges",
+                                           .formula = "f_i = c ((v_j - v_i) . u) u, f_j = -f_i",
+                                           .source = "dashpot parallel to each spring",
+                                           .traits = {.internal = true,
+                                                      .ignores_rigid_motion = true,
+                                                      .free_at_rest = true,
+                                                      .dissipative = true,
+                                                      .elements = ElementKind::kEdges},
+                                           .parameters = kParameters};
 
 template <class Scalar>
 SpringDamping<Scalar>::SpringDamping(const LawSpecification& specification, const ClothMesh& mesh)

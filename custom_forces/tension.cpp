@@ -26,7 +26,11 @@ const LawInfo Tension<Scalar>::kInfo{
         "f_i = k' (l - l0) u, f_j = -f_i, E = k' (l - l0)^2 / 2, "
         "k' = k if l >= l0, else ratio k",
     .source = "Werth 2008: tension constant times (length minus rest length)",
-    .traits = {.internal = true, .has_energy = true, .uses_edges = true},
+    .traits = {.internal = true,
+               .ignores_rigid_motion = true,
+               .free_at_rest = true,
+               .has_energy = true,
+               .elements = ElementKind::kEdges},
     .parameters = kParameters};
 
 template <class Scalar>

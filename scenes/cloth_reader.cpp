@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,13 +12,14 @@
 namespace weft::scenes {
 namespace {
 
-constexpr std::array<std::string_view, 13> kClothKeys = {
+constexpr std::array<std::string_view, 14> kClothKeys = {
     "name", "grid",          "center",       "u_axis",           "v_axis",
     "mass", "areal_density", "mass_lumping", "collision_margin", "friction",
-    "law",  "velocity",      "pin"};
+    "law",  "velocity",      "pin",          "connection"};
 constexpr std::array<std::string_view, 3> kGridKeys = {"nodes", "size", "stencil"};
 constexpr std::array<std::string_view, 3> kPinKeys = {"corner", "edge", "box"};
 constexpr std::array<std::string_view, 2> kBoxPinKeys = {"min", "max"};
+constexpr std::array<std::string_view, 3> kConnectionKeys = {"name", "node", "to"};
 
 // Each box pin is tried on the mesh; more of them than this would make reading slow.
 constexpr std::size_t kMaxPins = 100;
@@ -112,9 +114,34 @@ Pin read_pin(const TomlTable& table) {
   return read_box_pin(box->table("a table such as { min = [...], max = [...] }"));
 }
 
+std::vector<Connection> read_connections(const TomlValue& value, const Cloth& cloth) {
+  const std::string expected = "a table such as { name = \"ties\", node = [25, 25] }";
+  std::vector<Connection> connections;
+  for (const TomlValue& entry : value.items("an array such as [{ name = ..., node = [25, 25] }]")) {
+    const TomlTable table = entry.table(expected);
+    table.allow(kConnectionKeys);
+    Connection connection;
+    connection.name = table.require("name", "a name such as \"ties\"").identifier();
+    for (const Connection& other : connections) {
+      if (other.name == connection.name) {
+        entry.fail("has the name of another connection, expected a new one");
+      }
+    }
+    const std::string node = "column and row such as [25, 25]";
+    const std::vector<TomlValue> indices = table.require("node", node).items(node, 2);
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const int count = cloth.grid.nodes[axis];
+      connection.node[axis] = indices[axis].integer(-count, count - 1);
+    }
+    if (const auto to = table.find("to")) connection.to = read_pins(*to, cloth);
+    connections.push_back(std::move(connection));
+  }
+  return connections;
+}
+
 void read_laws(const TomlTable& table, const World& world, Cloth& cloth) {
   for (const TomlTable& law : table.tables("law")) {
-    cloth.laws.push_back(read_law(law, cloth.grid, world));
+    cloth.laws.push_back(read_law(law, cloth, world));
   }
 }
 
@@ -157,6 +184,9 @@ Cloth read_cloth(const TomlTable& table, const World& world) {
   }
   if (const auto value = table.find("friction")) cloth.friction = value->non_negative("1");
   if (const auto value = table.find("pin")) cloth.pins = read_pins(*value, cloth);
+  if (const auto value = table.find("connection")) {
+    cloth.connections = read_connections(*value, cloth);
+  }
   read_laws(table, world, cloth);
   return cloth;
 }

@@ -17,25 +17,39 @@ const forces::LawInfo& find_info(const TomlTable& table) {
   return *forces::all_laws()[law.choice(ids, "law")];
 }
 
-/// Names of the edge sets that a grid with this stencil has, asked of a small one.
-std::vector<std::string> edge_set_names(const ClothGrid& grid) {
-  ClothGrid probe;
-  probe.stencil = grid.stencil;
+/// Names of the sets that a law of this kind may name: those of a small grid of the same stencil,
+/// and the cloth's own connections.
+std::vector<std::string> set_names(forces::ElementKind elements, const Cloth& cloth) {
   std::vector<std::string> names;
-  for (const EdgeSet& set : make_cloth_grid(probe).edge_sets) names.push_back(set.name);
+  ClothGrid probe;
+  probe.stencil = cloth.grid.stencil;
+  const ClothMesh mesh = make_cloth_grid(probe);
+  if (elements == forces::ElementKind::kEdges) {
+    for (const EdgeSet& set : mesh.edge_sets) names.push_back(set.name);
+  } else if (elements == forces::ElementKind::kLines) {
+    for (const LineSet& set : mesh.line_sets) names.push_back(set.name);
+  } else {
+    for (const Connection& connection : cloth.connections) names.push_back(connection.name);
+  }
   return names;
 }
 
-std::vector<std::string> read_edge_sets(const TomlTable& table, const ClothGrid& grid) {
-  const std::vector<std::string> all = edge_set_names(grid);
-  const std::optional<TomlValue> value = table.find("edge_sets");
-  if (!value) return all;
+std::vector<std::string> read_sets(const TomlTable& table, std::string_view key,
+                                   forces::ElementKind elements, const Cloth& cloth) {
+  const std::vector<std::string> all = set_names(elements, cloth);
+  const std::optional<TomlValue> value = table.find(key);
+  if (!value) {
+    if (!all.empty()) return all;
+    table.fail(fmt::format("{} is empty, expected a cloth with at least one", key));
+  }
+  const std::string what =
+      elements == forces::ElementKind::kEdges ? "edge set of this stencil" : "set of this cloth";
   const std::vector<std::string_view> words(all.begin(), all.end());
   std::vector<std::string> names;
   for (const TomlValue& entry : value->items("an array such as [\"stretch\"]")) {
-    const std::string& name = all[entry.choice(words, "edge set of this stencil")];
+    const std::string& name = all[entry.choice(words, what)];
     if (std::find(names.begin(), names.end(), name) != names.end()) {
-      entry.fail("is there twice, expected each edge set once");
+      entry.fail("is there twice, expected each set once");
     }
     names.push_back(name);
   }
@@ -65,17 +79,17 @@ std::string expected_parameter(const forces::ParameterInfo& parameter) {
 
 }  // namespace
 
-forces::LawSpecification read_law(const TomlTable& table, const ClothGrid& grid,
-                                  const World& world) {
+forces::LawSpecification read_law(const TomlTable& table, const Cloth& cloth, const World& world) {
   const forces::LawInfo& info = find_info(table);
   std::vector<std::string_view> keys = {"law"};
-  if (info.traits.uses_edges) keys.push_back("edge_sets");
+  const std::string_view sets_key = set_key(info.traits.elements);
+  if (!sets_key.empty()) keys.push_back(sets_key);
   for (const forces::ParameterInfo& parameter : info.parameters) keys.push_back(parameter.name);
   table.allow(keys);
 
   forces::LawSpecification law;
   law.law = info.id;
-  if (info.traits.uses_edges) law.edge_sets = read_edge_sets(table, grid);
+  if (!sets_key.empty()) law.sets = read_sets(table, sets_key, info.traits.elements, cloth);
   for (const forces::ParameterInfo& parameter : info.parameters) {
     if (const std::optional<TomlValue> value = table.find(parameter.name)) {
       law.parameters.emplace(parameter.name, read_parameter(*value, parameter));

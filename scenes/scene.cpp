@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <weft/custom_forces/core/error.hpp>
 
@@ -22,27 +23,49 @@ bool holds(const BoxPin& pin, const ClothGrid&, const Vector3<double>& position,
          (position.array() <= pin.maximum.array()).all();
 }
 
+/// The nodes that at least one of the regions holds, sorted. what: "pin".
+std::vector<int> nodes_of(const std::vector<Pin>& regions, const Cloth& cloth,
+                          const ClothMesh& mesh, const std::string& what) {
+  std::vector<bool> held(static_cast<std::size_t>(mesh.num_nodes()), false);
+  for (const Pin& region : regions) {
+    bool any = false;
+    for (int node = 0; node < mesh.num_nodes(); ++node) {
+      const bool is_in = std::visit(
+          [&](const auto& p) { return holds(p, cloth.grid, mesh.rest_positions.col(node), node); },
+          region);
+      if (is_in) held[static_cast<std::size_t>(node)] = any = true;
+    }
+    if (!any) {
+      throw InvalidArgument("cloth '" + cloth.name + "': a " + what +
+                            " holds no node, expected a region with at least one node");
+    }
+  }
+  std::vector<int> nodes;
+  for (int node = 0; node < mesh.num_nodes(); ++node) {
+    if (held[static_cast<std::size_t>(node)]) nodes.push_back(node);
+  }
+  return nodes;
+}
+
+void add_connection(const Connection& connection, const Cloth& cloth, ClothMesh& mesh) {
+  const int node = grid_node(cloth.grid, connection.node[0], connection.node[1]);
+  std::vector<int> far;
+  if (connection.to.empty()) {
+    far.resize(static_cast<std::size_t>(mesh.num_nodes()));
+    std::iota(far.begin(), far.end(), 0);
+  } else {
+    far = nodes_of(connection.to, cloth, mesh, "connection");
+  }
+  far.erase(std::remove(far.begin(), far.end(), node), far.end());
+  connect(mesh, connection.name, node, far);
+}
+
 }  // namespace
 
 ClothMesh make_mesh(const Cloth& cloth) {
   ClothMesh mesh = make_cloth_grid(cloth.grid);
-  std::vector<bool> pinned(static_cast<std::size_t>(mesh.num_nodes()), false);
-  for (const Pin& pin : cloth.pins) {
-    bool any = false;
-    for (int node = 0; node < mesh.num_nodes(); ++node) {
-      const bool held = std::visit(
-          [&](const auto& p) { return holds(p, cloth.grid, mesh.rest_positions.col(node), node); },
-          pin);
-      if (held) pinned[static_cast<std::size_t>(node)] = any = true;
-    }
-    if (!any) {
-      throw InvalidArgument("cloth '" + cloth.name +
-                            "': a pin holds no node, expected a region with at least one node");
-    }
-  }
-  for (int node = 0; node < mesh.num_nodes(); ++node) {
-    if (pinned[static_cast<std::size_t>(node)]) mesh.pinned.push_back(node);
-  }
+  mesh.pinned = nodes_of(cloth.pins, cloth, mesh, "pin");
+  for (const Connection& connection : cloth.connections) add_connection(connection, cloth, mesh);
   return mesh;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <variant>
@@ -38,10 +39,18 @@ struct BoxPin {
 };
 using Pin = std::variant<CornerPin, EdgePin, BoxPin>;
 
+/// Ties of one node to far ones, for nonlocal_torsion.
+struct Connection {
+  std::string name;
+  std::array<int, 2> node{0, 0};  ///< column and row; negative values count from the far side
+  std::vector<Pin> to;            ///< regions of far nodes; empty: every other node
+};
+
 struct Cloth {
   std::string name;
   ClothGrid grid;
   std::vector<Pin> pins;
+  std::vector<Connection> connections = {};
   Vector3<double> velocity{0, 0, 0};  ///< [m/s] of every free node at the start
   double collision_margin = 0.01;     ///< [m] distance at which the cloth rests on a surface, >= 0
   double friction =
@@ -105,8 +114,8 @@ struct Scene {
   Camera camera;
 };
 
-/// Mesh of a cloth with its pins resolved to node indices.
-/// Throws InvalidArgument if a pin holds no node.
+/// Mesh of a cloth with its pins and connections resolved to node indices.
+/// Throws InvalidArgument if a pin or the far end of a connection holds no node.
 [[nodiscard]] ClothMesh make_mesh(const Cloth& cloth);
 
 /// The scene with the time step that Bullet takes, which it rounds to single precision in both

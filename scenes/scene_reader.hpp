@@ -16,7 +16,7 @@ inline constexpr int kMaxNodes = 1'000'000;   ///< of all cloths together
 [[nodiscard]] Collider read_collider(const TomlTable& table);
 /// cloth: the grid says which edge sets there are; world: gravity, if the law names no
 /// acceleration.
-[[nodiscard]] forces::LawSpecification read_law(const TomlTable& table, const ClothGrid& grid,
+[[nodiscard]] forces::LawSpecification read_law(const TomlTable& table, const Cloth& cloth,
                                                 const World& world);
 [[nodiscard]] std::vector<Pin> read_pins(const TomlValue& value, const Cloth& cloth);
 

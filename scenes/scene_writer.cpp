@@ -77,6 +77,20 @@ std::string pin_text(const BoxPin& pin) {
                      vector_text(pin.maximum, "m"));
 }
 
+std::string pins_text(const std::vector<Pin>& pins) {
+  std::string text;
+  for (const Pin& pin : pins) {
+    text += (text.empty() ? "" : ", ") + std::visit([](const auto& p) { return pin_text(p); }, pin);
+  }
+  return "[" + text + "]";
+}
+
+std::string connection_text(const Connection& connection) {
+  return fmt::format("{{ name = {}, node = [{}, {}]{} }}", toml_string(connection.name),
+                     connection.node[0], connection.node[1],
+                     connection.to.empty() ? "" : ", to = " + pins_text(connection.to));
+}
+
 void write_law(std::string& out, const forces::LawSpecification& law) {
   const forces::LawInfo* info = forces::find_law(law.law);
   if (info == nullptr) {
@@ -84,11 +98,10 @@ void write_law(std::string& out, const forces::LawSpecification& law) {
   }
   out += "\n[[cloth.law]]\n";
   line(out, "law", toml_string(law.law));
-  if (!law.edge_sets.empty()) {
+  if (!law.sets.empty()) {
     std::string sets;
-    for (const std::string& set : law.edge_sets)
-      sets += (sets.empty() ? "" : ", ") + toml_string(set);
-    line(out, "edge_sets", "[" + sets + "]");
+    for (const std::string& set : law.sets) sets += (sets.empty() ? "" : ", ") + toml_string(set);
+    line(out, set_key(info->traits.elements), "[" + sets + "]");
   }
   const forces::LawSpecification full = forces::checked(law);
   for (const forces::ParameterInfo& parameter : info->parameters) {
@@ -117,11 +130,14 @@ void write_cloth(std::string& out, const Cloth& cloth) {
   line(out, "velocity", vector_text(cloth.velocity, "m/s"));
   line(out, "collision_margin", value_text(cloth.collision_margin, "m"));
   line(out, "friction", value_text(cloth.friction, "1"));
-  std::string pins;
-  for (const Pin& pin : cloth.pins) {
-    pins += (pins.empty() ? "" : ", ") + std::visit([](const auto& p) { return pin_text(p); }, pin);
+  line(out, "pin", pins_text(cloth.pins));
+  if (!cloth.connections.empty()) {
+    std::string connections;
+    for (const Connection& connection : cloth.connections) {
+      connections += (connections.empty() ? "" : ", ") + connection_text(connection);
+    }
+    line(out, "connection", "[" + connections + "]");
   }
-  line(out, "pin", "[" + pins + "]");
   for (const forces::LawSpecification& law : cloth.laws) write_law(out, law);
 }
 

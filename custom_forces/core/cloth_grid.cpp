@@ -65,6 +65,20 @@ Edges edges_of_offsets(const ClothGrid& grid, const std::vector<Offset>& offsets
   return Eigen::Map<const Edges>(flat.data(), 2, static_cast<Eigen::Index>(flat.size() / 2));
 }
 
+/// Three next neighbours along an axis (0: along u, 1: along v), centre in the middle.
+Triples lines_along(const ClothGrid& grid, int axis) {
+  const auto [columns, rows] = grid.nodes;
+  const int di = axis == 0 ? 1 : 0;
+  const int dj = 1 - di;
+  std::vector<int> flat;
+  for (int j = dj; j < rows - dj; ++j) {
+    for (int i = di; i < columns - di; ++i) {
+      for (const int step : {-1, 0, 1}) flat.push_back((j + step * dj) * columns + i + step * di);
+    }
+  }
+  return Eigen::Map<const Triples>(flat.data(), 3, static_cast<Eigen::Index>(flat.size() / 3));
+}
+
 Triangles union_jack(const ClothGrid& grid) {
   const auto [columns, rows] = grid.nodes;
   Triangles triangles(3, 2 * (columns - 1) * (rows - 1));
@@ -103,6 +117,9 @@ ClothMesh make_cloth_grid(const ClothGrid& grid) {
     }
   }
   mesh.triangles = union_jack(grid);
+  mesh.tessellation = Tessellation::kUnionJack;
+  mesh.line_sets.push_back({"lines_u", lines_along(grid, 0)});
+  mesh.line_sets.push_back({"lines_v", lines_along(grid, 1)});
   mesh.edge_sets.push_back({"stretch", edges_of_offsets(grid, kStretchOffsets)});
   mesh.edge_sets.push_back({"shear", edges_of_offsets(grid, kShearOffsets)});
   if (grid.stencil != GridStencil::k8Neighbour) {

@@ -1,6 +1,7 @@
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 
 #include <algorithm>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -35,6 +36,32 @@ Edges ClothMesh::edges_of(const std::vector<std::string>& set_names) const {
     edges.rightCols(found->edges.cols()) = found->edges;
   }
   return edges;
+}
+
+void connect(ClothMesh& mesh, const std::string& name, int node,
+             const std::vector<int>& far_nodes) {
+  const auto taken = [&](const ConnectionSet& set) { return set.name == name; };
+  if (std::any_of(mesh.connection_sets.begin(), mesh.connection_sets.end(), taken)) {
+    throw InvalidArgument("cloth mesh: connection set '" + name +
+                          "' is there already, expected a new name");
+  }
+  ConnectionSet set{name, Edges(2, static_cast<Eigen::Index>(far_nodes.size()))};
+  Eigen::Index column = 0;
+  for (const int far : far_nodes) {
+    for (const int end : {node, far}) {
+      if (end < 0 || end >= mesh.num_nodes()) {
+        throw InvalidArgument("cloth mesh: connection '" + name + "' names node " +
+                              std::to_string(end) + ", expected 0 to " +
+                              std::to_string(mesh.num_nodes() - 1));
+      }
+    }
+    if (far == node) {
+      throw InvalidArgument("cloth mesh: connection '" + name + "' ties node " +
+                            std::to_string(node) + " to itself, expected another node");
+    }
+    set.connections.col(column++) << node, far;
+  }
+  mesh.connection_sets.push_back(std::move(set));
 }
 
 VectorX<double> node_areas(const ClothMesh& mesh) {

@@ -15,11 +15,33 @@ struct EdgeSet {
   Edges edges;  ///< 2 x m, first index < second index, no duplicates
 };
 
+/// A named set of node triples in a row, for three-point torsion.
+struct LineSet {
+  std::string name;
+  Triples triples;  ///< 3 x m: end, centre, end
+};
+
+/// A named set of connections between nodes that are not neighbours.
+struct ConnectionSet {
+  std::string name;
+  Edges connections;  ///< 2 x m: the node whose frame counts, the far node
+};
+
+/// How the triangles were laid out, which decides what a hinge stands for (hinge_torsion).
+enum class Tessellation {
+  kGeneral,
+  /// right triangles of a grid whose diagonals alternate
+  kUnionJack,
+};
+
 /// One piece of cloth as every engine receives it: rest shape, topology and mass. Knows no engine.
 struct ClothMesh {
   Matrix3X<double> rest_positions;  ///< 3 x n [m]; rest lengths and angles come from here
   Triangles triangles;              ///< 3 x t, counter-clockwise seen from the front
+  Tessellation tessellation = Tessellation::kGeneral;
   std::vector<EdgeSet> edge_sets;
+  std::vector<LineSet> line_sets = {};
+  std::vector<ConnectionSet> connection_sets = {};
   VectorX<double> masses;   ///< n [kg], > 0 for every node, also for pinned ones
   std::vector<int> pinned;  ///< sorted node indices that do not move
 
@@ -29,6 +51,11 @@ struct ClothMesh {
   /// The edges of the named sets, one after the other. Throws InvalidArgument for an unknown set.
   [[nodiscard]] Edges edges_of(const std::vector<std::string>& set_names) const;
 };
+
+/// Adds connections from one node to each of the far nodes, as a connection set of this name. Throws
+/// InvalidArgument for a node outside the mesh, a far node that is the node itself, and a name that
+/// is taken.
+void connect(ClothMesh& mesh, const std::string& name, int node, const std::vector<int>& far_nodes);
 
 /// Rest area that belongs to each node: a third of each triangle around it. n [m^2].
 [[nodiscard]] VectorX<double> node_areas(const ClothMesh& mesh);

@@ -19,8 +19,11 @@ using Matrix3XRef = Eigen::Ref<Matrix3X<Scalar>>;
 template <class Scalar>
 using ConstMatrix3XRef = const Eigen::Ref<const Matrix3X<Scalar>>&;
 
-/// Edges, 2 x m, and triangles, 3 x m: one column per element, entries are node indices.
+/// Edges, 2 x m, triples and triangles, 3 x m, hinges, 4 x m: one column per element, entries are
+/// node indices.
 using Edges = Eigen::Matrix<int, 2, Eigen::Dynamic>;
+using Triples = Eigen::Matrix<int, 3, Eigen::Dynamic>;
 using Triangles = Eigen::Matrix<int, 3, Eigen::Dynamic>;
+using Hinges = Eigen::Matrix<int, 4, Eigen::Dynamic>;
 
 }  // namespace weft

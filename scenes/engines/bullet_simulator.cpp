@@ -65,7 +65,7 @@ bridge::LinkSet BulletSimulator::link_set(const Cloth& cloth,
                           "': tension.compression_ratio is not 1, but Bullet's links push as they "
                           "pull; expected 1, or the engine bullet_forces");
   }
-  return {law.edge_sets, law.parameters.at("stiffness").at(0)};
+  return {law.sets, law.parameters.at("stiffness").at(0)};
 }
 
 void BulletSimulator::add_cloth(const Cloth& cloth, const Scene& scene) {

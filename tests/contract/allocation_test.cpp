@@ -74,7 +74,7 @@ template <class Scalar>
 long allocations_of(const Subject& subject, int threads) {
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
-  const ClothMesh mesh = sheet(40, 40);
+  const ClothMesh mesh = subject.large_mesh();
   forces::LawSet<Scalar> laws;
   laws.add(subject.make<Scalar>(mesh));
   const Sample<Scalar> sample = cast<Scalar>(deformed(mesh, Deformation::kMixed));

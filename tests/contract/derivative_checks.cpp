@@ -35,7 +35,7 @@ Matrix3X<double> product(const forces::ForceLaw<double>& law, const Probe& probe
 }
 
 Measurement derivative(const Subject& subject, Argument argument, const std::string& what) {
-  const ClothMesh mesh = battery_mesh();
+  const ClothMesh mesh = subject.mesh();
   const auto law = subject.make<double>(mesh);
   const auto dual_law = subject.make<Dual>(mesh);
   Measurement worst{.what = what};
@@ -54,7 +54,7 @@ Measurement derivative(const Subject& subject, Argument argument, const std::str
 }
 
 Measurement difference(const Subject& subject, Argument argument, const std::string& what) {
-  const ClothMesh mesh = battery_mesh();
+  const ClothMesh mesh = subject.mesh();
   const auto law = subject.make<double>(mesh);
   Measurement worst{.what = what};
   for (const Probe& probe : probes(mesh, argument)) {
@@ -96,7 +96,7 @@ Measurement damping_is_the_difference(const Subject& subject) {
 }
 
 Measurement stiffness_is_symmetric(const Subject& subject) {
-  const ClothMesh mesh = battery_mesh();
+  const ClothMesh mesh = subject.mesh();
   const auto law = subject.make<double>(mesh);
   Measurement worst{.what = "|a.Kb - b.Ka| [N m]"};
   for (Probe& probe : probes(mesh, Argument::kPositions)) {
@@ -112,7 +112,7 @@ Measurement stiffness_is_symmetric(const Subject& subject) {
 }
 
 Measurement float_agrees_with_double(const Subject& subject) {
-  const ClothMesh mesh = battery_mesh();
+  const ClothMesh mesh = subject.mesh();
   const auto coarse = subject.make<float>(mesh);
   const auto fine = subject.make<double>(mesh);
   Measurement worst{.what = "float against double"};

@@ -32,7 +32,7 @@ Matrix3X<double> difference_gradient(const forces::ForceLaw<double>& law, Sample
 }  // namespace
 
 Measurement force_is_minus_energy_gradient(const Subject& subject) {
-  const ClothMesh mesh = battery_mesh();
+  const ClothMesh mesh = subject.mesh();
   const auto law = subject.make<double>(mesh);
   Measurement worst{.what = "force = -grad E"};
   for (const Deformation deformation : kDeformations) {
@@ -54,7 +54,7 @@ Measurement force_is_minus_energy_gradient(const Subject& subject) {
 }
 
 Measurement energy_is_zero(const Subject& subject) {
-  const ClothMesh mesh = battery_mesh();
+  const ClothMesh mesh = subject.mesh();
   const auto law = subject.make<double>(mesh);
   Measurement worst{.what = "|E| of a law without energy [J]"};
   for (const Deformation deformation : kDeformations) {
@@ -65,7 +65,7 @@ Measurement energy_is_zero(const Subject& subject) {
 }
 
 Measurement power_is_accounted_for(const Subject& subject) {
-  const ClothMesh mesh = battery_mesh();
+  const ClothMesh mesh = subject.mesh();
   const auto law = subject.make<double>(mesh);
   const auto dual_law = subject.make<Dual>(mesh);
   Measurement worst{.what = "|f.v + dE/dt - P_nc| [W]"};
@@ -85,7 +85,7 @@ Measurement power_is_accounted_for(const Subject& subject) {
 
 Measurement power_is_never_positive(const Subject& subject) {
   constexpr std::uint64_t kStates = 20;
-  const ClothMesh mesh = battery_mesh();
+  const ClothMesh mesh = subject.mesh();
   const auto law = subject.make<double>(mesh);
   double power = -std::numeric_limits<double>::infinity();
   for (std::uint64_t seed = 1; seed <= kStates; ++seed) {

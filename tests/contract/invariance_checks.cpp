@@ -18,7 +18,7 @@ Vector3<double> torque_of(const Matrix3X<double>& positions, const Matrix3X<doub
 
 template <class Scalar, class Check>
 Measurement worst_over_deformations(const Subject& subject, const Check& check) {
-  const ClothMesh mesh = battery_mesh();
+  const ClothMesh mesh = subject.mesh();
   const auto law = subject.make<Scalar>(mesh);
   Measurement worst = check(*law, cast<Scalar>(at_rest(mesh)));
   for (const Deformation deformation : kDeformations) {
@@ -83,7 +83,7 @@ Measurement rigid_motion_adds_no_force(const Subject& subject) {
 
 template <class Scalar>
 Measurement rest_shape_is_free_of_force(const Subject& subject) {
-  const ClothMesh mesh = battery_mesh();
+  const ClothMesh mesh = subject.mesh();
   const auto law = subject.make<Scalar>(mesh);
   const Sample<Scalar> sample = cast<Scalar>(at_rest(mesh));
   return {largest(forces_of(*law, sample)),

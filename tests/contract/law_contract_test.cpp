@@ -25,7 +25,9 @@ class InternalLaw : public testing::TestWithParam<Subject> {};
 class EnergyLaw : public testing::TestWithParam<Subject> {};
 class EnergylessLaw : public testing::TestWithParam<Subject> {};
 class DissipativeLaw : public testing::TestWithParam<Subject> {};
-class EdgeLaw : public testing::TestWithParam<Subject> {};
+class LawBlindToRigidMotion : public testing::TestWithParam<Subject> {};
+class LawFreeAtRest : public testing::TestWithParam<Subject> {};
+class ElementLaw : public testing::TestWithParam<Subject> {};
 class ForceLevelLaw : public testing::TestWithParam<Subject> {};
 class VelocityLevelLaw : public testing::TestWithParam<Subject> {};
 
@@ -42,7 +44,11 @@ WEFT_FOR_LAWS(InternalLaw, [](const LawTraits& t) { return t.internal; });
 WEFT_FOR_LAWS(EnergyLaw, [](const LawTraits& t) { return t.has_energy; });
 WEFT_FOR_LAWS(EnergylessLaw, [](const LawTraits& t) { return !t.has_energy; });
 WEFT_FOR_LAWS(DissipativeLaw, [](const LawTraits& t) { return t.dissipative; });
-WEFT_FOR_LAWS(EdgeLaw, [](const LawTraits& t) { return t.uses_edges; });
+WEFT_FOR_LAWS(ElementLaw, [](const LawTraits& t) {
+  return t.elements != forces::ElementKind::kNodes && !t.needs_closed_surface;
+});
+WEFT_FOR_LAWS(LawBlindToRigidMotion, [](const LawTraits& t) { return t.ignores_rigid_motion; });
+WEFT_FOR_LAWS(LawFreeAtRest, [](const LawTraits& t) { return t.free_at_rest; });
 WEFT_FOR_LAWS(ForceLevelLaw,
               [](const LawTraits& t) { return t.level == LawTraits::Level::kForce; });
 WEFT_FOR_LAWS(VelocityLevelLaw,
@@ -66,8 +72,8 @@ WEFT_CHECK(DissipativeLaw, PowerIsNeverPositive, power_is_never_positive)
 WEFT_CHECK_SCALARS(InternalLaw, NetForceIsZero, net_force_is_zero)
 WEFT_CHECK_SCALARS(InternalLaw, NetTorqueIsZero, net_torque_is_zero)
 WEFT_CHECK_SCALARS(InternalLaw, ForceTurnsWithTheBody, force_turns_with_the_body)
-WEFT_CHECK_SCALARS(InternalLaw, RigidMotionAddsNoForce, rigid_motion_adds_no_force)
-WEFT_CHECK_SCALARS(InternalLaw, RestShapeIsFreeOfForce, rest_shape_is_free_of_force)
+WEFT_CHECK_SCALARS(LawBlindToRigidMotion, RigidMotionAddsNoForce, rigid_motion_adds_no_force)
+WEFT_CHECK_SCALARS(LawFreeAtRest, RestShapeIsFreeOfForce, rest_shape_is_free_of_force)
 
 WEFT_CHECK(VelocityLevelLaw, AdvanceSolvesTheEquation, advance_solves_the_equation)
 WEFT_CHECK_SCALARS(VelocityLevelLaw, TwoHalfStepsAreOne, two_half_steps_are_one)
@@ -84,7 +90,7 @@ WEFT_CHECK_SCALARS(AnyLaw, NodeOrderDoesNotMatter, node_order_does_not_matter)
 WEFT_CHECK_SCALARS(AnyLaw, CallsRepeatBitForBit, calls_repeat_bit_for_bit)
 WEFT_CHECK_SCALARS(AnyLaw, ResultsAreAdded, results_are_added)
 WEFT_CHECK_SCALARS(AnyLaw, TwoNodesSuffice, two_nodes_suffice)
-WEFT_CHECK_SCALARS(EdgeLaw, NoEdgesNoForce, no_edges_no_force)
+WEFT_CHECK_SCALARS(ElementLaw, NoElementsNoForce, no_elements_no_force)
 
 }  // namespace
 }  // namespace weft::contract

@@ -21,15 +21,38 @@ std::string default_of(const ParameterInfo& parameter) {
   return parameter.required ? "required" : fmt::format("{:g}", parameter.default_value);
 }
 
+std::string_view elements(ElementKind kind) {
+  switch (kind) {
+    case ElementKind::kEdges:
+      return "edges (`edge_sets`)";
+    case ElementKind::kLines:
+      return "three nodes in a row (`line_sets`)";
+    case ElementKind::kHinges:
+      return "hinges between triangles";
+    case ElementKind::kFaces:
+      return "triangles";
+    case ElementKind::kConnections:
+      return "connections (`connection_sets`)";
+    case ElementKind::kNodes:
+      break;
+  }
+  return "nodes";
+}
+
 std::string traits(const LawTraits& t) {
-  std::string text = t.internal ? "internal: conserves linear and angular momentum, feels no rigid "
-                                  "motion"
-                                : "external: may change momentum";
+  std::string text = fmt::format("acts on {}", elements(t.elements));
+  text += t.internal ? "; internal: conserves linear and angular momentum"
+                     : "; external: may change momentum";
+  if (t.ignores_rigid_motion) text += "; feels no rigid motion";
+  if (!t.free_at_rest) text += "; may act at the rest shape";
   text += t.has_energy ? "; has an energy" : "; stores no energy";
   if (t.dissipative) text += "; only takes energy out";
-  text += t.uses_edges ? "; acts on edge sets" : "; acts on nodes";
+  if (t.needs_closed_surface) text += "; needs a closed surface";
   if (t.level == LawTraits::Level::kVelocity) {
     text += "; velocity level: engines apply its exact solution after their step";
+  }
+  if (t.level == LawTraits::Level::kInertia) {
+    text += "; inertia level: engines apply it to the sum of all forces";
   }
   return text;
 }

@@ -7,7 +7,7 @@ namespace weft::contract {
 
 /// Nothing that a user cannot see may change the result. Scalar is float or double.
 
-/// The edges of every set in another order: equal within round-off.
+/// The edges, lines and triangles in another order: equal within round-off.
 template <class Scalar>
 [[nodiscard]] Measurement edge_order_does_not_matter(const Subject& subject);
 
@@ -28,9 +28,10 @@ template <class Scalar>
 template <class Scalar>
 [[nodiscard]] Measurement results_are_added(const Subject& subject);
 
-/// Forces on a mesh whose edge sets are empty, for a law that acts on edges [N].
+/// Forces on a mesh without edges, lines, triangles and connections, for a law that acts on some of
+/// them [N].
 template <class Scalar>
-[[nodiscard]] Measurement no_edges_no_force(const Subject& subject);
+[[nodiscard]] Measurement no_elements_no_force(const Subject& subject);
 
 /// Two nodes and one edge: entries of forces and products that are not finite.
 template <class Scalar>

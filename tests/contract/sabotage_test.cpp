@@ -77,7 +77,7 @@ const std::vector<Control> kControls = {
      threads_change_no_bit<double>},
     {"OverwritingFailsAddition", "tension", Fault::kOverwrites, results_are_added<double>},
     {"ForceWithoutEdgesFailsNoEdges", "tension", Fault::kForceWithoutEdges,
-     no_edges_no_force<double>},
+     no_elements_no_force<double>},
     {"NotFiniteFailsTwoNodes", "tension", Fault::kNotFinite, two_nodes_suffice<double>},
     {"EulerDecayFailsEquation", "velocity_damping", Fault::kEulerDecay,
      advance_solves_the_equation},

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <weft/custom_forces/core/cloth_grid.hpp>
+#include <weft/custom_forces/core/icosphere.hpp>
 
 namespace weft::contract {
 namespace {
@@ -45,11 +47,25 @@ ClothMesh sheet(int columns, int rows) {
   grid.u_axis = kAlong;
   grid.v_axis = kAcross;
   grid.total_mass = 0.7;
-  return make_cloth_grid(grid);
+  ClothMesh mesh = make_cloth_grid(grid);
+  if (columns > 2 && rows > 2) {
+    const int middle = grid_node(grid, columns / 2, (rows - 1) / 2);
+    std::vector<int> others;
+    for (int node = 0; node < mesh.num_nodes(); ++node) {
+      if (node != middle) others.push_back(node);
+    }
+    connect(mesh, "ties", middle, others);
+  }
+  return mesh;
 }
 
-ClothMesh battery_mesh() {
-  return sheet(5, 4);
+ClothMesh battery_mesh(bool closed) {
+  return closed ? make_icosphere({.radius = 0.3, .frequency = 2, .center = kCenter}) : sheet(5, 4);
+}
+
+ClothMesh large_battery_mesh(bool closed) {
+  return closed ? make_icosphere({.radius = 2.4, .frequency = 12, .center = kCenter})
+                : sheet(40, 40);
 }
 
 Matrix3X<double> random_directions(Eigen::Index n, std::uint64_t seed) {
@@ -74,7 +90,7 @@ Sample<double> deformed(const ClothMesh& mesh, Deformation deformation, std::uin
     const double b = p.dot(kAcross);
     sample.positions.col(node) += kCenter + ratios.along * a * kAlong +
                                   ratios.across * b * kAcross +
-                                  kWaveHeight * std::sin(7 * a + 5 * b) * normal;
+                                  (p.dot(normal) + kWaveHeight * std::sin(7 * a + 5 * b)) * normal;
   }
   return sample;
 }

@@ -35,13 +35,16 @@ inline constexpr std::array kDeformations = {Deformation::kStretched, Deformatio
 /// Distance of neighbours in the battery's sheet [m].
 inline constexpr double kSpacing = 0.2;
 
-/// A sheet of 5 x 4 nodes, 24-neighbour springs, in an oblique plane off the origin.
-[[nodiscard]] ClothMesh battery_mesh();
+/// A sheet of 5 x 4 nodes, 24-neighbour springs, in an oblique plane off the origin; for laws that
+/// need a closed surface a sphere of 42 nodes.
+[[nodiscard]] ClothMesh battery_mesh(bool closed);
+/// The same with about 1600 nodes, for the thread tests: many chunks.
+[[nodiscard]] ClothMesh large_battery_mesh(bool closed);
 
-/// The same plane and spacing, columns x rows nodes; large ones are for the thread tests.
+/// The same plane and spacing, columns x rows nodes, with connections from a node in the middle.
 [[nodiscard]] ClothMesh sheet(int columns, int rows);
 
-/// A waved, noisy sheet with random velocities of about 1 m/s. mesh must come from sheet().
+/// Waved and noisy, with random velocities of about 1 m/s. mesh must be one of those above.
 [[nodiscard]] Sample<double> deformed(const ClothMesh& mesh, Deformation deformation,
                                       std::uint64_t seed = 1);
 

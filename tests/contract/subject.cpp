@@ -22,7 +22,7 @@ std::vector<double> typical_value(const ParameterInfo& parameter) {
 }  // namespace
 
 LawSpecification typical_specification(const LawInfo& info, bool with_optional) {
-  LawSpecification specification{.law = std::string(info.id), .edge_sets = {}, .parameters = {}};
+  LawSpecification specification{.law = std::string(info.id), .sets = {}, .parameters = {}};
   for (const ParameterInfo& parameter : info.parameters) {
     if (!parameter.required && !with_optional) continue;
     specification.parameters[std::string(parameter.name)] = typical_value(parameter);

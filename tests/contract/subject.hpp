@@ -9,6 +9,8 @@
 #include <weft/custom_forces/core/dual.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
+#include "tests/contract/sample.hpp"
+
 namespace weft::contract {
 
 /// A law with parameters, for every scalar: what the battery tests. Registered laws and sabotaged
@@ -22,6 +24,12 @@ struct Subject {
   Factory<float> make_float;
   Factory<double> make_double;
   Factory<Dual> make_dual;
+
+  /// The battery's mesh for this law.
+  [[nodiscard]] ClothMesh mesh() const { return battery_mesh(traits.needs_closed_surface); }
+  [[nodiscard]] ClothMesh large_mesh() const {
+    return large_battery_mesh(traits.needs_closed_surface);
+  }
 
   template <class Scalar>
   [[nodiscard]] std::unique_ptr<forces::ForceLaw<Scalar>> make(const ClothMesh& mesh) const {

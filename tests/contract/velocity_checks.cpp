@@ -31,7 +31,7 @@ Matrix3X<double> runge_kutta(const forces::ForceLaw<double>& law, const Sample<d
 }  // namespace
 
 Measurement advance_solves_the_equation(const Subject& subject) {
-  const ClothMesh mesh = battery_mesh();
+  const ClothMesh mesh = subject.mesh();
   const auto law = subject.make<double>(mesh);
   Measurement worst{.what = "advance_velocities against Runge-Kutta"};
   for (const Deformation deformation : kDeformations) {
@@ -51,7 +51,7 @@ Measurement advance_solves_the_equation(const Subject& subject) {
 
 template <class Scalar>
 Measurement two_half_steps_are_one(const Subject& subject) {
-  const ClothMesh mesh = battery_mesh();
+  const ClothMesh mesh = subject.mesh();
   const auto law = subject.make<Scalar>(mesh);
   const Sample<Scalar> sample = cast<Scalar>(deformed(mesh, Deformation::kMixed));
   Matrix3X<Scalar> once = sample.velocities;
@@ -68,7 +68,7 @@ Measurement two_half_steps_are_one(const Subject& subject) {
 
 template <class Scalar>
 Measurement advance_changes_nothing(const Subject& subject) {
-  const ClothMesh mesh = battery_mesh();
+  const ClothMesh mesh = subject.mesh();
   const auto law = subject.make<Scalar>(mesh);
   const Sample<Scalar> sample = cast<Scalar>(deformed(mesh, Deformation::kMixed));
   Matrix3X<Scalar> velocities = sample.velocities;

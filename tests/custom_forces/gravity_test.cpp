@@ -8,7 +8,7 @@ namespace weft::forces {
 namespace {
 
 const LawSpecification kLaw{
-    .law = "gravity", .edge_sets = {}, .parameters = {{"acceleration", {1.0, -9.0, 0.5}}}};
+    .law = "gravity", .sets = {}, .parameters = {{"acceleration", {1.0, -9.0, 0.5}}}};
 
 TEST(Gravity, PullsEveryNodeByItsMass) {
   ClothMesh mesh = one_spring(1.0);

@@ -15,13 +15,13 @@ namespace {
 using VelocityLaws = LawSet<double>::VelocityLaws;
 
 const LawSpecification kTension{
-    .law = "tension", .edge_sets = {}, .parameters = {{"stiffness", {10.0}}}};
+    .law = "tension", .sets = {}, .parameters = {{"stiffness", {10.0}}}};
 const LawSpecification kSpringDamping{
-    .law = "spring_damping", .edge_sets = {}, .parameters = {{"damping", {2.0}}}};
+    .law = "spring_damping", .sets = {}, .parameters = {{"damping", {2.0}}}};
 const LawSpecification kVelocityDamping{
-    .law = "velocity_damping", .edge_sets = {}, .parameters = {{"rate", {0.5}}}};
+    .law = "velocity_damping", .sets = {}, .parameters = {{"rate", {0.5}}}};
 const LawSpecification kGravity{
-    .law = "gravity", .edge_sets = {}, .parameters = {{"acceleration", {0.0, -10.0, 0.0}}}};
+    .law = "gravity", .sets = {}, .parameters = {{"acceleration", {0.0, -10.0, 0.0}}}};
 
 class LawSetTest : public testing::Test {
  protected:

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kDamping = 3.0;  // [N s/m]
 const LawSpecification kLaw{
-    .law = "spring_damping", .edge_sets = {}, .parameters = {{"damping", {kDamping}}}};
+    .law = "spring_damping", .sets = {}, .parameters = {{"damping", {kDamping}}}};
 
 Matrix3X<double> second_node(double x, double y, double z) {
   Matrix3X<double> columns = Matrix3X<double>::Zero(3, 2);

@@ -16,7 +16,7 @@ const Matrix3X<double> kStill = Matrix3X<double>::Zero(3, 2);
 
 LawSpecification tension(double compression_ratio) {
   return {.law = "tension",
-          .edge_sets = {},
+          .sets = {},
           .parameters = {{"stiffness", {kStiffness}}, {"compression_ratio", {compression_ratio}}}};
 }
 
@@ -67,7 +67,7 @@ TEST(Tension, TheRatioDoesNotTouchAStretchedSpring) {
 
 TEST(Tension, TheRatioIsOneIfNotGiven) {
   const LawSpecification specification{
-      .law = "tension", .edge_sets = {}, .parameters = {{"stiffness", {kStiffness}}}};
+      .law = "tension", .sets = {}, .parameters = {{"stiffness", {kStiffness}}}};
   EXPECT_EQ(forces_on(specification, one_spring(kRestLength), apart(1.5), kStill)(0, 0),
             pull_at(1.5, 1.0));
 }
@@ -95,7 +95,7 @@ TEST(Tension, ActsOnTheNamedSetsOnly) {
   ClothMesh mesh = one_spring(kRestLength);
   mesh.edge_sets.push_back({"none", Edges(2, 0)});
   LawSpecification specification = tension(1.0);
-  specification.edge_sets = {"none"};
+  specification.sets = {"none"};
   EXPECT_EQ(forces_on(specification, mesh, apart(3.0), kStill), kStill);
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRate = 0.8;  // [1/s]
 const LawSpecification kLaw{
-    .law = "velocity_damping", .edge_sets = {}, .parameters = {{"rate", {kRate}}}};
+    .law = "velocity_damping", .sets = {}, .parameters = {{"rate", {kRate}}}};
 
 Matrix3X<double> after(double duration, int num_steps) {
   const ClothMesh mesh = one_spring(1.0);

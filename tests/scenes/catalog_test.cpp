@@ -68,7 +68,7 @@ double stability_number(const Scene& scene, const Cloth& cloth) {
   for (const forces::LawSpecification& law : cloth.laws) {
     if (law.law != "tension") continue;
     const double stiffness = law.parameters.at("stiffness").at(0);
-    const Edges edges = mesh.edges_of(law.edge_sets);
+    const Edges edges = mesh.edges_of(law.sets);
     for (Eigen::Index e = 0; e < edges.cols(); ++e) {
       const Vector3<double> u =
           (mesh.rest_positions.col(edges(1, e)) - mesh.rest_positions.col(edges(0, e)))

@@ -208,7 +208,7 @@ TEST(SceneFile, EveryKeyReachesTheScene) {
   const std::vector<double> gravity = {0.1, -1.0 / 3.0, 0};
   EXPECT_EQ(cloth.laws.at(0).parameters.at("acceleration"), gravity);
   EXPECT_EQ(cloth.laws.at(1).parameters.at("stiffness").at(0), 1000.0 / 7.0);
-  EXPECT_EQ(cloth.laws.at(1).edge_sets, (std::vector<std::string>{"stretch", "shear", "bend"}));
+  EXPECT_EQ(cloth.laws.at(1).sets, (std::vector<std::string>{"stretch", "shear", "bend"}));
   const Collider& ball = scene.colliders.at(0);
   EXPECT_EQ(std::get<SphereShape>(ball.shape).radius, 1.0 / 3.0);
   EXPECT_EQ(ball.mass, 1.0 / 9.0);

@@ -13,7 +13,7 @@ static_assert(sizeof(btScalar) == sizeof(EXPECTED_SCALAR), "the bridge brings Bu
 int main() {
   const weft::ClothMesh mesh = weft::make_cloth_grid({.nodes = {4, 4}, .total_mass = 2.0});
   const auto gravity = weft::forces::make_law<double>(
-      {.law = "gravity", .edge_sets = {}, .parameters = {{"acceleration", {0, -9.81, 0}}}}, mesh);
+      {.law = "gravity", .sets = {}, .parameters = {{"acceleration", {0, -9.81, 0}}}}, mesh);
   weft::Matrix3X<double> scratch(3, gravity->scratch_columns());
   weft::Matrix3X<double> forces = weft::Matrix3X<double>::Zero(3, mesh.num_nodes());
   gravity->add_forces({mesh.rest_positions, forces, mesh.masses}, scratch, forces);
