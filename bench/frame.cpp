@@ -97,6 +97,7 @@ void frame(const Way& way, HeavyCloth& cloth, FrameTimes& times) {
 
 void write_trace(const Settings& settings, const Way& way, HeavyCloth& cloth) {
   FrameTimes ignored;
+  frame(way, cloth, ignored);
   start_trace();
   for (int i = 0; i < 3; ++i) frame(way, cloth, ignored);
   const std::vector<TraceThread> threads = stop_trace();

@@ -52,12 +52,12 @@ void measure(const Settings& settings, const std::string& precision, ResultFile&
   const double num_springs = floor.num_springs();
   for (const int threads : {1, 2}) {
     contenders.push_back(
-        {"floor, arithmetic", threads, num_springs, [&, threads] { floor.evaluate(threads); }});
-    contenders.push_back({"floor, grid order", threads, num_springs,
+        {"floor_arithmetic", threads, num_springs, [&, threads] { floor.evaluate(threads); }});
+    contenders.push_back({"floor_grid_order", threads, num_springs,
                           [&, threads] { floor.evaluate_between_nodes(threads); }});
-    contenders.push_back({"floor, diagonal order", threads, num_springs,
+    contenders.push_back({"floor_diagonal_order", threads, num_springs,
                           [&, threads] { diagonal_floor.evaluate_between_nodes(threads); }});
-    contenders.push_back({"floor, runs", threads, num_springs,
+    contenders.push_back({"floor_runs", threads, num_springs,
                           [&, threads] { diagonal_floor.evaluate_in_runs(threads); }});
   }
   elements.assign(contenders.size(), "spring");

@@ -22,15 +22,27 @@ double value_of(const Dual& x) {
   return x.value();
 }
 
+/// x - x is 0 for every finite x and NaN otherwise. One sum over all numbers, for the vector unit.
+template <class Matrix>
+bool all_finite(const Matrix& matrix) {
+  if (matrix.cols() > 1 && matrix.outerStride() != matrix.rows()) return false;  // not known yet
+  using Scalar = typename Matrix::Scalar;
+  const Eigen::Map<const VectorX<Scalar>> numbers(matrix.data(), matrix.size());
+  return (numbers - numbers).sum() == Scalar(0);
+}
+
 template <class Scalar>
 std::optional<int> first_non_finite_node(const State<Scalar>& state) {
+  if (all_finite(state.positions) && all_finite(state.velocities) && all_finite(state.masses)) {
+    return std::nullopt;
+  }
   for (Eigen::Index node = 0; node < state.positions.cols(); ++node) {
     double sum = value_of(state.masses[node]);
     for (int axis = 0; axis < 3; ++axis) {
       sum += value_of(state.positions(axis, node)) + value_of(state.velocities(axis, node));
     }
-    // x - x is 0 for every finite x and NaN otherwise; a sum of finite doubles from float input
-    // cannot overflow, one from double input could, and such a state is beyond use as well.
+    // A sum of finite doubles from float input cannot overflow; one from double input could, and
+    // such a state is beyond use as well.
     if (sum - sum != 0.0) return static_cast<int>(node);
   }
   return std::nullopt;

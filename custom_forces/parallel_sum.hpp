@@ -39,12 +39,14 @@ void parallel_sum(const ElementChunks& chunks, const Accumulate& accumulate,
   };
   const auto join = [&](const tbb::blocked_range<std::size_t>& range) {
     const TraceScope trace("join");
+    const int* const slots = chunks.shared_slots().data();
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       const ElementChunks::SharedNode& shared = chunks.shared_nodes()[i];
+      Vector3<Scalar> sum = result.col(shared.node);
       for (int s = shared.first_slot; s < shared.last_slot; ++s) {
-        result.col(shared.node) +=
-            slot_sums.col(chunks.shared_slots()[static_cast<std::size_t>(s)]);
+        sum += slot_sums.col(slots[s]);
       }
+      result.col(shared.node) = sum;
     }
   };
   tbb::parallel_for(std::size_t{0}, chunks.chunks().size(), [&](std::size_t c) {

@@ -3,7 +3,7 @@
 
 usage: draw_trace.py TRACE.json PICTURE.svg [--title TEXT] [--from-ms T] [--to-ms T]
 
-One lane per thread, time to the right; what happens inside of something else is drawn inside of it.
+One lane per thread, time to the right; what happens inside of something else is drawn below it.
 """
 import argparse
 import json
@@ -12,9 +12,9 @@ from html import escape
 
 WIDTH = 960
 LEFT, RIGHT, TOP = 84, 16, 40
-BAR = 30  # height of a lane's outermost event
-INSET = 5  # each level inside is smaller by this
-LANE = BAR + 16
+BAR = 15  # height of an event
+GAP = 14  # between threads
+THIN = 3  # an event of fewer pixels has no rim, or nothing but the rim would be seen
 FONT = 'font-family="DejaVu Sans, Arial, sans-serif"'
 
 # Colours that also differ in lightness, so that they survive a grey print.
@@ -78,28 +78,32 @@ def draw(threads, begin, end, title):
     scale = (WIDTH - LEFT - RIGHT) / (end - begin)
     x = lambda t: LEFT + (min(max(t, begin), end) - begin) * scale
     others, shown = {}, []
-    bottom = TOP + LANE * len(threads)
+    # A frame is the whole row: the levels below it move up.
+    lanes = []
+    for name, events in threads:
+        in_frames = any(e[0] == "frame" for e in events)
+        visible = [(what, t0, t1, depth - in_frames) for what, t0, t1, depth in events
+                   if what != "frame" and t1 > begin and t0 < end]
+        lanes.append((name, visible, 1 + max((e[3] for e in visible), default=0)))
+    bottom = TOP + sum(levels * BAR + GAP for _, _, levels in lanes)
     body = []
     step = nice_step(end - begin)
     for i in range(int((end - begin) / step + 1e-9) + 1):
         at = x(begin + i * step)
         body.append(f'<line x1="{at:.1f}" y1="{TOP - 6}" x2="{at:.1f}" y2="{bottom}" stroke="#e4e4e4"/>')
         body.append(f'<text x="{at:.1f}" y="{bottom + 14}" text-anchor="middle">{i * step:g} ms</text>')
-    for lane, (name, events) in enumerate(threads):
-        y = TOP + lane * LANE
-        body.append(f'<text x="{LEFT - 10}" y="{y + BAR / 2 + 4}" text-anchor="end">{escape(name)}</text>')
-        body.append(f'<rect x="{LEFT}" y="{y}" width="{WIDTH - LEFT - RIGHT}" height="{BAR}" fill="#fafafa"/>')
-        for what, t0, t1, depth in events:
-            if t1 <= begin or t0 >= end or what == "frame":
-                continue
-            depth -= any(e[0] == "frame" and e[1] <= t0 and t1 <= e[2] for e in events)
+    y = TOP
+    for name, events, levels in lanes:
+        body.append(f'<text x="{LEFT - 10}" y="{y + BAR - 4}" text-anchor="end">{escape(name)}</text>')
+        body.append(f'<rect x="{LEFT}" y="{y}" width="{WIDTH - LEFT - RIGHT}" height="{levels * BAR}" fill="#fafafa"/>')
+        for what, t0, t1, level in events:
             if what not in shown:
                 shown.append(what)
-            inset = min(depth * INSET, BAR / 2 - 4)
-            width = max((x(t1) - x(t0)), 0.6)
-            body.append(f'<rect x="{x(t0):.2f}" y="{y + inset:.1f}" width="{width:.2f}" '
-                        f'height="{BAR - 2 * inset:.1f}" fill="{color_of(what, others)}" stroke="#ffffff" '
-                        f'stroke-width="0.4"><title>{escape(what)}: {t1 - t0:.3f} ms</title></rect>')
+            width = max(x(t1) - x(t0), 0.5)
+            rim = ' stroke="#ffffff" stroke-width="0.4"' if width > THIN else ""
+            body.append(f'<rect x="{x(t0):.1f}" y="{y + level * BAR}" width="{width:.1f}" height="{BAR - 1}" '
+                        f'fill="{color_of(what, others)}"{rim}/>')
+        y += levels * BAR + GAP
     shown.sort(key=lambda name: (IN_LEGEND_LAST.index(name) + 1 if name in IN_LEGEND_LAST else 0))
     at, y = LEFT, bottom + 30
     for name in shown:
