@@ -18,6 +18,7 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
 using LawSet = forces::LawSet<btScalar>;
+using Level = forces::LawTraits::Level;
 using State = forces::State<btScalar>;
 
 struct SoftBodySolver::Attachment {
@@ -25,15 +26,20 @@ struct SoftBodySolver::Attachment {
   LawSet laws;
   forces::DeferredForces<btScalar> deferred{laws, LawSet::VelocityLaws::kSeparate};
   VectorX<btScalar> masses;
+  DampingPlace damping = DampingPlace::kAutomatic;
+  Matrix3X<btScalar> start_velocities;  // of the step, only for inertia after the projection
   Matrix3X<btScalar> positions;
   Matrix3X<btScalar> velocities;
   Matrix3X<btScalar> forces;
   std::optional<BodyBlowUp> blow_up;
   bool was_in_world = false;
 
+  [[nodiscard]] bool acts_after_projection(Level level) const;
   void add_forces(btScalar time_step);
   void begin_forces();
-  void advance_velocities(btScalar time_step);
+  void sum_laws();
+  void damp_velocities(btScalar time_step);
+  void slow_down_changes();
   void check_prediction(btScalar time_step);
   void check_laws();
 };
@@ -42,14 +48,32 @@ struct SoftBodySolver::Attachments {
   std::vector<std::unique_ptr<Attachment>> list;
 };
 
-void SoftBodySolver::Attachment::add_forces(btScalar time_step) {
-  const TraceScope trace("forces");
-  read_nodes(*body, positions, velocities);
-  const forces::ForceReport report = deferred.finish({positions, velocities, masses}, forces);
+bool SoftBodySolver::Attachment::acts_after_projection(Level level) const {
+  if (!laws.has_level(level)) return false;
+  if (damping != DampingPlace::kAutomatic) return damping == DampingPlace::kAfterProjection;
+  return level == Level::kVelocity || body->m_links.size() > 0;
+}
+
+// Velocity-level laws state how fast velocities decay: inertia does not slow them down.
+void SoftBodySolver::Attachment::sum_laws() {
+  const State state{positions, velocities, masses};
+  const forces::ForceReport report = deferred.finish(state, forces);
   if (!report.ok()) {
     blow_up = BodyBlowUp{*report.first_non_finite_node, "position or velocity is not finite"};
     return;
   }
+  if (!acts_after_projection(Level::kInertia)) laws.redistribute_forces(state, forces);
+  if (!acts_after_projection(Level::kVelocity)) {
+    (void)laws.add_forces(state, LawSet::VelocityLaws::kAlone, forces);
+  }
+}
+
+void SoftBodySolver::Attachment::add_forces(btScalar time_step) {
+  const TraceScope trace("forces");
+  read_nodes(*body, positions, velocities);
+  if (acts_after_projection(Level::kInertia)) start_velocities = velocities;
+  sum_laws();
+  if (blow_up) return;
   check_prediction(time_step);
   if (!blow_up) add_node_forces(forces, *body);
 }
@@ -84,16 +108,31 @@ void SoftBodySolver::Attachment::check_prediction(btScalar time_step) {
 void SoftBodySolver::Attachment::check_laws() {
   read_nodes(*body, positions, velocities);
   forces.setZero(3, positions.cols());
-  (void)laws.add_forces(State{positions, velocities, masses}, LawSet::VelocityLaws::kAsForces,
-                        forces);
+  const State state{positions, velocities, masses};
+  (void)laws.add_forces(state, LawSet::VelocityLaws::kAsForces, forces);
+  laws.redistribute_forces(state, forces);
 }
 
-void SoftBodySolver::Attachment::advance_velocities(btScalar time_step) {
-  const TraceScope trace("velocity laws");
+// The change of momentum over the step stands for the sum of all forces on the body.
+void SoftBodySolver::Attachment::slow_down_changes() {
+  forces = (velocities - start_velocities) * masses.asDiagonal();
+  laws.redistribute_forces(State{positions, velocities, masses}, forces);
+  velocities = start_velocities + forces * masses.cwiseInverse().asDiagonal();
+}
+
+void SoftBodySolver::Attachment::damp_velocities(btScalar time_step) {
+  const TraceScope trace("damp velocities");
+  const bool slows_down = acts_after_projection(Level::kInertia);
+  const bool advances = acts_after_projection(Level::kVelocity);
+  if (!slows_down && !advances) return;
   read_nodes(*body, positions, velocities);
-  forces = velocities;  // the laws see the state as it is and change a copy
-  laws.advance_velocities(State{positions, velocities, masses}, time_step, forces);
-  write_node_velocities(forces, *body);
+  if (slows_down) slow_down_changes();
+  if (advances) {
+    forces = velocities;  // the laws see the state as it is and change a copy
+    laws.advance_velocities(State{positions, velocities, masses}, time_step, forces);
+    velocities.swap(forces);
+  }
+  write_node_velocities(velocities, *body);
 }
 
 SoftBodySolver::SoftBodySolver(const BulletLayout& caller)
@@ -111,13 +150,15 @@ SoftBodySolver::Attachment* SoftBodySolver::find(const btSoftBody& body) const {
 }
 
 void SoftBodySolver::attach(btSoftBody& body, const ClothMesh& mesh,
-                            const std::vector<forces::LawSpecification>& laws) {
+                            const std::vector<forces::LawSpecification>& laws,
+                            DampingPlace damping) {
   LawSet set;
   for (const forces::LawSpecification& law : laws) set.add(forces::make_law<btScalar>(law, mesh));
-  attach(body, std::move(set), mesh.masses.cast<btScalar>());
+  attach(body, std::move(set), mesh.masses.cast<btScalar>(), damping);
 }
 
-void SoftBodySolver::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> masses) {
+void SoftBodySolver::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> masses,
+                            DampingPlace damping) {
   if (has_laws(body)) {
     throw InvalidArgument("soft body solver: the body has laws already, expected detach() first");
   }
@@ -140,6 +181,7 @@ void SoftBodySolver::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> mas
   attachment->body = &body;
   attachment->laws = std::move(laws);
   attachment->masses = std::move(masses);
+  attachment->damping = damping;
   attachment->check_laws();
   attachments_->list.push_back(std::move(attachment));
 }
@@ -211,7 +253,7 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
     btSoftBody& body = *m_softBodySet[i];
     if (!body.isActive() || is_frozen(body)) continue;
     body.solveConstraints();
-    if (Attachment* attachment = find(body)) attachment->advance_velocities(time_step_);
+    if (Attachment* attachment = find(body)) attachment->damp_velocities(time_step_);
   }
 }
 

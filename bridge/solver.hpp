@@ -20,6 +20,26 @@ struct BodyBlowUp {
   std::string reason;  ///< "velocity is not finite", "speed 2.1e+06 m/s is over 1e+06 m/s"
 };
 
+/// Where the damping laws of a body act in Bullet's step: velocity-level laws (rotation_damping and
+/// the like) and inertia-level laws (acceleration_damping). A force-driven body wants them before
+/// Bullet integrates. A body that links hold together gets its velocities from the projection of
+/// positions, so that damping before it is mostly undone by it.
+enum class DampingPlace {
+  /// Velocity-level laws after the projection; inertia before the integration, or, if the body has
+  /// links, after the projection.
+  kAutomatic,
+  /// Before btSoftBody::predictMotion. Velocity-level laws add their forces, which needs a time step
+  /// below 2 / rate; inertia redistributes the sum of the attached laws' other forces. Bullet's own gravity is uniform and needs nothing; other
+  /// forces that Bullet adds (wind, pressure, m_f of the application) are not redistributed.
+  kBeforeIntegration,
+  /// After btSoftBody::solveConstraints, on m_v. First inertia: the change of velocity over the
+  /// step, relative to that of the centre of mass, is divided (by 1 + beta). That change includes
+  /// link and contact impulses; positions are not touched, so links and contacts hold as without it,
+  /// but a node that was stopped by a surface keeps a part of its approach for the next step. Then
+  /// the exact action of velocity-level laws.
+  kAfterProjection,
+};
+
 /// Weft's forces in Bullet's classic soft-body world, through Bullet's own extension point.
 ///
 ///   SoftBodySolver solver;
@@ -29,8 +49,9 @@ struct BodyBlowUp {
 /// A body without attached laws is stepped by Bullet's default solver, bit for bit. For a body with
 /// laws
 /// * force-level laws are added to the nodes' m_f before btSoftBody::predictMotion,
-/// * velocity-level laws act on m_v after btSoftBody::solveConstraints; a velocity written before
-///   would be lost, for Bullet derives velocities from positions there,
+/// * velocity-level and inertia-level laws act where DampingPlace says; by default velocity-level
+///   laws act on m_v after btSoftBody::solveConstraints, for Bullet derives velocities from
+///   positions there and would lose one that was written before,
 /// * a state that is not finite, or faster than kMaxSpeed, freezes the body and is reported; Bullet
 ///   would go on to look up contacts at that place and crash.
 ///
@@ -53,12 +74,14 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   /// Makes the laws for the body's mesh and attaches them.
   /// Throws InvalidArgument as forces::make_law() and as the other attach().
   void attach(btSoftBody& body, const ClothMesh& mesh,
-              const std::vector<forces::LawSpecification>& laws);
+              const std::vector<forces::LawSpecification>& laws,
+              DampingPlace damping = DampingPlace::kAutomatic);
   /// masses: n [kg], > 0, those of pinned nodes too (Bullet itself only knows that they do not move).
   /// Throws InvalidArgument if masses or laws do not fit the body's nodes, if laws are attached
   /// already, and for a body whose m_cfg.timescale is not 1: laws and Bullet would live in two times.
   /// The body must not gain or lose nodes while laws are attached.
-  void attach(btSoftBody& body, forces::LawSet<btScalar> laws, VectorX<btScalar> masses);
+  void attach(btSoftBody& body, forces::LawSet<btScalar> laws, VectorX<btScalar> masses,
+              DampingPlace damping = DampingPlace::kAutomatic);
   /// Back to plain Bullet. Call before deleting a body that never was in a stepped world. Does
   /// nothing if no laws are attached.
   void detach(btSoftBody& body);

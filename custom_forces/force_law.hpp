@@ -73,6 +73,13 @@ class ForceLaw {
   /// redistributed as well.
   virtual void redistribute_forces(const State<Scalar>& /*state*/,
                                    Matrix3XRef<Scalar> /*forces*/) const {}
+
+  /// Only for traits.level == kInertia: kinetic energy that the added inertia stores [J], a
+  /// quadratic form of the velocities. With it, and with the plain kinetic energy, the balance of
+  /// the redistributed forces closes.
+  [[nodiscard]] virtual Scalar added_kinetic_energy(const State<Scalar>& /*state*/) const {
+    return Scalar(0);
+  }
 };
 
 }  // namespace weft::forces

@@ -65,14 +65,34 @@ double squared_response(const RestHinge& hinge) {
 }
 
 /// k / D, see the header.
-double weight(const RestHinge& hinge, Tessellation tessellation) {
-  if (tessellation == Tessellation::kUnionJack) return hinge.areas() / squared_response(hinge);
+double weight(const RestHinge& hinge, bool is_cut_both_ways) {
+  if (is_cut_both_ways) return hinge.areas() / (2 * squared_response(hinge));
   return hinge.length * hinge.length / hinge.areas();  // l / h with the mean height h = areas / l
 }
 
-bool is_at_clamp(const std::vector<bool>& pinned, const Eigen::Vector4i& nodes) {
-  const auto held = [&](int corner) { return pinned[static_cast<std::size_t>(nodes[corner])]; };
-  return held(0) && held(1) && held(2) != held(3);
+/// Whether the angle depends on one free node only, and on pinned ones besides.
+bool is_at_clamp(const RestHinge& hinge, const std::vector<bool>& pinned,
+                 const Eigen::Vector4i& nodes) {
+  const auto is_free = [&](int corner) { return !pinned[static_cast<std::size_t>(nodes[corner])]; };
+  const auto& [h1, h2] = hinge.heights;
+  const auto& [f1, f2] = hinge.feet;
+  // The angle's derivative by the height of the edge's second node, and of the first.
+  const double by_second = f1 / h1 + f2 / h2;
+  const double by_first = (hinge.length - f1) / h1 + (hinge.length - f2) / h2;
+  constexpr double kInactive = 1e-9;  // rounding of a right angle
+  const double threshold = kInactive * (by_first + by_second);
+  int num_free = int{is_free(2)} + int{is_free(3)};
+  if (std::abs(by_first) > threshold && is_free(0)) ++num_free;
+  if (std::abs(by_second) > threshold && is_free(1)) ++num_free;
+  return num_free == 1;
+}
+
+Hinges bending_hinges(const ClothMesh& mesh) {
+  const Hinges one_way = hinges_of_triangles(mesh.triangles);
+  const Hinges other_way = hinges_of_triangles(mesh.crossed_triangles);
+  Hinges hinges(4, one_way.cols() + other_way.cols());
+  hinges << one_way, other_way;
+  return hinges;
 }
 
 /// dtheta/dx of the four nodes, and theta.
@@ -122,7 +142,8 @@ const LawInfo HingeTorsion<Scalar>::kInfo{
     .id = "hinge_torsion",
     .summary = "Bending of a surface by torsion springs in its hinges",
     .formula =
-        "E = k (theta - theta0)^2 / 2, k = D A / (S : S) on union-jack grids (D on square cells), "
+        "E = k (theta - theta0)^2 / 2, k = D A / (2 S : S) on cells cut both ways (D / 2 on "
+        "squares), "
         "D l / h elsewhere, times factor at a clamp",
     .source =
         "own derivation: energy of a quadratic surface; length weighting as in Feng et al. 2022",
@@ -135,19 +156,20 @@ const LawInfo HingeTorsion<Scalar>::kInfo{
 
 template <class Scalar>
 HingeTorsion<Scalar>::HingeTorsion(const LawSpecification& specification, const ClothMesh& mesh)
-    : hinges_(hinges_of_triangles(mesh.triangles), mesh.num_nodes(), 4),
+    : hinges_(bending_hinges(mesh), mesh.num_nodes(), 4),
       stiffness_(hinges_.size()),
       rest_angles_(hinge_angles(mesh.rest_positions, hinges_.elements()).template cast<Scalar>()),
       smallest_normals_(3, hinges_.size()) {
   const double rigidity = law_scalar(specification, "rigidity");
   const double clamp_factor = law_scalar(specification, "clamp_factor");
+  const bool is_cut_both_ways = mesh.crossed_triangles.cols() > 0;
   std::vector<bool> pinned(static_cast<std::size_t>(mesh.num_nodes()), false);
   for (const int node : mesh.pinned) pinned[static_cast<std::size_t>(node)] = true;
   for (Eigen::Index h = 0; h < hinges_.size(); ++h) {
     const Eigen::Vector4i nodes = hinges_.elements().col(h);
     const RestHinge hinge = rest_hinge(mesh, nodes);
-    const double factor = is_at_clamp(pinned, nodes) ? clamp_factor : 1.0;
-    stiffness_[h] = Scalar(rigidity * factor * weight(hinge, mesh.tessellation));
+    const double factor = is_at_clamp(hinge, pinned, nodes) ? clamp_factor : 1.0;
+    stiffness_[h] = Scalar(rigidity * factor * weight(hinge, is_cut_both_ways));
     for (int side = 0; side < 2; ++side) {
       const double smallest = kMinAreaRatio * hinge.length * hinge.heights[side];
       smallest_normals_(side, h) = Scalar(smallest * smallest);

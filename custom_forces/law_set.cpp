@@ -49,9 +49,11 @@ std::optional<int> first_non_finite_node(const State<Scalar>& state) {
 }
 
 template <class Scalar>
-bool is_separate(const ForceLaw<Scalar>& law, typename LawSet<Scalar>::VelocityLaws velocity_laws) {
-  return velocity_laws == LawSet<Scalar>::VelocityLaws::kSeparate &&
-         law.info().traits.level == LawTraits::Level::kVelocity;
+bool takes_part(const ForceLaw<Scalar>& law, typename LawSet<Scalar>::VelocityLaws velocity_laws) {
+  using VelocityLaws = typename LawSet<Scalar>::VelocityLaws;
+  if (velocity_laws == VelocityLaws::kAsForces) return true;
+  const bool is_velocity_law = law.info().traits.level == LawTraits::Level::kVelocity;
+  return is_velocity_law == (velocity_laws == VelocityLaws::kAlone);
 }
 
 template <class Scalar>
@@ -91,7 +93,7 @@ ForceReport LawSet<Scalar>::add_forces(const State<Scalar>& state, VelocityLaws 
   ForceReport report{first_non_finite_node(state)};
   if (!report.ok()) return report;
   for (const auto& law : laws_) {
-    if (is_separate(*law, velocity_laws)) continue;
+    if (!takes_part(*law, velocity_laws)) continue;
     const TraceScope trace(law->info().id);
     law->add_forces(state, scratch_, forces);
   }
@@ -145,6 +147,14 @@ template <class Scalar>
 bool LawSet<Scalar>::has_level(LawTraits::Level level) const {
   return std::any_of(laws_.begin(), laws_.end(),
                      [&](const auto& law) { return law->info().traits.level == level; });
+}
+
+template <class Scalar>
+Scalar LawSet<Scalar>::added_kinetic_energy(const State<Scalar>& state) const {
+  check_shapes(state, state.positions.cols());
+  Scalar energy(0);
+  for (const auto& law : laws_) energy += law->added_kinetic_energy(state);
+  return energy;
 }
 
 template <class Scalar>

@@ -29,6 +29,7 @@ class LawSet {
   enum class VelocityLaws {
     kAsForces,  ///< they add their force like any other law
     kSeparate,  ///< they add nothing here; the engine calls advance_velocities at its proper place
+    kAlone,     ///< they add their forces, and no other law does
   };
 
   /// forces += the sum of all laws [N]. Bit-identical for any number of threads.
@@ -47,10 +48,15 @@ class LawSet {
                           Matrix3XRef<Scalar> velocities) const;
 
   /// Applies every inertia-level law to forces, the sum of all that acts on the body [N], or to a
-  /// product of such a sum. Nothing happens if there is none. Engines call this last.
+  /// product of such a sum. Nothing happens if there is none. Engines call this last, but for
+  /// forces of velocity-level laws: those state how fast velocities decay and are not slowed down,
+  /// wherever they act. So the forces of a body are
+  ///   add_forces(kSeparate), redistribute_forces, and, where they act as forces, add_forces(kAlone).
   void redistribute_forces(const State<Scalar>& state, Matrix3XRef<Scalar> forces) const;
   [[nodiscard]] bool has_level(LawTraits::Level level) const;
 
+  /// Kinetic energy that the inertia-level laws store [J].
+  [[nodiscard]] Scalar added_kinetic_energy(const State<Scalar>& state) const;
   [[nodiscard]] Scalar potential_energy(const State<Scalar>& state) const;
   [[nodiscard]] Scalar non_conservative_power(const State<Scalar>& state) const;
 

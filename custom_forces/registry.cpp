@@ -7,13 +7,16 @@
 #include <limits>
 #include <string>
 
+#include <weft/custom_forces/acceleration_damping.hpp>
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/gravity.hpp>
 #include <weft/custom_forces/hinge_torsion.hpp>
 #include <weft/custom_forces/nonlocal_torsion.hpp>
+#include <weft/custom_forces/rotation_damping.hpp>
 #include <weft/custom_forces/spring_damping.hpp>
 #include <weft/custom_forces/tension.hpp>
 #include <weft/custom_forces/torsion.hpp>
+#include <weft/custom_forces/torsional_rotation_damping.hpp>
 #include <weft/custom_forces/velocity_damping.hpp>
 
 namespace weft::forces {
@@ -49,6 +52,9 @@ const auto& rows() {
       row<Torsion>(),
       row<HingeTorsion>(),
       row<NonlocalTorsion>(),
+      row<AccelerationDamping>(),
+      row<RotationDamping>(),
+      row<TorsionalRotationDamping>(),
       row<VelocityDamping>(),
       row<Gravity>(),
   };

@@ -86,6 +86,7 @@ long allocations_of(const Subject& subject, int threads) {
     laws.add_stiffness_product(state, b, result);
     laws.add_damping_product(state, b, result);
     laws.advance_velocities(state, Scalar(0.01), result);
+    laws.redistribute_forces(state, result);
     (void)laws.potential_energy(state);
     (void)laws.non_conservative_power(state);
   };

@@ -6,6 +6,7 @@
 
 #include "tests/contract/derivative_checks.hpp"
 #include "tests/contract/energy_checks.hpp"
+#include "tests/contract/inertia_checks.hpp"
 #include "tests/contract/invariance_checks.hpp"
 #include "tests/contract/order_checks.hpp"
 #include "tests/contract/velocity_checks.hpp"
@@ -29,6 +30,8 @@ class LawBlindToRigidMotion : public testing::TestWithParam<Subject> {};
 class LawFreeAtRest : public testing::TestWithParam<Subject> {};
 class ElementLaw : public testing::TestWithParam<Subject> {};
 class ForceLevelLaw : public testing::TestWithParam<Subject> {};
+class InertiaLevelLaw : public testing::TestWithParam<Subject> {};
+class LawWithoutInertia : public testing::TestWithParam<Subject> {};
 class VelocityLevelLaw : public testing::TestWithParam<Subject> {};
 
 std::string name_of(const testing::TestParamInfo<Subject>& info) {
@@ -54,6 +57,11 @@ WEFT_FOR_LAWS(ForceLevelLaw,
 WEFT_FOR_LAWS(VelocityLevelLaw,
               [](const LawTraits& t) { return t.level == LawTraits::Level::kVelocity; });
 
+WEFT_FOR_LAWS(InertiaLevelLaw,
+              [](const LawTraits& t) { return t.level == LawTraits::Level::kInertia; });
+WEFT_FOR_LAWS(LawWithoutInertia,
+              [](const LawTraits& t) { return t.level != LawTraits::Level::kInertia; });
+
 #define WEFT_CHECK(Suite, Claim, check)    \
   TEST_P(Suite, Claim) {                   \
     EXPECT_TRUE(holds(check(GetParam()))); \
@@ -78,6 +86,20 @@ WEFT_CHECK_SCALARS(LawFreeAtRest, RestShapeIsFreeOfForce, rest_shape_is_free_of_
 WEFT_CHECK(VelocityLevelLaw, AdvanceSolvesTheEquation, advance_solves_the_equation)
 WEFT_CHECK_SCALARS(VelocityLevelLaw, TwoHalfStepsAreOne, two_half_steps_are_one)
 WEFT_CHECK_SCALARS(ForceLevelLaw, AdvanceChangesNothing, advance_changes_nothing)
+
+WEFT_CHECK_SCALARS(InertiaLevelLaw, AddsNothing, inertia_adds_nothing)
+WEFT_CHECK_SCALARS(InertiaLevelLaw, AdvanceChangesNothing, advance_changes_nothing)
+WEFT_CHECK_SCALARS(InertiaLevelLaw, IsLinear, inertia_is_linear)
+WEFT_CHECK_SCALARS(InertiaLevelLaw, KeepsTheNetForce, inertia_keeps_the_net_force)
+WEFT_CHECK_SCALARS(InertiaLevelLaw, AddsNoTorque, inertia_adds_no_torque)
+WEFT_CHECK_SCALARS(InertiaLevelLaw, KeepsUniformAccelerations, inertia_keeps_uniform_accelerations)
+WEFT_CHECK_SCALARS(InertiaLevelLaw, IsSymmetric, inertia_is_symmetric)
+WEFT_CHECK_SCALARS(InertiaLevelLaw, IsPositive, inertia_is_positive)
+WEFT_CHECK_SCALARS(InertiaLevelLaw, RepeatsBitForBit, inertia_repeats_bit_for_bit)
+WEFT_CHECK(InertiaLevelLaw, BalancesItsEnergy, inertia_balances_its_energy)
+WEFT_CHECK(InertiaLevelLaw, FloatAgreesWithDoubleInRedistribution,
+           inertia_in_float_agrees_with_double)
+WEFT_CHECK_SCALARS(LawWithoutInertia, RedistributionChangesNothing, redistribution_changes_nothing)
 
 WEFT_CHECK(AnyLaw, PowerIsAccountedFor, power_is_accounted_for)
 WEFT_CHECK(AnyLaw, StiffnessIsTheDerivative, stiffness_is_the_derivative)

@@ -97,7 +97,47 @@ class FaultyLaw final : public ForceLaw<Scalar> {
     if (fault_ == Fault::kChangesVelocities) velocities *= Scalar(1 - kSmall);
   }
 
+  void redistribute_forces(const State<Scalar>& state, Matrix3XRef<Scalar> forces) const override {
+    const Matrix3X<Scalar> given = forces;
+    law_->redistribute_forces(state, forces);
+    add_inertia_fault(given, forces);
+  }
+
+  Scalar added_kinetic_energy(const State<Scalar>& state) const override {
+    const Scalar energy = law_->added_kinetic_energy(state);
+    return fault_ == Fault::kInertiaEnergy ? Scalar(1 + kSmall) * energy : energy;
+  }
+
  private:
+  void add_inertia_fault(const Matrix3X<Scalar>& given, Matrix3XRef<Scalar> forces) const {
+    const Scalar small(kSmall);
+    switch (fault_) {
+      case Fault::kInertiaOfAll:
+        forces *= Scalar(1) - small;
+        break;
+      case Fault::kInertiaOverPins:
+        forces.col(0) *= Scalar(1) - small;
+        break;
+      case Fault::kInertiaSquare:
+        forces(1, 2) += small * given(0, 3) * given(0, 3);
+        break;
+      case Fault::kInertiaTurned:
+        forces.row(0) += small * given.row(1);
+        break;
+      case Fault::kInertiaReversed:
+        forces = -forces;
+        break;
+      case Fault::kInertiaHiddenState:
+        forces(1, 0) += small * Scalar(static_cast<double>(++calls_));
+        break;
+      case Fault::kInertiaFloat:
+        if (std::is_same_v<Scalar, float>) forces.row(2) *= Scalar(1) - small;
+        break;
+      default:
+        break;
+    }
+  }
+
   void add_pair_fault(const State<Scalar>& state, Matrix3X<Scalar>& force) const {
     const Eigen::Index i = first_edge_[0];
     const Eigen::Index j = first_edge_[1];

@@ -30,9 +30,17 @@ enum class Fault {
   kOverwrites,  ///< sets the result instead of adding to it
   kForceWithoutEdges,
   kNotFinite,
-  kFloatConstant,      ///< the float law has another parameter
-  kEulerDecay,         ///< v (1 - gamma dt) instead of v exp(-gamma dt)
-  kChangesVelocities,  ///< a law of level kForce touches velocities
+  kFloatConstant,       ///< the float law has another parameter
+  kEulerDecay,          ///< v (1 - gamma dt) instead of v exp(-gamma dt)
+  kChangesVelocities,   ///< a law of level kForce touches velocities
+  kInertiaOfAll,        ///< divides the acceleration of the centre of mass too
+  kInertiaOverPins,     ///< acts on the force of the first node, which is pinned
+  kInertiaSquare,       ///< a part that grows as the square of the force
+  kInertiaTurned,       ///< turns forces a little about an axis
+  kInertiaReversed,     ///< forces against their accelerations
+  kInertiaHiddenState,  ///< remembers the previous call
+  kInertiaEnergy,       ///< added kinetic energy 0.1 % too large
+  kInertiaFloat,        ///< the float law has another parameter
 };
 
 /// The registered law with typical parameters and one fault. Its traits stay those of the law, so

@@ -7,6 +7,7 @@
 
 #include "tests/contract/derivative_checks.hpp"
 #include "tests/contract/energy_checks.hpp"
+#include "tests/contract/inertia_checks.hpp"
 #include "tests/contract/invariance_checks.hpp"
 #include "tests/contract/order_checks.hpp"
 #include "tests/contract/velocity_checks.hpp"
@@ -85,11 +86,62 @@ const std::vector<Control> kControls = {
      two_half_steps_are_one<double>},
     {"ChangedVelocitiesFailForceLevel", "tension", Fault::kChangesVelocities,
      advance_changes_nothing<double>},
+    {"EulerDecayFailsRotationDamping", "rotation_damping", Fault::kEulerDecay,
+     advance_solves_the_equation},
+    {"EulerDecayFailsTorsionalDamping", "torsional_rotation_damping", Fault::kEulerDecay,
+     advance_solves_the_equation},
+};
+
+const std::vector<Control> kInertiaControls = {
+    {"NetForceFailsAddingNothingFloat", "acceleration_damping", Fault::kNetForce,
+     inertia_adds_nothing<float>},
+    {"NetForceFailsAddingNothingDouble", "acceleration_damping", Fault::kNetForce,
+     inertia_adds_nothing<double>},
+    {"SquareFailsLinearityFloat", "acceleration_damping", Fault::kInertiaSquare,
+     inertia_is_linear<float>},
+    {"SquareFailsLinearityDouble", "acceleration_damping", Fault::kInertiaSquare,
+     inertia_is_linear<double>},
+    {"InertiaOfAllFailsNetForceFloat", "acceleration_damping", Fault::kInertiaOfAll,
+     inertia_keeps_the_net_force<float>},
+    {"InertiaOfAllFailsNetForceDouble", "acceleration_damping", Fault::kInertiaOfAll,
+     inertia_keeps_the_net_force<double>},
+    {"InertiaOverPinsFailsPinnedForceFloat", "acceleration_damping", Fault::kInertiaOverPins,
+     inertia_keeps_the_net_force<float>},
+    {"InertiaOverPinsFailsPinnedForceDouble", "acceleration_damping", Fault::kInertiaOverPins,
+     inertia_keeps_the_net_force<double>},
+    {"TurnedForcesFailTorqueFloat", "acceleration_damping", Fault::kInertiaTurned,
+     inertia_adds_no_torque<float>},
+    {"TurnedForcesFailTorqueDouble", "acceleration_damping", Fault::kInertiaTurned,
+     inertia_adds_no_torque<double>},
+    {"InertiaOfAllFailsUniformAccelerationFloat", "acceleration_damping", Fault::kInertiaOfAll,
+     inertia_keeps_uniform_accelerations<float>},
+    {"InertiaOfAllFailsUniformAccelerationDouble", "acceleration_damping", Fault::kInertiaOfAll,
+     inertia_keeps_uniform_accelerations<double>},
+    {"TurnedForcesFailSymmetryFloat", "acceleration_damping", Fault::kInertiaTurned,
+     inertia_is_symmetric<float>},
+    {"TurnedForcesFailSymmetryDouble", "acceleration_damping", Fault::kInertiaTurned,
+     inertia_is_symmetric<double>},
+    {"ReversedForcesFailPositivityFloat", "acceleration_damping", Fault::kInertiaReversed,
+     inertia_is_positive<float>},
+    {"ReversedForcesFailPositivityDouble", "acceleration_damping", Fault::kInertiaReversed,
+     inertia_is_positive<double>},
+    {"HiddenStateFailsInertiaRepetitionFloat", "acceleration_damping", Fault::kInertiaHiddenState,
+     inertia_repeats_bit_for_bit<float>},
+    {"HiddenStateFailsInertiaRepetitionDouble", "acceleration_damping", Fault::kInertiaHiddenState,
+     inertia_repeats_bit_for_bit<double>},
+    {"InertiaEnergyFailsBalance", "acceleration_damping", Fault::kInertiaEnergy,
+     inertia_balances_its_energy},
+    {"InertiaFloatFailsAgreement", "acceleration_damping", Fault::kInertiaFloat,
+     inertia_in_float_agrees_with_double},
+    {"RedistributingFailsForceLevel", "tension", Fault::kInertiaOfAll,
+     redistribution_changes_nothing<double>},
 };
 
 class Sabotage : public testing::TestWithParam<Control> {};
 
 INSTANTIATE_TEST_SUITE_P(Battery, Sabotage, testing::ValuesIn(kControls),
+                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Inertia, Sabotage, testing::ValuesIn(kInertiaControls),
                          [](const auto& info) { return info.param.name; });
 
 TEST_P(Sabotage, IsFoundAndTheRightLawPasses) {

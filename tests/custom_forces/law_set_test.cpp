@@ -54,6 +54,27 @@ TEST_F(LawSetTest, SeparateVelocityLawsAddNoForce) {
   EXPECT_NEAR(result_(0, 1), -5.0 - 8.0, 13.0 * kRoundoff);
 }
 
+TEST_F(LawSetTest, VelocityLawsAloneAddTheirForceOnly) {
+  EXPECT_TRUE(laws_.add_forces(state(), VelocityLaws::kAlone, result_).ok());
+  EXPECT_NEAR(result_(0, 1), -2.0, 2.0 * kRoundoff);
+  EXPECT_NEAR(result_(1, 1), 0.0, 0.0);
+}
+
+TEST_F(LawSetTest, InertiaLawsRedistributeAndStoreEnergy) {
+  EXPECT_FALSE(laws_.has_level(LawTraits::Level::kInertia));
+  result_(0, 1) = 6.0;
+  laws_.redistribute_forces(state(), result_);
+  EXPECT_EQ(result_(0, 1), 6.0);
+  laws_.add(make_law<double>({"acceleration_damping", {}, {{"beta", {1.0}}}}, mesh_));
+  EXPECT_TRUE(laws_.has_level(LawTraits::Level::kInertia));
+  laws_.redistribute_forces(state(), result_);
+  // 3 N move the centre of mass with each node, the other 3 N against it are halved
+  EXPECT_NEAR(result_(0, 0), 1.5, 6.0 * kRoundoff);
+  EXPECT_NEAR(result_(0, 1), 4.5, 6.0 * kRoundoff);
+  // 1 / 2 * (2^2 + 2^2): speeds of 2 m/s relative to the centre of mass
+  EXPECT_NEAR(laws_.added_kinetic_energy(state()), 4.0, 4.0 * kRoundoff);
+}
+
 TEST_F(LawSetTest, AdvancesVelocitiesByVelocityLawsOnly) {
   Matrix3X<double> velocities = velocities_;
   laws_.advance_velocities(state(), 2.0, velocities);

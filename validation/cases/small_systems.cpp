@@ -7,6 +7,19 @@
 
 namespace weft::validation {
 
+namespace {
+
+void add_laws(reference::Body& body, const std::vector<forces::LawSpecification>& laws,
+              bool flip_damping) {
+  for (const forces::LawSpecification& specification : laws) {
+    auto law = forces::make_law<double>(specification, body.mesh);
+    const bool flip = flip_damping && law->info().traits.dissipative;
+    body.laws.add(flip ? negated(std::move(law)) : std::move(law));
+  }
+}
+
+}  // namespace
+
 reference::Body make_row(const SpringRow& row) {
   reference::Body body;
   body.name = "row";
@@ -20,13 +33,22 @@ reference::Body make_row(const SpringRow& row) {
   body.mesh.edge_sets.push_back({"row", edges});
   body.mesh.masses = VectorX<double>::Constant(num_nodes, row.mass);
   body.mesh.pinned = {0};
-  for (const forces::LawSpecification& specification : row.laws) {
-    auto law = forces::make_law<double>(specification, body.mesh);
-    const bool flip = row.flip_damping && law->info().traits.dissipative;
-    body.laws.add(flip ? negated(std::move(law)) : std::move(law));
-  }
+  add_laws(body, row.laws, row.flip_damping);
   body.positions = body.mesh.rest_positions;
   body.velocities.setZero(3, num_nodes);
+  return body;
+}
+
+reference::Body make_body(const SpringBody& springs) {
+  reference::Body body;
+  body.name = "body";
+  body.mesh.rest_positions = springs.positions;
+  body.mesh.triangles.resize(3, 0);
+  body.mesh.edge_sets.push_back({"springs", springs.edges});
+  body.mesh.masses = springs.masses;
+  add_laws(body, springs.laws, springs.flip_damping);
+  body.positions = springs.positions;
+  body.velocities.setZero(3, springs.positions.cols());
   return body;
 }
 
@@ -44,6 +66,18 @@ forces::LawSpecification velocity_damping_law(double rate) {
 
 forces::LawSpecification gravity_law(const Vector3<double>& acceleration) {
   return {"gravity", {}, {{"acceleration", {acceleration[0], acceleration[1], acceleration[2]}}}};
+}
+
+forces::LawSpecification rotation_damping_law(double rate) {
+  return {"rotation_damping", {}, {{"rate", {rate}}}};
+}
+
+forces::LawSpecification torsional_rotation_damping_law(double rate) {
+  return {"torsional_rotation_damping", {}, {{"rate", {rate}}}};
+}
+
+forces::LawSpecification acceleration_damping_law(double beta) {
+  return {"acceleration_damping", {}, {{"beta", {beta}}}};
 }
 
 reference::SpringSolver make_solver(reference::Body body, reference::IntegratorKind integrator) {

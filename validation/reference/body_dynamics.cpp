@@ -9,9 +9,18 @@ void BodyDynamics::evaluate(ConstMatrix3XRef<double> positions, ConstMatrix3XRef
                             VelocityLaws velocity_laws, Matrix3XRef<double> accelerations) {
   accelerations.setZero();
   const forces::State<double> state{positions, velocities, body_->mesh.masses};
-  const forces::ForceReport report = body_->laws.add_forces(state, velocity_laws, accelerations);
+  forces::LawSet<double>& laws = body_->laws;
+  const bool has_inertia = laws.has_level(forces::LawTraits::Level::kInertia);
+  const forces::ForceReport report =
+      laws.add_forces(state, has_inertia ? VelocityLaws::kSeparate : velocity_laws, accelerations);
   if (!report.ok() && !first_non_finite_node_) {
     first_non_finite_node_ = report.first_non_finite_node;
+  }
+  if (has_inertia && report.ok()) {
+    laws.redistribute_forces(state, accelerations);
+    if (velocity_laws == VelocityLaws::kAsForces) {
+      (void)laws.add_forces(state, VelocityLaws::kAlone, accelerations);
+    }
   }
   // A pinned node's inverse mass is 0, but 0 * inf would be NaN: division keeps the same bits as f
   // / m.

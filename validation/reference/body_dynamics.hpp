@@ -14,7 +14,9 @@ class BodyDynamics {
 
   using VelocityLaws = forces::LawSet<double>::VelocityLaws;
 
-  /// accelerations = M^-1 f(positions, velocities) [m/s^2], 0 for pinned nodes.
+  /// accelerations = M^-1 f(positions, velocities) [m/s^2], 0 for pinned nodes. Inertia-level laws
+  /// redistribute the forces of all laws but those of velocity level, whose rates are those of the
+  /// velocities in every integrator.
   void evaluate(ConstMatrix3XRef<double> positions, ConstMatrix3XRef<double> velocities,
                 VelocityLaws velocity_laws, Matrix3XRef<double> accelerations);
 

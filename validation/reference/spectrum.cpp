@@ -32,18 +32,28 @@ Matrix3X<double> start_vector(const VectorX<double>& inverse_masses) {
   return vector;
 }
 
-/// Eigenvalue of A + shift that is largest in magnitude, minus the shift.
-Eigenpair power_iteration(const Operator& multiply, Matrix3X<double> vector, double shift) {
+double dot(const Matrix3X<double>& a, const Matrix3X<double>& b) {
+  return a.cwiseProduct(b).sum();
+}
+
+/// Eigenvalue of A S + shift that is largest in magnitude, minus the shift. A is symmetric, S
+/// symmetric and positive definite, so A S is self-adjoint in the inner product x . S y, in which
+/// the quotient is taken. The vector is an eigenvector of A S with x . S x = 1.
+Eigenpair power_iteration(const Operator& multiply, const Operator& inertia,
+                          Matrix3X<double> vector, double shift) {
   Eigenpair result;
   Matrix3X<double> product(3, vector.cols());
-  double norm = vector.norm();
+  Matrix3X<double> dual(3, vector.cols());  // S x
+  inertia(vector, dual);
+  double norm = std::sqrt(dot(vector, dual));
   double previous = 0.0;
   result.converged = false;
   while (norm > 0.0 && result.iterations < kMaxPowerIterations) {
     vector /= norm;
-    multiply(vector, product);
+    dual /= norm;
+    multiply(dual, product);
     product += shift * vector;
-    const double quotient = vector.cwiseProduct(product).sum();
+    const double quotient = dot(dual, product);
     result.value = quotient - shift;
     ++result.iterations;
     result.converged = std::abs(quotient - previous) <= kRayleighTolerance * std::abs(quotient);
@@ -51,18 +61,20 @@ Eigenpair power_iteration(const Operator& multiply, Matrix3X<double> vector, dou
     previous = quotient;
     result.vector = vector;
     vector.swap(product);
-    norm = vector.norm();
+    inertia(vector, dual);
+    norm = std::sqrt(dot(vector, dual));
   }
   if (!(norm > 0.0)) result.converged = norm == 0.0;  // A = 0, or not a number
   if (result.converged && norm > 0.0) result.vector = vector;
   return result;
 }
 
-Eigenpair largest_eigenvalue(const Operator& multiply, const Matrix3X<double>& start) {
-  Eigenpair pair = power_iteration(multiply, start, 0.0);
+Eigenpair largest_eigenvalue(const Operator& multiply, const Operator& inertia,
+                             const Matrix3X<double>& start) {
+  Eigenpair pair = power_iteration(multiply, inertia, start, 0.0);
   if (pair.value < 0.0) {
     const int iterations = pair.iterations;
-    pair = power_iteration(multiply, start, -pair.value);
+    pair = power_iteration(multiply, inertia, start, -pair.value);
     pair.iterations += iterations;
   }
   return pair;
@@ -76,6 +88,22 @@ Operator scaled(const VectorX<double>& inverse_masses, const Operator& product) 
     Matrix3X<double> forces = Matrix3X<double>::Zero(3, x.cols());
     product(moved, forces);
     y = -(forces * scale.asDiagonal());
+  };
+}
+
+/// What inertia-level laws do to forces, as an operator S on mass-weighted ones: F -> M^1/2 F. Their
+/// redistribution R is symmetric in the inner product of the accelerations, x . R(M y), which makes
+/// S = M^-1/2 R M^1/2 symmetric.
+Operator added_inertia(const Body& body, const forces::State<double>& state,
+                       const VectorX<double>& inverse_masses) {
+  if (!body.laws.has_level(forces::LawTraits::Level::kInertia)) {
+    return [](const Matrix3X<double>& x, Matrix3X<double>& y) { y = x; };
+  }
+  const VectorX<double> scale = inverse_masses.cwiseSqrt();
+  return [&body, &state, scale](const Matrix3X<double>& x, Matrix3X<double>& y) {
+    y = x * state.masses.cwiseSqrt().asDiagonal();
+    body.laws.redistribute_forces(state, y);
+    y = y * scale.asDiagonal();
   };
 }
 
@@ -101,18 +129,24 @@ Spectrum spectrum(Body& body) {
         body.laws.add_stiffness_product(state, x, y);
       });
 
-  const Eigenpair top = largest_eigenvalue(stiffness, start);
-  const Eigenpair force = largest_eigenvalue(damping(Level::kForce), start);
-  const Eigenpair velocity = largest_eigenvalue(damping(Level::kVelocity), start);
+  const Operator inertia = added_inertia(body, state, inverse);
+  const Operator plain = [](const Matrix3X<double>& x, Matrix3X<double>& y) { y = x; };
+
+  const Eigenpair top = largest_eigenvalue(stiffness, inertia, start);
+  const Eigenpair force = largest_eigenvalue(damping(Level::kForce), inertia, start);
+  const Eigenpair velocity = largest_eigenvalue(damping(Level::kVelocity), plain, start);
 
   Spectrum result;
   result.omega_max = std::sqrt(std::max(0.0, top.value));
   if (top.vector.cols() > 0) {
+    // The motion of the mode is S x; its inertia product with x is x . S x = 1.
+    Matrix3X<double> mode(3, start.cols());
     Matrix3X<double> product(3, start.cols());
-    for (const Level level : {Level::kForce, Level::kVelocity}) {
-      damping(level)(top.vector, product);
-      result.top_mode_damping += top.vector.cwiseProduct(product).sum();
-    }
+    inertia(top.vector, mode);
+    damping(Level::kForce)(mode, product);
+    result.top_mode_damping = dot(mode, product);
+    damping(Level::kVelocity)(mode, product);
+    result.top_mode_damping += dot(top.vector, product);
   }
   result.gamma_force_max = std::max(0.0, force.value);
   result.gamma_velocity_max = std::max(0.0, velocity.value);

@@ -5,7 +5,8 @@
 namespace weft::reference {
 
 /// The stiffest and the most damped motion of a body, linearised at its present state.
-/// K = -df/dx, C = -df/dv, free nodes only.
+/// K = -df/dx, C = -df/dv, free nodes only. M is the mass matrix; for a body with inertia-level laws,
+/// whose forces are redistributed by R, it stands for M R^-1 except with velocity-level laws.
 struct Spectrum {
   double omega_max = 0.0;           ///< root of the largest eigenvalue of M^-1/2 K M^-1/2 [rad/s]
   double top_mode_damping = 0.0;    ///< phi . C phi / phi . M phi of that mode, all laws [1/s]

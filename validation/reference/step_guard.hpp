@@ -9,7 +9,8 @@ namespace weft::reference {
 
 /// Largest step [s] at which no mode of a body with this spectrum grows; infinity if nothing moves
 /// it, 0 if none. w = omega_max, f = gamma_force_max, g = gamma_velocity_max.
-/// A mode is x'' = -w^2 x - (f + g) x'.
+/// A mode is x'' = -w^2 x - (f + g) x'. Inertia-level laws lower w and f: acceleration_damping makes
+/// an undamped step sqrt(1 + beta) times as long.
 ///
 ///   modified Euler   h^2 w^2 < 2 (1 + exp(-h g) (1 - h f)),  h f < 2
 ///       exact for this scheme (Jury criterion of its 2 x 2 matrix: trace 1 - h^2 w^2 + q,
