@@ -34,7 +34,7 @@ void DeferredForces<Scalar>::compute(const State<Scalar>& state) {
 template <class Scalar>
 bool DeferredForces<Scalar>::is_state_of_begin(const State<Scalar>& state) const {
   return same_bits(positions_, state.positions) && same_bits(velocities_, state.velocities) &&
-         same_bits(masses_, state.masses);
+         same_bits(masses_, state.masses) && time_ == state.time;
 }
 
 template <class Scalar>
@@ -44,6 +44,7 @@ void DeferredForces<Scalar>::begin(const State<Scalar>& state) {
   positions_ = state.positions;
   velocities_ = state.velocities;
   masses_ = state.masses;
+  time_ = state.time;
   const int threads = tbb::this_task_arena::max_concurrency();
   if (!arena_.is_active()) {
     arena_.initialize(threads);
@@ -55,7 +56,7 @@ void DeferredForces<Scalar>::begin(const State<Scalar>& state) {
   arena_.execute([this] {
     group_.run([this] {
       const TraceScope task("deferred forces");
-      compute({positions_, velocities_, masses_});
+      compute({positions_, velocities_, masses_, time_});
     });
   });
 }

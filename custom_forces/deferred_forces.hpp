@@ -58,6 +58,7 @@ class DeferredForces {
   Matrix3X<Scalar> positions_;   ///< [m] of begin()
   Matrix3X<Scalar> velocities_;  ///< [m/s] of begin()
   VectorX<Scalar> masses_;       ///< [kg] of begin()
+  double time_ = 0.0;            ///< [s] of begin()
   Matrix3X<Scalar> forces_;      ///< [N]
   ForceReport report_;
   bool is_in_flight_ = false;

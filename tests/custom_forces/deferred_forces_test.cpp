@@ -102,6 +102,15 @@ TYPED_TEST(DeferredForcesTest, AreComputedAnewIfOneBitOfTheStateChanged) {
   }
 }
 
+TYPED_TEST(DeferredForcesTest, AreComputedAnewAtAnotherTime) {
+  State<TypeParam> state = this->cloth_.state();
+  this->cloth_.deferred.begin(state);
+  state.time += 0.01;
+  Matrix3X<TypeParam> forces;
+  EXPECT_TRUE(this->cloth_.deferred.finish(state, forces).ok());
+  EXPECT_EQ(this->cloth_.deferred.num_recomputed(), 1);
+}
+
 TYPED_TEST(DeferredForcesTest, WithoutBeginAreComputedAtOnce) {
   EXPECT_TRUE(same_bits(this->cloth_.finished(), this->cloth_.direct()));
   EXPECT_EQ(this->cloth_.deferred.num_recomputed(), 0);
