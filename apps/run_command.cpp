@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/core/trace.hpp>
 #include <weft/scenes/catalog.hpp>
 #include <weft/scenes/engines/engine_table.hpp>
 #include <weft/scenes/quantity.hpp>
@@ -34,6 +36,7 @@ struct RunOptions {
   std::string duration;
   std::string time_step;
   std::string integrator;
+  std::string trace;
   bool bullet_time_step = false;
   bool force = false;
   int threads = 0;
@@ -107,6 +110,24 @@ void report_stable_step(const scenes::StepReport& step) {
              *step.stable_time_step,
              step.substeps > 1 ? fmt::format(", taken in {} substeps", step.substeps) : "",
              taken > *step.stable_time_step ? ": too large, modes of the springs grow" : "");
+}
+
+/// Opened before the run, so that a bad path costs no simulation; a run without --trace has none.
+std::ofstream open_trace(const std::string& path) {
+  std::ofstream file;
+  if (path.empty()) return file;
+  file.open(path);
+  if (!file) throw InvalidArgument("--trace " + path + ": cannot be written");
+  name_trace_thread("main");
+  start_trace();
+  return file;
+}
+
+void close_trace(const std::string& path, std::ofstream& file) {
+  if (path.empty()) return;
+  write_chrome_trace(stop_trace(), file);
+  file.close();
+  if (!file) throw Error("--trace " + path + ": writing failed");
 }
 
 struct Recorded {
@@ -185,7 +206,9 @@ int run(const RunOptions& options, const CommandLine& command_line) {
   const std::string unfinished = output + ".part";
   remove_recording(unfinished);
   try {
+    std::ofstream trace = open_trace(options.trace);
     const Recorded recorded = record(scene, *engine, options.threads, provenance, unfinished);
+    close_trace(options.trace, trace);
     remove_recording(output);
     std::filesystem::rename(unfinished, output);
     report_stable_step(recorded.last);
@@ -226,6 +249,9 @@ Action add_run_command(CLI::App& parser, const CommandLine& command_line) {
       ->add_option("-j,--threads", options->threads,
                    "Threads of the force laws (default: all); changes no bit of the result")
       ->check(CLI::Range(1, 1024));
+  command->add_option("--trace", options->trace,
+                      "Write which thread did what when, as JSON that chrome://tracing and "
+                      "ui.perfetto.dev open; changes no bit of the result");
   return [options, command_line] { return run(*options, command_line); };
 }
 

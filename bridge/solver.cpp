@@ -8,6 +8,8 @@
 
 #include <weft/bridge/node_state.hpp>
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/core/trace.hpp>
+#include <weft/custom_forces/deferred_forces.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -19,6 +21,7 @@ using State = forces::State<btScalar>;
 struct SoftBodySolver::Attachment {
   btSoftBody* body;
   LawSet laws;
+  forces::DeferredForces<btScalar> deferred{laws, LawSet::VelocityLaws::kSeparate};
   VectorX<btScalar> masses;
   DampingPlace damping = DampingPlace::kAutomatic;
   Matrix3X<btScalar> start_velocities;  // of the step, only for inertia after the projection
@@ -31,6 +34,7 @@ struct SoftBodySolver::Attachment {
 
   [[nodiscard]] bool acts_after_projection(Level level) const;
   void add_forces(btScalar time_step);
+  void begin_forces();
   void sum_laws();
   void damp_velocities(btScalar time_step);
   void slow_down_changes();
@@ -49,29 +53,34 @@ bool SoftBodySolver::Attachment::acts_after_projection(Level level) const {
 
 // Velocity-level laws state how fast velocities decay: inertia does not slow them down.
 void SoftBodySolver::Attachment::sum_laws() {
-  using VelocityLaws = LawSet::VelocityLaws;
   const State state{positions, velocities, masses, time};
-  const forces::ForceReport report = laws.add_forces(state, VelocityLaws::kSeparate, forces);
+  const forces::ForceReport report = deferred.finish(state, forces);
   if (!report.ok()) {
     blow_up = BodyBlowUp{*report.first_non_finite_node, "position or velocity is not finite"};
     return;
   }
   if (!acts_after_projection(Level::kInertia)) laws.redistribute_forces(state, forces);
   if (!acts_after_projection(Level::kVelocity)) {
-    (void)laws.add_forces(state, VelocityLaws::kAlone, forces);
+    (void)laws.add_forces(state, LawSet::VelocityLaws::kAlone, forces);
   }
 }
 
 void SoftBodySolver::Attachment::add_forces(btScalar time_step) {
+  const TraceScope trace("forces");
   read_nodes(*body, positions, velocities);
   if (acts_after_projection(Level::kInertia)) start_velocities = velocities;
-  forces.setZero(3, positions.cols());
   sum_laws();
   if (blow_up) return;
   // Now, on the velocities that predictMotion is about to make: afterwards would be too late, for a
   // node without a place in space ruins the body's bounding-volume tree.
   blow_up = predicted_blow_up(*body, velocities, forces, time_step, SoftBodySolver::kMaxSpeed);
   if (!blow_up) add_node_forces(forces, *body);
+}
+
+// On other threads, from a copy of the state: the body may leave or be deleted meanwhile.
+void SoftBodySolver::Attachment::begin_forces() {
+  read_nodes(*body, positions, velocities);
+  deferred.begin({positions, velocities, masses, time});
 }
 
 // Laws made for another mesh throw here, at attach, and not out of Bullet's step.
@@ -91,6 +100,7 @@ void SoftBodySolver::Attachment::slow_down_changes() {
 }
 
 void SoftBodySolver::Attachment::damp_velocities(btScalar time_step) {
+  const TraceScope trace("damp velocities");
   const bool slows_down = acts_after_projection(Level::kInertia);
   const bool advances = acts_after_projection(Level::kVelocity);
   if (!slows_down && !advances) return;
@@ -146,6 +156,17 @@ void SoftBodySolver::detach(btSoftBody& body) {
              list.end());
 }
 
+void SoftBodySolver::set_deferred(bool is_deferred) {
+  is_deferred_ = is_deferred;
+  if (is_deferred) return;
+  for (const auto& attachment : attachments_->list) attachment->deferred.drop();
+}
+
+long SoftBodySolver::num_recomputed(const btSoftBody& body) const {
+  const Attachment* attachment = find(body);
+  return attachment ? attachment->deferred.num_recomputed() : 0;
+}
+
 bool SoftBodySolver::has_laws(const btSoftBody& body) const {
   return find(body) != nullptr;
 }
@@ -176,6 +197,7 @@ void SoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool fo
 }
 
 void SoftBodySolver::predictMotion(btScalar time_step) {
+  const TraceScope trace("predict motion");
   time_step_ = time_step;
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
@@ -187,6 +209,7 @@ void SoftBodySolver::predictMotion(btScalar time_step) {
 }
 
 void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
+  const TraceScope trace("solve constraints");
   // Velocities decay over the step that predictMotion was given. The argument here is the same time
   // before Bullet rounds it to single precision; to use it would mix two clocks in one step.
   for (int i = 0; i < m_softBodySet.size(); ++i) {
@@ -200,10 +223,14 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
   }
 }
 
+// The last thing that Bullet does in a step: positions and velocities are final.
 void SoftBodySolver::updateSoftBodies() {
+  const TraceScope trace("update soft bodies");
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
-    if (body.isActive() && !is_frozen(body)) body.integrateMotion();
+    if (!body.isActive() || is_frozen(body)) continue;
+    body.integrateMotion();
+    if (Attachment* attachment = is_deferred_ ? find(body) : nullptr) attachment->begin_forces();
   }
 }
 

@@ -85,6 +85,13 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   /// Set once the body has exploded; it does not move any more.
   [[nodiscard]] std::optional<BodyBlowUp> blow_up(const btSoftBody& body) const;
 
+  /// Deferred: the forces of the next step are started when a step ends, on other threads, and
+  /// fetched when the next one begins; the time between belongs to the caller. Changes no bit: a
+  /// body whose nodes were moved in between has its forces computed anew. Off at first.
+  void set_deferred(bool is_deferred);
+  /// How often forces that were started had to be computed anew, for something had moved the nodes.
+  [[nodiscard]] long num_recomputed(const btSoftBody& body) const;
+
   void optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool force_update = false) override;
   void predictMotion(btScalar time_step) override;
   void solveConstraints(btScalar time_step) override;
@@ -100,6 +107,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   [[nodiscard]] bool is_frozen(const btSoftBody& body) const;
 
   std::unique_ptr<Attachments> attachments_;
+  bool is_deferred_ = false;
   btScalar time_step_ = 0;  ///< [s] of the step in progress
 };
 

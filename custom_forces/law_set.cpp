@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/core/trace.hpp>
 #include <weft/custom_forces/registry.hpp>
 
 namespace weft::forces {
@@ -21,15 +22,27 @@ double value_of(const Dual& x) {
   return x.value();
 }
 
+/// x - x is 0 for every finite x and NaN otherwise. One sum over all numbers, for the vector unit.
+template <class Matrix>
+bool all_finite(const Matrix& matrix) {
+  if (matrix.cols() > 1 && matrix.outerStride() != matrix.rows()) return false;  // not known yet
+  using Scalar = typename Matrix::Scalar;
+  const Eigen::Map<const VectorX<Scalar>> numbers(matrix.data(), matrix.size());
+  return (numbers - numbers).sum() == Scalar(0);
+}
+
 template <class Scalar>
 std::optional<int> first_non_finite_node(const State<Scalar>& state) {
+  if (all_finite(state.positions) && all_finite(state.velocities) && all_finite(state.masses)) {
+    return std::nullopt;
+  }
   for (Eigen::Index node = 0; node < state.positions.cols(); ++node) {
     double sum = value_of(state.masses[node]);
     for (int axis = 0; axis < 3; ++axis) {
       sum += value_of(state.positions(axis, node)) + value_of(state.velocities(axis, node));
     }
-    // x - x is 0 for every finite x and NaN otherwise; a sum of finite doubles from float input
-    // cannot overflow, one from double input could, and such a state is beyond use as well.
+    // A sum of finite doubles from float input cannot overflow; one from double input could, and
+    // such a state is beyond use as well.
     if (sum - sum != 0.0) return static_cast<int>(node);
   }
   return std::nullopt;
@@ -80,7 +93,9 @@ ForceReport LawSet<Scalar>::add_forces(const State<Scalar>& state, VelocityLaws 
   ForceReport report{first_non_finite_node(state)};
   if (!report.ok()) return report;
   for (const auto& law : laws_) {
-    if (takes_part(*law, velocity_laws)) law->add_forces(state, scratch_, forces);
+    if (!takes_part(*law, velocity_laws)) continue;
+    const TraceScope trace(law->info().id);
+    law->add_forces(state, scratch_, forces);
   }
   return report;
 }
@@ -111,6 +126,7 @@ void LawSet<Scalar>::advance_velocities(const State<Scalar>& state, Scalar time_
   check_shapes(state, velocities.cols());
   for (const auto& law : laws_) {
     if (law->info().traits.level == LawTraits::Level::kVelocity) {
+      const TraceScope trace(law->info().id);
       law->advance_velocities(state, time_step, velocities);
     }
   }

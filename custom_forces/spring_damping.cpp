@@ -38,13 +38,12 @@ void SpringDamping<Scalar>::add_damping_product(const State<Scalar>& state,
                                                 ConstMatrix3XRef<Scalar> velocity_changes,
                                                 Matrix3XRef<Scalar> scratch,
                                                 Matrix3XRef<Scalar> product) const {
-  const auto force = [&](const Spring<Scalar>& spring) -> Vector3<Scalar> {
-    const Vector3<Scalar> relative =
-        velocity_changes.col(spring.second) - velocity_changes.col(spring.first);
-    const Scalar rate = relative.dot(spring.direction);
-    return (damping_ * rate) * spring.direction;
+  const auto force = [damping = damping_](
+                         const Spring<Scalar>& spring,
+                         const PlainVector<Scalar>& relative) -> PlainVector<Scalar> {
+    return Scalar(damping * relative.dot(spring.direction)) * spring.direction;
   };
-  springs_.add_pairs(state, force, scratch, product);
+  springs_.add_pairs(state, force, scratch, product, velocity_changes);
 }
 
 template <class Scalar>
@@ -52,28 +51,25 @@ void SpringDamping<Scalar>::add_stiffness_product(const State<Scalar>& state,
                                                   ConstMatrix3XRef<Scalar> displacements,
                                                   Matrix3XRef<Scalar> scratch,
                                                   Matrix3XRef<Scalar> product) const {
-  const auto force_change = [&](const Spring<Scalar>& spring) -> Vector3<Scalar> {
-    if (!spring.has_direction()) return Vector3<Scalar>::Zero();
+  const auto force_change = [damping = damping_](
+                                const Spring<Scalar>& spring, const PlainVector<Scalar>& change,
+                                const PlainVector<Scalar>& relative) -> PlainVector<Scalar> {
     // The direction turns: du = (I - u u^T) (dx_j - dx_i) / l
-    const Vector3<Scalar>& u = spring.direction;
-    const Vector3<Scalar> change =
-        displacements.col(spring.second) - displacements.col(spring.first);
-    const Vector3<Scalar> turn = (change - u.dot(change) * u) / spring.length;
-    const Vector3<Scalar> relative =
-        state.velocities.col(spring.second) - state.velocities.col(spring.first);
-    return damping_ * (relative.dot(turn) * u + relative.dot(u) * turn);
+    const PlainVector<Scalar>& u = spring.direction;
+    const PlainVector<Scalar> turn = spring.inverse_length * (change - u.dot(change) * u);
+    return damping * (relative.dot(turn) * u + relative.dot(u) * turn);
   };
-  springs_.add_pairs(state, force_change, scratch, product);
+  springs_.add_pairs(state, force_change, scratch, product, displacements, state.velocities);
 }
 
 template <class Scalar>
 Scalar SpringDamping<Scalar>::non_conservative_power(const State<Scalar>& state) const {
-  return -springs_.sum(state, [&](const Spring<Scalar>& spring) -> Scalar {
-    const Vector3<Scalar> relative =
-        state.velocities.col(spring.second) - state.velocities.col(spring.first);
+  const auto power = [damping = damping_](const Spring<Scalar>& spring,
+                                          const PlainVector<Scalar>& relative) -> Scalar {
     const Scalar rate = relative.dot(spring.direction);
-    return damping_ * rate * rate;
-  });
+    return damping * rate * rate;
+  };
+  return -springs_.sum(state, power, state.velocities);
 }
 
 template class SpringDamping<float>;

@@ -35,16 +35,18 @@ const LawInfo Tension<Scalar>::kInfo{
 
 template <class Scalar>
 Tension<Scalar>::Tension(const LawSpecification& specification, const ClothMesh& mesh)
-    : springs_(specification, mesh),
-      stiffness_(law_scalar(specification, "stiffness")),
-      compression_ratio_(law_scalar(specification, "compression_ratio")) {}
+    : springs_(specification, mesh) {
+  const double stiffness = law_scalar(specification, "stiffness");
+  stiffness_.stretched = Scalar(stiffness);
+  stiffness_.compressed = Scalar(law_scalar(specification, "compression_ratio") * stiffness);
+}
 
 template <class Scalar>
 void Tension<Scalar>::add_forces(const State<Scalar>& state, Matrix3XRef<Scalar> scratch,
                                  Matrix3XRef<Scalar> forces) const {
-  const auto force = [&](const Spring<Scalar>& spring) -> Vector3<Scalar> {
+  const auto force = [stiffness = stiffness_](const Spring<Scalar>& spring) -> PlainVector<Scalar> {
     const Scalar extension = spring.extension();
-    return (stiffness_at(extension) * extension) * spring.direction;
+    return Scalar(stiffness.at(extension) * extension) * spring.direction;
   };
   springs_.add_pairs(state, force, scratch, forces);
 }
@@ -54,24 +56,23 @@ void Tension<Scalar>::add_stiffness_product(const State<Scalar>& state,
                                             ConstMatrix3XRef<Scalar> displacements,
                                             Matrix3XRef<Scalar> scratch,
                                             Matrix3XRef<Scalar> product) const {
-  const auto force_change = [&](const Spring<Scalar>& spring) -> Vector3<Scalar> {
-    if (!spring.has_direction()) return Vector3<Scalar>::Zero();
-    // df_i = k [u u^T + (1 - l0/l) (I - u u^T)] (dx_j - dx_i)
-    const Vector3<Scalar> change =
-        displacements.col(spring.second) - displacements.col(spring.first);
+  const auto force_change = [stiffness = stiffness_](
+                                const Spring<Scalar>& spring,
+                                const PlainVector<Scalar>& change) -> PlainVector<Scalar> {
+    // df_i = k [u u^T + (1 - l0/l) (I - u u^T)] (dx_j - dx_i); u = 0, 1/l = 0 if l is too short
     const Scalar along = spring.direction.dot(change);
-    const Scalar across_ratio = spring.extension() / spring.length;
-    return stiffness_at(spring.extension()) *
-           (across_ratio * change + ((Scalar(1) - across_ratio) * along) * spring.direction);
+    const Scalar across_ratio = spring.extension() * spring.inverse_length;
+    return stiffness.at(spring.extension()) *
+           (across_ratio * change + Scalar((Scalar(1) - across_ratio) * along) * spring.direction);
   };
-  springs_.add_pairs(state, force_change, scratch, product);
+  springs_.add_pairs(state, force_change, scratch, product, displacements);
 }
 
 template <class Scalar>
 Scalar Tension<Scalar>::potential_energy(const State<Scalar>& state) const {
   return springs_.sum(state, [&](const Spring<Scalar>& spring) -> Scalar {
     const Scalar extension = spring.extension();
-    return Scalar(0.5) * stiffness_at(extension) * extension * extension;
+    return Scalar(0.5) * stiffness_.at(extension) * extension * extension;
   });
 }
 

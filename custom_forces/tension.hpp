@@ -36,13 +36,16 @@ class Tension final : public ForceLaw<Scalar> {
   [[nodiscard]] Scalar potential_energy(const State<Scalar>& state) const override;
 
  private:
-  [[nodiscard]] Scalar stiffness_at(Scalar extension) const {
-    return extension < Scalar(0) ? Scalar(compression_ratio_ * stiffness_) : stiffness_;
-  }
+  struct Stiffness {
+    Scalar stretched{};   ///< [N/m]
+    Scalar compressed{};  ///< [N/m]
+    [[nodiscard]] Scalar at(Scalar extension) const {
+      return extension < Scalar(0) ? compressed : stretched;
+    }
+  };
 
   SpringSet<Scalar> springs_;
-  Scalar stiffness_;          ///< [N/m]
-  Scalar compression_ratio_;  ///< [-]
+  Stiffness stiffness_;
 };
 
 extern template class Tension<float>;

@@ -68,6 +68,16 @@ for threads in 1 2 4; do
   grep "content hash" out >hash_b
   check "$threads threads: same hash" cmp -s hash_a hash_b
 done
+if command -v python3 >/dev/null; then
+  check "run with a trace" exits 0 "${short[@]}" -o a.weftrec -f --trace trace.json
+  grep "content hash" out >hash_b
+  check "a trace changes no bit" cmp -s hash_a hash_b
+  check "the trace is sound" "$source_dir/tests/apps/check_trace.py" trace.json tension
+  check "the trace can be drawn" "$source_dir/tools/draw_trace.py" trace.json trace.svg
+  check "a picture" grep -q "</svg>" trace.svg
+fi
+check "a trace that cannot be written" exits 2 "${short[@]}" -o t.weftrec --trace /no/such/folder/t.json
+check "no recording without it" test ! -e t.weftrec
 check "another run differs" exits 0 run drape_sphere --duration "0.64 s" -o b.weftrec
 grep "content hash" out >hash_b
 check "another run: another hash" test "$(cat hash_a)" != "$(cat hash_b)"

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+
+namespace weft::bench {
+
+/// Each measures one thing and writes results/<name>.csv; num_rounds sets how long it takes.
+struct Settings {
+  std::filesystem::path folder;
+  int num_rounds = 40;
+};
+
+/// Nanoseconds per spring and other element of every law, against the floor of the same run.
+void bench_laws(const Settings& settings);
+/// Elements per chunk against time.
+void bench_grain(const Settings& settings);
+/// What the main thread spends on forces in a frame with 8 ms of other work; writes traces too.
+void bench_frame(const Settings& settings);
+#ifdef WEFT_WITH_BULLET
+/// A step of the classic scene with Bullet alone, and with laws.
+void bench_bullet(const Settings& settings);
+#endif
+
+}  // namespace weft::bench

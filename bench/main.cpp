@@ -1,0 +1,62 @@
+// Measures Weft against the floor of the processor and against Bullet; results as CSV files.
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+
+#include <fmt/core.h>
+#include <tbb/global_control.h>
+#include <CLI/CLI.hpp>
+
+#include "bench/bench.hpp"
+#include "bench/floor_kernel.hpp"
+
+namespace {
+
+int run(int argc, char** argv) {
+  using namespace weft::bench;
+  std::map<std::string, std::function<void(const Settings&)>> benches = {
+      {"laws", bench_laws}, {"grain", bench_grain}, {"frame", bench_frame}};
+#ifdef WEFT_WITH_BULLET
+  benches["bullet"] = bench_bullet;
+#endif
+  Settings settings{.folder = WEFT_SOURCE_DIR "/bench/results"};
+  std::vector<std::string> names;
+  CLI::App parser("weft-bench: nanoseconds per spring, and what they compare with");
+  std::vector<std::string> known;
+  for (const auto& [name, bench] : benches) known.push_back(name);
+  parser.add_option("NAME", names, "Which benches (default: all)")->check(CLI::IsMember(known));
+  parser.add_option("-o,--output", settings.folder, "Folder for the CSV files")
+      ->capture_default_str();
+  parser.add_option("-r,--rounds", settings.num_rounds, "How often each contender has its turn")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  CLI11_PARSE(parser, argc, argv);
+  if (!has_avx2_and_fma()) {
+    fmt::print(stderr, "weft-bench: the floor needs a processor with AVX2 and FMA\n");
+    return 2;
+  }
+  // Two threads also on a machine of one core: the ratio then says so.
+  const tbb::global_control allowed(
+      tbb::global_control::max_allowed_parallelism,
+      std::max<std::size_t>(
+          2, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
+  std::filesystem::create_directories(settings.folder);
+  for (const std::string& name : names.empty() ? known : names) {
+    fmt::print("== {}\n", name);
+    benches.at(name)(settings);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "weft-bench: {}\n", error.what());
+    return 2;
+  }
+}
