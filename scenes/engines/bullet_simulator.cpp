@@ -96,9 +96,6 @@ StepReport BulletSimulator::step(double time_step) {
         "bullet_soft: the time step differs from the scene's, for which the links' stiffness was "
         "mapped; expected the same time step");
   }
-  for (std::size_t c = 0; c < cloths_.size(); ++c) {
-    bridge::set_pinned_velocities(steered_[c], *cloths_[c]);
-  }
   bodies_.steer_pins();
   world_->step(time_step);
   // Bullet hands its soft bodies a single-precision step in both builds.
