@@ -28,6 +28,8 @@ std::span<const CaseInfo> all_cases() {
                nullptr, &evaluate_acceleration_damping},
       CaseInfo{"rotation_damping", "Spin and swirl decay at their rates, and nothing else does",
                nullptr, &evaluate_rotation_damping},
+      CaseInfo{"damped_hang", "The three damping laws in Bullet: step for step the same equations",
+               &plan_damped_hang, &evaluate_damped_hang},
       CaseInfo{"sliding_cloth", "A sliding cloth stops where Coulomb's law says",
                &plan_sliding_cloth, &evaluate_sliding_cloth},
       CaseInfo{"explosion", "Explicit Euler explodes, and is reported as data", &plan_explosion,
