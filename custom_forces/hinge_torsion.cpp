@@ -23,12 +23,12 @@ constexpr ParameterInfo kParameters[] = {
      .default_value = 2.0},
 };
 
-/// A hinge at rest.
+/// A hinge at rest, unfolded into a plane with the edge along t and n across it.
 struct RestHinge {
-  double length;      ///< of the edge [m]
-  double areas;       ///< sum of both triangles [m^2]
-  double normals[2];  ///< twice the area of each triangle [m^2]
-  bool is_diagonal;   ///< the longest side of both triangles
+  double length = 0;       ///< of the edge [m]
+  double heights[2] = {};  ///< of the triangles above the edge [m]
+  double feet[2] = {};     ///< of the heights, from the edge's first node [m]
+  [[nodiscard]] double areas() const { return length * (heights[0] + heights[1]) / 2; }
 };
 
 RestHinge rest_hinge(const ClothMesh& mesh, const Eigen::Vector4i& nodes) {
@@ -36,37 +36,63 @@ RestHinge rest_hinge(const ClothMesh& mesh, const Eigen::Vector4i& nodes) {
     return mesh.rest_positions.col(nodes[corner]);
   };
   const Vector3<double> edge = x(1) - x(0);
-  RestHinge hinge{};
+  RestHinge hinge;
   hinge.length = edge.norm();
-  hinge.is_diagonal = true;
   for (int side = 0; side < 2; ++side) {
     const Vector3<double> wing = x(2 + side) - x(0);
-    hinge.normals[side] = edge.cross(wing).norm();
-    hinge.is_diagonal = hinge.is_diagonal && wing.norm() < hinge.length &&
-                        (x(2 + side) - x(1)).norm() < hinge.length;
-    if (!(hinge.normals[side] > 0) || !std::isfinite(hinge.normals[side])) {
-      throw InvalidArgument(
-          "hinge_torsion: area of the triangle of nodes " + std::to_string(nodes[0]) + ", " +
-          std::to_string(nodes[1]) + " and " + std::to_string(nodes[2 + side]) + " = " +
-          std::to_string(hinge.normals[side] / 2) + " [m^2], expected > 0 and finite");
+    const double twice_area = edge.cross(wing).norm();
+    if (!(twice_area > 0) || !std::isfinite(twice_area)) {
+      throw InvalidArgument("hinge_torsion: area of the triangle of nodes " +
+                            std::to_string(nodes[0]) + ", " + std::to_string(nodes[1]) + " and " +
+                            std::to_string(nodes[2 + side]) + " = " +
+                            std::to_string(twice_area / 2) + " [m^2], expected > 0 and finite");
     }
+    hinge.heights[side] = twice_area / hinge.length;
+    hinge.feet[side] = wing.dot(edge) / hinge.length;
   }
-  hinge.areas = (hinge.normals[0] + hinge.normals[1]) / 2;
   return hinge;
 }
 
-/// k / D, see the header.
-double weight(const RestHinge& hinge, Tessellation tessellation) {
-  const double squared_length = hinge.length * hinge.length;
-  if (tessellation == Tessellation::kUnionJack && hinge.is_diagonal) {
-    return 2 * hinge.areas / squared_length;
-  }
-  return squared_length / hinge.areas;  // l / h with the mean height h = areas / l
+/// S : S [m^2], see the header.
+double squared_response(const RestHinge& hinge) {
+  const auto& [h1, h2] = hinge.heights;
+  const auto& [f1, f2] = hinge.feet;
+  const double l = hinge.length;
+  const double across = (h1 + h2) / 2;
+  const double along = (f1 * (f1 - l) / h1 + f2 * (f2 - l) / h2) / 2;
+  const double mixed = (f1 - f2) / 2;
+  return across * across + along * along + 2 * mixed * mixed;
 }
 
-bool is_at_clamp(const std::vector<bool>& pinned, const Eigen::Vector4i& nodes) {
-  const auto held = [&](int corner) { return pinned[static_cast<std::size_t>(nodes[corner])]; };
-  return held(0) && held(1) && held(2) != held(3);
+/// k / D, see the header.
+double weight(const RestHinge& hinge, bool is_cut_both_ways) {
+  if (is_cut_both_ways) return hinge.areas() / (2 * squared_response(hinge));
+  return hinge.length * hinge.length / hinge.areas();  // l / h with the mean height h = areas / l
+}
+
+/// Whether the angle depends on one free node only, and on pinned ones besides.
+bool is_at_clamp(const RestHinge& hinge, const std::vector<bool>& pinned,
+                 const Eigen::Vector4i& nodes) {
+  const auto is_free = [&](int corner) { return !pinned[static_cast<std::size_t>(nodes[corner])]; };
+  const auto& [h1, h2] = hinge.heights;
+  const auto& [f1, f2] = hinge.feet;
+  // The angle's derivative by the height of the edge's second node, and of the first.
+  const double by_second = f1 / h1 + f2 / h2;
+  const double by_first = (hinge.length - f1) / h1 + (hinge.length - f2) / h2;
+  constexpr double kInactive = 1e-9;  // rounding of a right angle
+  const double threshold = kInactive * (by_first + by_second);
+  int num_free = int{is_free(2)} + int{is_free(3)};
+  if (std::abs(by_first) > threshold && is_free(0)) ++num_free;
+  if (std::abs(by_second) > threshold && is_free(1)) ++num_free;
+  return num_free == 1;
+}
+
+Hinges bending_hinges(const ClothMesh& mesh) {
+  const Hinges one_way = hinges_of_triangles(mesh.triangles);
+  const Hinges other_way = hinges_of_triangles(mesh.crossed_triangles);
+  Hinges hinges(4, one_way.cols() + other_way.cols());
+  hinges << one_way, other_way;
+  return hinges;
 }
 
 /// dtheta/dx of the four nodes, and theta.
@@ -116,9 +142,11 @@ const LawInfo HingeTorsion<Scalar>::kInfo{
     .id = "hinge_torsion",
     .summary = "Bending of a surface by torsion springs in its hinges",
     .formula =
-        "E = k (theta - theta0)^2 / 2, k = D on square union-jack cells, D l / h elsewhere, "
-        "times factor at a clamp",
-    .source = "own derivation: energy of a quadratic surface; length weighting as Feng et al. 2022",
+        "E = k (theta - theta0)^2 / 2, k = D A / (2 S : S) on cells cut both ways (D / 2 on "
+        "squares), "
+        "D l / h elsewhere, times factor at a clamp",
+    .source =
+        "own derivation: energy of a quadratic surface; length weighting as in Feng et al. 2022",
     .traits = {.internal = true,
                .ignores_rigid_motion = true,
                .free_at_rest = true,
@@ -128,21 +156,22 @@ const LawInfo HingeTorsion<Scalar>::kInfo{
 
 template <class Scalar>
 HingeTorsion<Scalar>::HingeTorsion(const LawSpecification& specification, const ClothMesh& mesh)
-    : hinges_(hinges_of_triangles(mesh.triangles), mesh.num_nodes(), 4),
+    : hinges_(bending_hinges(mesh), mesh.num_nodes(), 4),
       stiffness_(hinges_.size()),
       rest_angles_(hinge_angles(mesh.rest_positions, hinges_.elements()).template cast<Scalar>()),
       smallest_normals_(3, hinges_.size()) {
   const double rigidity = law_scalar(specification, "rigidity");
   const double clamp_factor = law_scalar(specification, "clamp_factor");
+  const bool is_cut_both_ways = mesh.crossed_triangles.cols() > 0;
   std::vector<bool> pinned(static_cast<std::size_t>(mesh.num_nodes()), false);
   for (const int node : mesh.pinned) pinned[static_cast<std::size_t>(node)] = true;
   for (Eigen::Index h = 0; h < hinges_.size(); ++h) {
     const Eigen::Vector4i nodes = hinges_.elements().col(h);
     const RestHinge hinge = rest_hinge(mesh, nodes);
-    const double factor = is_at_clamp(pinned, nodes) ? clamp_factor : 1.0;
-    stiffness_[h] = Scalar(rigidity * factor * weight(hinge, mesh.tessellation));
+    const double factor = is_at_clamp(hinge, pinned, nodes) ? clamp_factor : 1.0;
+    stiffness_[h] = Scalar(rigidity * factor * weight(hinge, is_cut_both_ways));
     for (int side = 0; side < 2; ++side) {
-      const double smallest = kMinAreaRatio * hinge.normals[side];
+      const double smallest = kMinAreaRatio * hinge.length * hinge.heights[side];
       smallest_normals_(side, h) = Scalar(smallest * smallest);
     }
     smallest_normals_(2, h) = Scalar(0);

@@ -11,19 +11,25 @@ namespace weft::forces {
 ///   E = k (theta - theta0)^2 / 2     f = -k (theta - theta0) dtheta/dx
 ///   theta  signed angle of the hinge in (-pi, pi]: 0 flat, positive where the front is convex
 ///   theta0 its value at the rest shape
-///   k      from the plate rigidity D. On a union-jack grid exactly: k = D l / h for the edges of
-///          the grid's cells and k = 2 D A / l^2 for their diagonals, both D for square cells. On
-///          other meshes k = D l / h. (l length of the edge, h mean height and A sum of areas of its
-///          two triangles at rest.)
-///          Times factor at a clamp: where one node is free and the three others, a whole triangle,
-///          are pinned. Half a cell's curvature lies in front of the clamp, which makes it 2.
+///   k      from the plate rigidity D:
+///          * four-sided cells (a grid, regular or not) are cut both ways, each of which gives half of
+///            k = D A / (S : S). A is the area of the hinge's two triangles and S the tensor that
+///            gives the hinge's angle on a surface of curvature K, theta = K : S. Rectangular cells
+///            (square ones: k = D) are exactly the isotropic plate of energy D (K : K) / 2 per area,
+///            Poisson's ratio 0. One way of cutting alone has the same energy on a given smooth
+///            surface, but every second node would give way until three quarters of D are left, with
+///            Poisson's ratio -1/3.
+///          * other triangles: k = D l / h (l length of the edge, h mean height of its triangles),
+///            exact on cylinders for equilateral triangles, whose Poisson's ratio is -1/3.
+///          Times factor at a clamp: where all nodes that the angle depends on are pinned but one.
+///          Half a cell's curvature lies in front of the clamp, which makes it 2.
 ///
-/// Symbols  D      rigidity      [N m]  >= 0, plate rigidity; Poisson's ratio of the plate is 0
+/// Symbols  D      rigidity      [N m]  >= 0
 ///          factor clamp_factor  [1]    >= 0, default 2
 /// Errors   InvalidArgument at construction for triangles that make no surface or have no area;
 ///          a hinge with a triangle smaller than kMinAreaRatio of its rest area exerts no force
-/// Source   D and both weights: energy of a quadratic surface on the mesh, which on a union-jack
-///          grid is D (K : K) / 2 per area, the isotropic plate of Poisson's ratio 0
+/// Source   A / (S : S) and cutting both ways: own derivation, for a regular grid splits K : K
+///          between its legs and diagonals and this weight gives each its part; l / h: Feng et al. 2022
 /// Checked  contract tests; plate_rigidity, cantilever
 template <class Scalar>
 class HingeTorsion final : public ForceLaw<Scalar> {

@@ -11,9 +11,11 @@
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/gravity.hpp>
 #include <weft/custom_forces/hinge_torsion.hpp>
+#include <weft/custom_forces/nonlocal_torsion.hpp>
 #include <weft/custom_forces/rotation_damping.hpp>
 #include <weft/custom_forces/spring_damping.hpp>
 #include <weft/custom_forces/tension.hpp>
+#include <weft/custom_forces/torsion.hpp>
 #include <weft/custom_forces/torsional_rotation_damping.hpp>
 #include <weft/custom_forces/velocity_damping.hpp>
 
@@ -43,16 +45,20 @@ Row row() {
 
 // The one list of laws. Everything that enumerates laws reads this table.
 const auto& rows() {
+  // clang-format off
   static const std::array kRows = {
       row<Tension>(),
       row<SpringDamping>(),
+      row<Torsion>(),
       row<HingeTorsion>(),
-      row<VelocityDamping>(),
-      row<Gravity>(),
+      row<NonlocalTorsion>(),
+      row<AccelerationDamping>(),
       row<RotationDamping>(),
       row<TorsionalRotationDamping>(),
-      row<AccelerationDamping>(),
+      row<VelocityDamping>(),
+      row<Gravity>(),
   };
+  // clang-format on
   return kRows;
 }
 

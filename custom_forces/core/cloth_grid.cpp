@@ -79,7 +79,8 @@ Triples lines_along(const ClothGrid& grid, int axis) {
   return Eigen::Map<const Triples>(flat.data(), 3, static_cast<Eigen::Index>(flat.size() / 3));
 }
 
-Triangles union_jack(const ClothGrid& grid) {
+/// Cells cut by diagonals that alternate; phase 1: by the other diagonal of each.
+Triangles union_jack(const ClothGrid& grid, int phase) {
   const auto [columns, rows] = grid.nodes;
   Triangles triangles(3, 2 * (columns - 1) * (rows - 1));
   Eigen::Index t = 0;
@@ -89,7 +90,7 @@ Triangles union_jack(const ClothGrid& grid) {
       const int b = a + 1;
       const int c = a + columns;
       const int d = c + 1;
-      if ((i + j) % 2 == 0) {
+      if ((i + j + phase) % 2 == 0) {
         triangles.col(t++) << a, b, d;
         triangles.col(t++) << a, d, c;
       } else {
@@ -116,8 +117,8 @@ ClothMesh make_cloth_grid(const ClothGrid& grid) {
           grid.center + (i / (columns - 1.0) - 0.5) * u + (j / (rows - 1.0) - 0.5) * v;
     }
   }
-  mesh.triangles = union_jack(grid);
-  mesh.tessellation = Tessellation::kUnionJack;
+  mesh.triangles = union_jack(grid, 0);
+  mesh.crossed_triangles = union_jack(grid, 1);
   mesh.line_sets.push_back({"lines_u", lines_along(grid, 0)});
   mesh.line_sets.push_back({"lines_v", lines_along(grid, 1)});
   mesh.edge_sets.push_back({"stretch", edges_of_offsets(grid, kStretchOffsets)});

@@ -36,7 +36,7 @@ struct ClothGrid {
 
 /// Builds the mesh: edge sets "stretch" (distance 1), "shear" (diagonals) and "bend" (ring 2), line
 /// sets "lines_u" and "lines_v" (three next neighbours along an axis), and union-jack triangles (the
-/// diagonal alternates, so that no direction is preferred). Throws
+/// diagonal alternates, so that no direction is preferred) with their crossed ones. Throws
 /// InvalidArgument for sizes out of their domain and for axes that are not perpendicular.
 [[nodiscard]] ClothMesh make_cloth_grid(const ClothGrid& grid);
 

@@ -27,18 +27,14 @@ struct ConnectionSet {
   Edges connections;  ///< 2 x m: the node whose frame counts, the far node
 };
 
-/// How the triangles were laid out, which decides what a hinge stands for (hinge_torsion).
-enum class Tessellation {
-  kGeneral,
-  /// right triangles of a grid whose diagonals alternate
-  kUnionJack,
-};
-
 /// One piece of cloth as every engine receives it: rest shape, topology and mass. Knows no engine.
 struct ClothMesh {
   Matrix3X<double> rest_positions;  ///< 3 x n [m]; rest lengths and angles come from here
   Triangles triangles;              ///< 3 x t, counter-clockwise seen from the front
-  Tessellation tessellation = Tessellation::kGeneral;
+  /// The same surface with its four-sided cells cut along their other diagonals, 3 x t; empty for a
+  /// surface that has no such cells. Only bending looks at it: one way of cutting alone would make a
+  /// sheet whose nodes give way by turns (hinge_torsion.hpp).
+  Triangles crossed_triangles = Triangles(3, 0);
   std::vector<EdgeSet> edge_sets;
   std::vector<LineSet> line_sets = {};
   std::vector<ConnectionSet> connection_sets = {};

@@ -39,6 +39,7 @@ ClothMesh renumbered(const ClothMesh& mesh, const std::vector<int>& new_index) {
     result.masses[map(node)] = mesh.masses[node];
   }
   for (int& node : result.triangles.reshaped()) node = map(node);
+  for (int& node : result.crossed_triangles.reshaped()) node = map(node);
   for (EdgeSet& set : result.edge_sets) {
     for (auto edge : set.edges.colwise()) {
       const int a = map(edge[0]);
@@ -95,6 +96,7 @@ Measurement edge_order_does_not_matter(const Subject& subject) {
   for (LineSet& set : other.line_sets) shuffle_columns(set.triples);
   for (ConnectionSet& set : other.connection_sets) shuffle_columns(set.connections);
   shuffle_columns(other.triangles);
+  shuffle_columns(other.crossed_triangles);
   const auto law = subject.make<Scalar>(mesh);
   const auto other_law = subject.make<Scalar>(other);
   const Sample<Scalar> sample = cast<Scalar>(deformed(mesh, Deformation::kMixed));
@@ -180,6 +182,7 @@ Measurement no_elements_no_force(const Subject& subject) {
   for (LineSet& set : mesh.line_sets) set.triples.resize(3, 0);
   for (ConnectionSet& set : mesh.connection_sets) set.connections.resize(2, 0);
   mesh.triangles.resize(3, 0);
+  mesh.crossed_triangles.resize(3, 0);
   double size = largest(everything(*subject.make<Scalar>(mesh), sample));
   mesh.edge_sets.clear();
   mesh.line_sets.clear();

@@ -8,6 +8,10 @@ namespace weft::validation {
 void evaluate_oscillator(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 void evaluate_observed_orders(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 void evaluate_hanging_chain(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+void evaluate_plate_rigidity(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+void evaluate_cantilever(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+void evaluate_torsion_beam(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+void evaluate_nonlocal_torsion(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
 void evaluate_acceleration_damping(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 void evaluate_rotation_damping(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);

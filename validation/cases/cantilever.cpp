@@ -1,0 +1,212 @@
+// A heavy strip bends under its own weight (Romero et al. 2021, test 1): tip drop over tip reach
+// against the elastica, over three decades of Gamma, on a grid at three angles.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <weft/validation/cases/analytic_cases.hpp>
+#include <weft/validation/cases/bent_strip.hpp>
+#include <weft/validation/cases/elastica.hpp>
+#include <weft/validation/metrics/convergence.hpp>
+
+namespace weft::validation {
+namespace {
+
+constexpr int kNumGammas = 12;
+constexpr int kNumCells = 40;
+constexpr double kStrain = 1e-3;  ///< of the springs under the whole weight [-]
+
+double gamma_at(int index) {
+  return 0.1 * std::pow(1000.0, index / (kNumGammas - 1.0));
+}
+
+/// One mesh over all Gammas.
+struct Sweep {
+  std::string title;
+  StripModel model;
+  std::vector<double> drop_over_reach;
+  double largest_error = 0.0;  ///< relative; infinite if an equilibrium was not found
+};
+
+double relative_error(const BentStrip& strip, double gamma) {
+  if (!strip.converged) return std::numeric_limits<double>::infinity();
+  const HeavyElastica exact = solve_heavy_elastica(gamma);
+  return std::abs(strip.drop_over_reach / (exact.drop / exact.reach) - 1);
+}
+
+Sweep sweep(std::string title, StripModel model) {
+  Sweep result{std::move(title), model, {}, 0.0};
+  Matrix3X<double> start;
+  for (int i = 0; i < kNumGammas; ++i) {
+    model.gamma = gamma_at(i);
+    BentStrip strip = bend_strip(model, start);
+    start = std::move(strip.positions);
+    result.drop_over_reach.push_back(strip.drop_over_reach);
+    result.largest_error = std::max(result.largest_error, relative_error(strip, model.gamma));
+  }
+  return result;
+}
+
+StripModel strip_model(int angle) {
+  StripModel model;
+  model.strip.angle = angle;
+  model.strip.num_cells = kNumCells;
+  model.strip.width_cells = angle == 45 ? 4 : 2;
+  model.is_endless = angle == 45;
+  model.strain = kStrain;
+  return model;
+}
+
+std::string title_of(int angle) {
+  if (angle == 45) return "45 degrees, a strip of an endless sheet";
+  return fmt::format("{} degrees", angle);
+}
+
+/// Order of H / W at Gamma = 1 from 20, 40 and 80 cells, or 0.
+double order(StripModel model) {
+  model.gamma = 1.0;
+  std::array<double, 3> results{};
+  for (std::size_t level = 0; level < 3; ++level) {
+    model.strip.num_cells = 20 << level;
+    results[level] = bend_strip(model).drop_over_reach;
+  }
+  // The cut along diagonals takes a whole number of them: 14, 28 and 57 for the three levels.
+  return order_of_differences(std::abs(results[2] - results[1]), std::abs(results[1] - results[0]),
+                              2.0)
+      .value_or(0.0);
+}
+
+CheckResult check_of(const CaseInfo& info, const std::string& title) {
+  CheckResult check;
+  check.case_id = info.id;
+  check.engine = "reference statics";
+  check.formula = "theta'' + Gamma (1 - s) cos(theta) = 0, theta(0) = 0, theta'(1) = 0";
+  check.source = "heavy elastica, solved on the spot; Romero et al. 2021, test 1";
+  check.unit = "1";
+  check.claim = title;
+  return check;
+}
+
+void add_error_check(const CaseInfo& info, const Sweep& good, Report& report) {
+  CheckResult check = check_of(info, "a heavy strip hangs as the elastica, " + good.title);
+  check.metric =
+      fmt::format("largest relative error of H / W, 12 Gammas 0.1 to 100, N = {}", kNumCells);
+  check.measured = good.largest_error;
+  const Tolerance tolerance{0.01, Basis::kTruncation,
+                            "second order: 0.33 % at Gamma = 100 for a chain of 40, and what the "
+                            "springs stretch"};
+  check.tolerance = tolerance;
+  check.verdict = judge(check.measured, tolerance);
+  check.note = "the weights or the clamp rule of hinge_torsion, or the static solver";
+  const auto sabotage = [&](const std::string& name, StripModel model, double gamma) {
+    model.gamma = gamma;
+    const double measured = relative_error(bend_strip(model), gamma);
+    check.sabotages.push_back({name, measured, judge(measured, tolerance) == Verdict::kFail});
+  };
+  StripModel plain_clamp = good.model;
+  plain_clamp.clamp_factor = 1.0;
+  sabotage("hinges at the clamp not doubled", plain_clamp, 1.0);
+  StripModel one_way = good.model;
+  one_way.cut_one_way = true;
+  sabotage("cells cut one way only", one_way, 1.0);
+  report.checks.push_back(std::move(check));
+}
+
+void add_order_check(const CaseInfo& info, int angle, Report& report) {
+  CheckResult check =
+      check_of(info, "the error falls with the square of the cell, " + title_of(angle));
+  check.metric = "|observed order - 2| of H / W at Gamma = 1, N = 20, 40, 80";
+  check.measured = std::abs(order(strip_model(angle)) - 2);
+  const Tolerance tolerance{0.2, Basis::kTruncation,
+                            "a first-order clamp would show 1; whole diagonals shift the levels"};
+  check.tolerance = tolerance;
+  check.verdict = judge(check.measured, tolerance);
+  StripModel plain_clamp = strip_model(angle);
+  plain_clamp.clamp_factor = 1.0;
+  const double measured = std::abs(order(plain_clamp) - 2);
+  check.sabotages.push_back(
+      {"hinges at the clamp not doubled", measured, judge(measured, tolerance) == Verdict::kFail});
+  check.note = "the clamp rule of hinge_torsion";
+  report.checks.push_back(std::move(check));
+}
+
+Sweep add_jittered_check(const CaseInfo& info, Report& report) {
+  StripModel model = strip_model(0);
+  model.strip.jitter = 0.2;
+  model.strip.width_cells = 8;
+  Sweep jittered = sweep("0 degrees, nodes off by up to 20 %", model);
+  CheckResult check = check_of(info, "a heavy strip of an irregular grid hangs as the elastica");
+  check.metric = "largest relative error of H / W, nodes off by up to 20 % of a cell, N = 40";
+  check.measured = jittered.largest_error;
+  const Tolerance tolerance{0.05, Basis::kModelGap,
+                            "no hinge energy is exact on irregular cells; measured below 1 %"};
+  check.tolerance = tolerance;
+  check.verdict = judge(check.measured, tolerance);
+  StripModel plain_clamp = model;
+  plain_clamp.clamp_factor = 1.0;
+  plain_clamp.cut_one_way = true;
+  plain_clamp.gamma = 1.0;
+  const double measured = relative_error(bend_strip(plain_clamp), 1.0);
+  check.sabotages.push_back(
+      {"cells cut one way only", measured, judge(measured, tolerance) == Verdict::kFail});
+  check.note = "the weights of hinge_torsion";
+  report.checks.push_back(std::move(check));
+  return jittered;
+}
+
+/// Free sides along diagonals lack half a cell's hinges: not gated, for it is a property of the cut.
+void add_free_sides_row(const CaseInfo& info, Report& report) {
+  StripModel model = strip_model(45);
+  model.is_endless = false;
+  model.strip.num_cells = 20;
+  model.strip.width_cells = 14;
+  model.gamma = 1.0;
+  CheckResult check = check_of(info, "a strip cut along diagonals has soft sides");
+  check.metric = "relative error of H / W at Gamma = 1, as wide as long, N = 20";
+  check.measured = relative_error(bend_strip(model), 1.0);
+  check.note = "half a diagonal's hinges are missing on each side: first order in cell over width";
+  report.checks.push_back(std::move(check));
+}
+
+}  // namespace
+
+void evaluate_cantilever(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
+                         Report& report) {
+  std::vector<Sweep> sweeps;
+  for (const int angle : {0, 45, 90}) {
+    sweeps.push_back(sweep(title_of(angle), strip_model(angle)));
+    add_error_check(info, sweeps.back(), report);
+    add_order_check(info, angle, report);
+  }
+  sweeps.push_back(add_jittered_check(info, report));
+  add_free_sides_row(info, report);
+
+  Section section{std::string(info.id), std::string(info.summary), {}, {}, {}, ""};
+  Plot plot{"Tip drop over tip reach", "Gamma = rho g L^3 / D [1]", "H / W [1]", true, true, {}};
+  Series exact{"elastica", {}, {}};
+  Table table{"H / W", {"Gamma [1]", "elastica"}, {}};
+  for (const Sweep& each : sweeps) table.columns.push_back(each.title);
+  for (int i = 0; i < kNumGammas; ++i) {
+    const HeavyElastica tip = solve_heavy_elastica(gamma_at(i));
+    exact.x.push_back(gamma_at(i));
+    exact.y.push_back(tip.drop / tip.reach);
+    table.rows.push_back(
+        {fmt::format("{:.4g}", gamma_at(i)), fmt::format("{:.6f}", exact.y.back())});
+    for (const Sweep& each : sweeps) {
+      const double value = each.drop_over_reach[static_cast<std::size_t>(i)];
+      table.rows.back().push_back(
+          fmt::format("{:.6f} ({:+.3f} %)", value, 100 * (value / exact.y.back() - 1)));
+    }
+  }
+  plot.series.push_back(exact);
+  for (const Sweep& each : sweeps) {
+    plot.series.push_back({each.title, exact.x, each.drop_over_reach});
+  }
+  section.plots.push_back(std::move(plot));
+  section.tables.push_back(std::move(table));
+  report.sections.push_back(std::move(section));
+}
+
+}  // namespace weft::validation
