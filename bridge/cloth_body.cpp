@@ -46,6 +46,11 @@ void check(const ClothMesh& mesh) {
   for (const int node : mesh.pinned) {
     require(is_node(node), "pinned node " + std::to_string(node) + range);
   }
+  const Eigen::Index num_velocities = mesh.pinned_velocities.cols();
+  require(num_velocities == 0 || num_velocities == static_cast<Eigen::Index>(mesh.pinned.size()),
+          std::to_string(num_velocities) + " velocities of pinned nodes, expected none or " +
+              std::to_string(mesh.pinned.size()));
+  require(mesh.pinned_velocities.allFinite(), "a velocity of a pinned node is not finite");
   for (const int node : mesh.triangles.reshaped()) {
     require(is_node(node), "a triangle names node " + std::to_string(node) + range);
   }
@@ -123,6 +128,13 @@ void add_links(const ClothMesh& mesh, const ClothSettings& settings, btSoftBody&
 
 }  // namespace
 
+void set_pinned_velocities(const ClothMesh& mesh, btSoftBody& body) {
+  for (std::size_t i = 0; i < mesh.pinned.size(); ++i) {
+    const Vector3<btScalar> v = mesh.pinned_velocity(i).cast<btScalar>();
+    body.m_nodes[mesh.pinned[i]].m_v.setValue(v[0], v[1], v[2]);
+  }
+}
+
 std::unique_ptr<btSoftBody> make_cloth_body(btSoftBodyWorldInfo& world_info, const ClothMesh& mesh,
                                             const ClothSettings& settings) {
   check(settings);
@@ -138,6 +150,7 @@ std::unique_ptr<btSoftBody> make_cloth_body(btSoftBodyWorldInfo& world_info, con
   for (const int node : mesh.pinned) masses[static_cast<std::size_t>(node)] = 0;
   auto body = std::make_unique<btSoftBody>(&world_info, num_nodes, positions.data(), masses.data());
   configure(settings, *body);
+  set_pinned_velocities(mesh, *body);
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     body->appendFace(mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t));
   }

@@ -41,5 +41,9 @@ struct ClothSettings {
                                                           const ClothMesh& mesh,
                                                           const ClothSettings& settings);
 
+/// Gives pinned nodes the velocities of the mesh. Bullet moves them with these, but derives them
+/// anew from rounded positions in every step: call this before each step to keep them.
+void set_pinned_velocities(const ClothMesh& mesh, btSoftBody& body);
+
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

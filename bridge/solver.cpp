@@ -30,6 +30,7 @@ struct SoftBodySolver::Attachment {
   Matrix3X<btScalar> forces;
   std::optional<BodyBlowUp> blow_up;
   bool was_in_world = false;
+  double time = 0.0;  // [s] of the steps since the body was attached
 
   [[nodiscard]] bool acts_after_projection(Level level) const;
   void add_forces(btScalar time_step);
@@ -53,7 +54,7 @@ bool SoftBodySolver::Attachment::acts_after_projection(Level level) const {
 // Velocity-level laws state how fast velocities decay: inertia does not slow them down.
 void SoftBodySolver::Attachment::sum_laws() {
   using VelocityLaws = LawSet::VelocityLaws;
-  const State state{positions, velocities, masses};
+  const State state{positions, velocities, masses, time};
   const forces::ForceReport report = laws.add_forces(state, VelocityLaws::kSeparate, forces);
   if (!report.ok()) {
     blow_up = BodyBlowUp{*report.first_non_finite_node, "position or velocity is not finite"};
@@ -99,7 +100,7 @@ void SoftBodySolver::Attachment::check_prediction(btScalar time_step) {
 void SoftBodySolver::Attachment::check_laws() {
   read_nodes(*body, positions, velocities);
   forces.setZero(3, positions.cols());
-  const State state{positions, velocities, masses};
+  const State state{positions, velocities, masses, time};
   (void)laws.add_forces(state, LawSet::VelocityLaws::kAsForces, forces);
   laws.redistribute_forces(state, forces);
 }
@@ -107,7 +108,7 @@ void SoftBodySolver::Attachment::check_laws() {
 // The change of momentum over the step stands for the sum of all forces on the body.
 void SoftBodySolver::Attachment::slow_down_changes() {
   forces = (velocities - start_velocities) * masses.asDiagonal();
-  laws.redistribute_forces(State{positions, velocities, masses}, forces);
+  laws.redistribute_forces(State{positions, velocities, masses, time}, forces);
   velocities = start_velocities + forces * masses.cwiseInverse().asDiagonal();
 }
 
@@ -119,7 +120,7 @@ void SoftBodySolver::Attachment::damp_velocities(btScalar time_step) {
   if (slows_down) slow_down_changes();
   if (advances) {
     forces = velocities;  // the laws see the state as it is and change a copy
-    laws.advance_velocities(State{positions, velocities, masses}, time_step, forces);
+    laws.advance_velocities(State{positions, velocities, masses, time}, time_step, forces);
     velocities.swap(forces);
   }
   write_node_velocities(velocities, *body);
@@ -231,6 +232,9 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
     if (!body.isActive() || is_frozen(body)) continue;
     body.solveConstraints();
     if (Attachment* attachment = find(body)) attachment->damp_velocities(time_step_);
+  }
+  for (const auto& attachment : attachments_->list) {
+    if (attachment->was_in_world) attachment->time += static_cast<double>(time_step_);
   }
 }
 

@@ -55,6 +55,8 @@ enum class DampingPlace {
 /// * a state that is not finite, or faster than kMaxSpeed, freezes the body and is reported; Bullet
 ///   would go on to look up contacts at that place and crash.
 ///
+/// Laws that move with time (drive) count it from the body's first step with laws, in the world's
+/// steps.
 /// The world's gravity (btSoftBodyWorldInfo::m_gravity) still acts: set it to zero for a body with
 /// a gravity law.
 /// Threads: laws run on oneTBB; results do not depend on the number of threads.

@@ -16,6 +16,7 @@ enum class ElementKind {
   kHinges,       ///< pairs of triangles with an edge in common
   kFaces,        ///< triangles
   kConnections,  ///< connection sets: a node with its ring, and a far node
+  kNodeSets,     ///< node sets: regions of the mesh
 };
 
 /// What a law claims about itself. The contract tests hold every registered law to its claims.
@@ -36,8 +37,8 @@ struct LawTraits {
   } level = Level::kForce;
 };
 
-/// Name of the key that holds the sets of a law: "edge_sets", "line_sets", "connection_sets"; empty
-/// for a law that takes no sets.
+/// Name of the key that holds the sets of a law: "edge_sets", "line_sets", "connection_sets",
+/// "node_sets"; empty for a law that takes no sets.
 [[nodiscard]] std::string_view set_key(ElementKind elements);
 
 /// One parameter of a law, as scene files, documentation and error messages show it.
@@ -48,7 +49,7 @@ struct ParameterInfo {
   std::string_view summary;  ///< half a sentence
   int size = 1;              ///< 1, or 3 for a vector
   bool required = true;
-  double default_value = 0.0;  ///< for optional scalars
+  double default_value = 0.0;  ///< for optional ones; of each number of a vector
   double minimum = 0.0;        ///< scalars only; inclusive
   double maximum = 1e300;      ///< scalars only; inclusive
 };
@@ -66,7 +67,7 @@ struct LawInfo {
 /// A law as a scene or an application asks for it: values in SI units, vectors as three numbers.
 struct LawSpecification {
   std::string law;  ///< id of the law
-  /// Edge, line or connection sets, as the law's elements are; empty means all of the mesh.
+  /// Edge, line, connection or node sets, as the law's elements are; empty means all of the mesh.
   std::vector<std::string> sets;
   std::map<std::string, std::vector<double>, std::less<>> parameters;
 };

@@ -1,5 +1,6 @@
 #include <weft/custom_forces/law_input.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -60,6 +61,43 @@ VectorX<double> law_rest_lengths(const LawSpecification& specification, const Cl
     }
   }
   return lengths;
+}
+
+std::vector<int> law_nodes(const LawSpecification& specification, const ClothMesh& mesh) {
+  std::string known;
+  for (const NodeSet& set : mesh.node_sets) known += (known.empty() ? "" : ", ") + set.name;
+  std::vector<int> nodes;
+  const auto add = [&](const NodeSet& set) {
+    nodes.insert(nodes.end(), set.nodes.begin(), set.nodes.end());
+  };
+  for (const std::string& name : specification.sets) {
+    const auto found = std::find_if(mesh.node_sets.begin(), mesh.node_sets.end(),
+                                    [&](const NodeSet& set) { return set.name == name; });
+    if (found == mesh.node_sets.end()) {
+      throw InvalidArgument(specification.law + ": node_sets = '" + name +
+                            "', expected sets of the mesh: " + known);
+    }
+    add(*found);
+  }
+  if (specification.sets.empty()) {
+    for (const NodeSet& set : mesh.node_sets) add(set);
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  if (!nodes.empty() && (nodes.front() < 0 || nodes.back() >= mesh.num_nodes())) {
+    throw InvalidArgument(specification.law + ": a node set names a node outside 0 to " +
+                          std::to_string(mesh.num_nodes() - 1));
+  }
+  return nodes;
+}
+
+Triangles law_faces(const LawSpecification& specification, const ClothMesh& mesh) {
+  const Triangles& faces = mesh.triangles;
+  if (faces.size() > 0 && (faces.minCoeff() < 0 || faces.maxCoeff() >= mesh.num_nodes())) {
+    throw InvalidArgument(specification.law + ": a triangle names a node outside 0 to " +
+                          std::to_string(mesh.num_nodes() - 1));
+  }
+  return faces;
 }
 
 }  // namespace weft::forces

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
@@ -21,5 +22,13 @@ namespace weft::forces {
 /// length.
 [[nodiscard]] VectorX<double> law_rest_lengths(const LawSpecification& specification,
                                                const ClothMesh& mesh, const Edges& edges);
+
+/// Nodes of the sets the specification names, all sets of the mesh if it names none; sorted, each
+/// once. Throws InvalidArgument for a set and for a node that the mesh does not have.
+[[nodiscard]] std::vector<int> law_nodes(const LawSpecification& specification,
+                                         const ClothMesh& mesh);
+
+/// The triangles of the mesh. Throws InvalidArgument for one with a node the mesh does not have.
+[[nodiscard]] Triangles law_faces(const LawSpecification& specification, const ClothMesh& mesh);
 
 }  // namespace weft::forces

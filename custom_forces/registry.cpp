@@ -9,15 +9,18 @@
 
 #include <weft/custom_forces/acceleration_damping.hpp>
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/drive.hpp>
 #include <weft/custom_forces/gravity.hpp>
 #include <weft/custom_forces/hinge_torsion.hpp>
 #include <weft/custom_forces/nonlocal_torsion.hpp>
+#include <weft/custom_forces/pressure.hpp>
 #include <weft/custom_forces/rotation_damping.hpp>
 #include <weft/custom_forces/spring_damping.hpp>
 #include <weft/custom_forces/tension.hpp>
 #include <weft/custom_forces/torsion.hpp>
 #include <weft/custom_forces/torsional_rotation_damping.hpp>
 #include <weft/custom_forces/velocity_damping.hpp>
+#include <weft/custom_forces/wind.hpp>
 
 namespace weft::forces {
 namespace {
@@ -56,7 +59,10 @@ const auto& rows() {
       row<RotationDamping>(),
       row<TorsionalRotationDamping>(),
       row<VelocityDamping>(),
+      row<Wind>(),
+      row<Pressure>(),
       row<Gravity>(),
+      row<Drive>(),
   };
   // clang-format on
   return kRows;
@@ -137,6 +143,8 @@ std::string_view set_key(ElementKind elements) {
       return "line_sets";
     case ElementKind::kConnections:
       return "connection_sets";
+    case ElementKind::kNodeSets:
+      return "node_sets";
     case ElementKind::kNodes:
     case ElementKind::kHinges:
     case ElementKind::kFaces:
@@ -172,7 +180,9 @@ LawSpecification checked(const LawSpecification& specification) {
         throw InvalidArgument(specification.law + ": parameter '" + std::string(parameter.name) +
                               "' is missing, expected a value in " + std::string(parameter.unit));
       }
-      result.parameters.emplace(parameter.name, std::vector<double>{parameter.default_value});
+      result.parameters.emplace(
+          parameter.name,
+          std::vector<double>(static_cast<std::size_t>(parameter.size), parameter.default_value));
       continue;
     }
     check_values(specification, parameter, given->second);

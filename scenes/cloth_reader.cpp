@@ -12,12 +12,14 @@
 namespace weft::scenes {
 namespace {
 
-constexpr std::array<std::string_view, 14> kClothKeys = {
+constexpr std::array<std::string_view, 15> kClothKeys = {
     "name", "grid",          "center",       "u_axis",           "v_axis",
     "mass", "areal_density", "mass_lumping", "collision_margin", "friction",
-    "law",  "velocity",      "pin",          "connection"};
+    "law",  "velocity",      "pin",          "connection",       "region"};
 constexpr std::array<std::string_view, 3> kGridKeys = {"nodes", "size", "stencil"};
 constexpr std::array<std::string_view, 3> kPinKeys = {"corner", "edge", "box"};
+constexpr std::array<std::string_view, 4> kMovingPinKeys = {"corner", "edge", "box", "velocity"};
+constexpr std::array<std::string_view, 2> kRegionKeys = {"name", "nodes"};
 constexpr std::array<std::string_view, 2> kBoxPinKeys = {"min", "max"};
 constexpr std::array<std::string_view, 3> kConnectionKeys = {"name", "node", "to"};
 
@@ -96,7 +98,6 @@ BoxPin read_box_pin(const TomlTable& table) {
 }
 
 Pin read_pin(const TomlTable& table) {
-  table.allow(kPinKeys);
   const auto corner = table.find("corner");
   const auto edge = table.find("edge");
   const auto box = table.find("box");
@@ -139,30 +140,79 @@ std::vector<Connection> read_connections(const TomlValue& value, const Cloth& cl
   return connections;
 }
 
+std::vector<Region> read_regions(const TomlValue& value, const Cloth& cloth) {
+  const std::string expected = "a table such as { name = \"hand\", nodes = [{ edge = \"-u\" }] }";
+  std::vector<Region> regions;
+  for (const TomlValue& entry : value.items("an array such as [{ name = ..., nodes = [...] }]")) {
+    const TomlTable table = entry.table(expected);
+    table.allow(kRegionKeys);
+    Region region;
+    region.name = table.require("name", "a name such as \"hand\"").identifier();
+    for (const Region& other : regions) {
+      if (other.name == region.name) {
+        entry.fail("has the name of another region, expected a new one");
+      }
+    }
+    const TomlValue nodes = table.require("nodes", "an array such as [{ edge = \"-u\" }]");
+    region.nodes = read_pins(nodes, cloth);
+    if (region.nodes.empty()) nodes.fail("is empty, expected at least one corner, edge or box");
+    regions.push_back(std::move(region));
+  }
+  return regions;
+}
+
 void read_laws(const TomlTable& table, const World& world, Cloth& cloth) {
   for (const TomlTable& law : table.tables("law")) {
     cloth.laws.push_back(read_law(law, cloth, world));
   }
 }
 
+constexpr const char* kExpectedPin = "a table such as { corner = \"-u-v\" }";
+
+std::vector<TomlValue> pin_entries(const TomlValue& value) {
+  std::vector<TomlValue> entries = value.items("an array such as [{ corner = \"-u-v\" }]");
+  if (entries.size() > kMaxPins) value.fail(fmt::format("expected at most {} pins", kMaxPins));
+  return entries;
+}
+
+void check_holds_nodes(const TomlValue& entry, const Pin& pin, const Cloth& cloth) {
+  if (!std::holds_alternative<BoxPin>(pin)) return;
+  Cloth probe;
+  probe.name = cloth.name;
+  probe.grid = cloth.grid;
+  probe.grid.stencil = GridStencil::k8Neighbour;  // the fewest springs: only positions matter
+  probe.pins = {pin};
+  try {
+    (void)make_mesh(probe);
+  } catch (const InvalidArgument&) {
+    entry.fail("holds no node, expected a box with at least one node of the cloth");
+  }
+}
+
+/// The pins of a cloth, which may move.
+void read_cloth_pins(const TomlValue& value, Cloth& cloth) {
+  for (const TomlValue& entry : pin_entries(value)) {
+    const TomlTable table = entry.table(kExpectedPin);
+    table.allow(kMovingPinKeys);
+    const Pin pin = read_pin(table);
+    check_holds_nodes(entry, pin, cloth);
+    if (const auto velocity = table.find("velocity")) {
+      cloth.moving_pins.push_back({pin, velocity->vector("m/s")});
+    } else {
+      cloth.pins.push_back(pin);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Pin> read_pins(const TomlValue& value, const Cloth& cloth) {
-  const std::string expected = "an array such as [{ corner = \"-u-v\" }]";
-  const std::vector<TomlValue> entries = value.items(expected);
-  if (entries.size() > kMaxPins) value.fail(fmt::format("expected at most {} pins", kMaxPins));
   std::vector<Pin> pins;
-  for (const TomlValue& entry : entries) {
-    pins.push_back(read_pin(entry.table("a table such as { corner = \"-u-v\" }")));
-    if (!std::holds_alternative<BoxPin>(pins.back())) continue;
-    Cloth probe = cloth;
-    probe.grid.stencil = GridStencil::k8Neighbour;  // the fewest springs: only positions matter
-    probe.pins = {pins.back()};
-    try {
-      (void)make_mesh(probe);
-    } catch (const InvalidArgument&) {
-      entry.fail("holds no node, expected a box with at least one node of the cloth");
-    }
+  for (const TomlValue& entry : pin_entries(value)) {
+    const TomlTable table = entry.table(kExpectedPin);
+    table.allow(kPinKeys);
+    pins.push_back(read_pin(table));
+    check_holds_nodes(entry, pins.back(), cloth);
   }
   return pins;
 }
@@ -183,10 +233,11 @@ Cloth read_cloth(const TomlTable& table, const World& world) {
     cloth.collision_margin = value->non_negative("m");
   }
   if (const auto value = table.find("friction")) cloth.friction = value->non_negative("1");
-  if (const auto value = table.find("pin")) cloth.pins = read_pins(*value, cloth);
+  if (const auto value = table.find("pin")) read_cloth_pins(*value, cloth);
   if (const auto value = table.find("connection")) {
     cloth.connections = read_connections(*value, cloth);
   }
+  if (const auto value = table.find("region")) cloth.regions = read_regions(*value, cloth);
   read_laws(table, world, cloth);
   return cloth;
 }

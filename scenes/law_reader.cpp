@@ -18,7 +18,7 @@ const forces::LawInfo& find_info(const TomlTable& table) {
 }
 
 /// Names of the sets that a law of this kind may name: those of a small grid of the same stencil,
-/// and the cloth's own connections.
+/// and the cloth's own connections and regions.
 std::vector<std::string> set_names(forces::ElementKind elements, const Cloth& cloth) {
   std::vector<std::string> names;
   ClothGrid probe;
@@ -28,6 +28,8 @@ std::vector<std::string> set_names(forces::ElementKind elements, const Cloth& cl
     for (const EdgeSet& set : mesh.edge_sets) names.push_back(set.name);
   } else if (elements == forces::ElementKind::kLines) {
     for (const LineSet& set : mesh.line_sets) names.push_back(set.name);
+  } else if (elements == forces::ElementKind::kNodeSets) {
+    for (const Region& region : cloth.regions) names.push_back(region.name);
   } else {
     for (const Connection& connection : cloth.connections) names.push_back(connection.name);
   }

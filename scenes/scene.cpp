@@ -60,11 +60,28 @@ void add_connection(const Connection& connection, const Cloth& cloth, ClothMesh&
   connect(mesh, connection.name, node, far);
 }
 
+/// Pins nodes of both kinds of pins, each with its velocity.
+void add_pins(const Cloth& cloth, ClothMesh& mesh) {
+  Matrix3X<double> velocities = Matrix3X<double>::Zero(3, mesh.num_nodes());
+  std::vector<Pin> pins = cloth.pins;
+  for (const MovingPin& pin : cloth.moving_pins) {
+    for (const int node : nodes_of({pin.nodes}, cloth, mesh, "pin")) {
+      velocities.col(node) = pin.velocity;
+    }
+    pins.push_back(pin.nodes);
+  }
+  mesh.pinned = nodes_of(pins, cloth, mesh, "pin");
+  if (!cloth.moving_pins.empty()) mesh.pinned_velocities = velocities(Eigen::all, mesh.pinned);
+}
+
 }  // namespace
 
 ClothMesh make_mesh(const Cloth& cloth) {
   ClothMesh mesh = make_cloth_grid(cloth.grid);
-  mesh.pinned = nodes_of(cloth.pins, cloth, mesh, "pin");
+  add_pins(cloth, mesh);
+  for (const Region& region : cloth.regions) {
+    mesh.node_sets.push_back({region.name, nodes_of(region.nodes, cloth, mesh, "region")});
+  }
   for (const Connection& connection : cloth.connections) add_connection(connection, cloth, mesh);
   return mesh;
 }

@@ -39,6 +39,18 @@ struct BoxPin {
 };
 using Pin = std::variant<CornerPin, EdgePin, BoxPin>;
 
+/// Nodes that are pinned and move with a constant velocity.
+struct MovingPin {
+  Pin nodes;
+  Vector3<double> velocity{0, 0, 0};  ///< [m/s]
+};
+
+/// A named set of nodes, for drive.
+struct Region {
+  std::string name;
+  std::vector<Pin> nodes;  ///< all nodes that one of these holds
+};
+
 /// Ties of one node to far ones, for nonlocal_torsion.
 struct Connection {
   std::string name;
@@ -50,7 +62,9 @@ struct Cloth {
   std::string name;
   ClothGrid grid;
   std::vector<Pin> pins;
+  std::vector<MovingPin> moving_pins = {};  ///< a node of several moves with the last of them
   std::vector<Connection> connections = {};
+  std::vector<Region> regions = {};
   Vector3<double> velocity{0, 0, 0};  ///< [m/s] of every free node at the start
   double collision_margin = 0.01;     ///< [m] distance at which the cloth rests on a surface, >= 0
   double friction =
@@ -114,8 +128,8 @@ struct Scene {
   Camera camera;
 };
 
-/// Mesh of a cloth with its pins and connections resolved to node indices.
-/// Throws InvalidArgument if a pin or the far end of a connection holds no node.
+/// Mesh of a cloth with its pins, connections and regions resolved to node indices.
+/// Throws InvalidArgument if a pin, a region or the far end of a connection holds no node.
 [[nodiscard]] ClothMesh make_mesh(const Cloth& cloth);
 
 /// The scene with the time step that Bullet takes, which it rounds to single precision in both

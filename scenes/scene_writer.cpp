@@ -85,6 +85,17 @@ std::string pins_text(const std::vector<Pin>& pins) {
   return "[" + text + "]";
 }
 
+std::string all_pins_text(const Cloth& cloth) {
+  std::string text = pins_text(cloth.pins);
+  for (const MovingPin& pin : cloth.moving_pins) {
+    const std::string nodes = std::visit([](const auto& p) { return pin_text(p); }, pin.nodes);
+    text.pop_back();
+    text += fmt::format("{}{}, velocity = {} }}]", text.size() > 1 ? ", " : "",
+                        nodes.substr(0, nodes.size() - 2), vector_text(pin.velocity, "m/s"));
+  }
+  return text;
+}
+
 std::string connection_text(const Connection& connection) {
   return fmt::format("{{ name = {}, node = [{}, {}]{} }}", toml_string(connection.name),
                      connection.node[0], connection.node[1],
@@ -130,13 +141,21 @@ void write_cloth(std::string& out, const Cloth& cloth) {
   line(out, "velocity", vector_text(cloth.velocity, "m/s"));
   line(out, "collision_margin", value_text(cloth.collision_margin, "m"));
   line(out, "friction", value_text(cloth.friction, "1"));
-  line(out, "pin", pins_text(cloth.pins));
+  line(out, "pin", all_pins_text(cloth));
   if (!cloth.connections.empty()) {
     std::string connections;
     for (const Connection& connection : cloth.connections) {
       connections += (connections.empty() ? "" : ", ") + connection_text(connection);
     }
     line(out, "connection", "[" + connections + "]");
+  }
+  if (!cloth.regions.empty()) {
+    std::string regions;
+    for (const Region& region : cloth.regions) {
+      regions += fmt::format("{}{{ name = {}, nodes = {} }}", regions.empty() ? "" : ", ",
+                             toml_string(region.name), pins_text(region.nodes));
+    }
+    line(out, "region", "[" + regions + "]");
   }
   for (const forces::LawSpecification& law : cloth.laws) write_law(out, law);
 }

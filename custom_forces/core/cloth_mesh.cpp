@@ -20,6 +20,11 @@ bool ClothMesh::has_edge_set(std::string_view name) const {
                      [&](const EdgeSet& set) { return set.name == name; });
 }
 
+Vector3<double> ClothMesh::pinned_velocity(std::size_t i) const {
+  if (pinned_velocities.cols() == 0) return Vector3<double>::Zero();
+  return pinned_velocities.col(static_cast<Eigen::Index>(i));
+}
+
 Edges ClothMesh::edges_of(const std::vector<std::string>& set_names) const {
   Edges edges(2, 0);
   for (const std::string& name : set_names) {

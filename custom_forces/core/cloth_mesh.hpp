@@ -27,6 +27,12 @@ struct ConnectionSet {
   Edges connections;  ///< 2 x m: the node whose frame counts, the far node
 };
 
+/// A named region of the mesh, so that a law can act on some nodes and not on others.
+struct NodeSet {
+  std::string name;
+  std::vector<int> nodes;  ///< sorted
+};
+
 /// One piece of cloth as every engine receives it: rest shape, topology and mass. Knows no engine.
 struct ClothMesh {
   Matrix3X<double> rest_positions;  ///< 3 x n [m]; rest lengths and angles come from here
@@ -38,12 +44,17 @@ struct ClothMesh {
   std::vector<EdgeSet> edge_sets;
   std::vector<LineSet> line_sets = {};
   std::vector<ConnectionSet> connection_sets = {};
+  std::vector<NodeSet> node_sets = {};
   VectorX<double> masses;   ///< n [kg], > 0 for every node, also for pinned ones
-  std::vector<int> pinned;  ///< sorted node indices that do not move
+  std::vector<int> pinned;  ///< sorted node indices that no force moves
+  /// Of the pinned nodes, 3 x pinned.size() [m/s]: they keep moving so. Empty: they stand still.
+  Matrix3X<double> pinned_velocities = {};
 
   [[nodiscard]] int num_nodes() const { return static_cast<int>(rest_positions.cols()); }
   [[nodiscard]] int num_edges() const;
   [[nodiscard]] bool has_edge_set(std::string_view name) const;
+  /// Velocity of the i-th pinned node [m/s].
+  [[nodiscard]] Vector3<double> pinned_velocity(std::size_t i) const;
   /// The edges of the named sets, one after the other. Throws InvalidArgument for an unknown set.
   [[nodiscard]] Edges edges_of(const std::vector<std::string>& set_names) const;
 };

@@ -34,6 +34,7 @@ class BulletSimulator final : public Simulator {
   double links_time_step_ = 0.0;
   std::unique_ptr<bridge::SoftWorld> world_;
   std::vector<btSoftBody*> cloths_;
+  std::vector<ClothMesh> steered_;  ///< as cloths_: pins and their velocities, nothing else
   std::vector<btRigidBody*> rigids_;
   std::vector<double> rigid_offsets_;  ///< [m] see bullet_shape_offset()
   SceneState state_;
@@ -46,6 +47,7 @@ Vector3<double> from_bullet(const btVector3& v) {
 
 void BulletSimulator::load(const Scene& scene) {
   cloths_.clear();
+  steered_.clear();
   rigids_.clear();
   rigid_offsets_.clear();
   state_ = {};
@@ -92,6 +94,9 @@ void BulletSimulator::add_cloth(const Cloth& cloth, const Scene& scene) {
   }
   world_->solver().attach(body, std::move(laws), mesh.masses.cast<btScalar>());
   cloths_.push_back(&body);
+  steered_.emplace_back();
+  steered_.back().pinned = mesh.pinned;
+  steered_.back().pinned_velocities = mesh.pinned_velocities;
   state_.cloths.push_back({cloth.name, {}, {}});
 }
 
@@ -143,6 +148,9 @@ StepReport BulletSimulator::step(double time_step) {
     throw InvalidArgument(
         "bullet_soft: the time step differs from the scene's, for which the links' stiffness was "
         "mapped; expected the same time step");
+  }
+  for (std::size_t c = 0; c < cloths_.size(); ++c) {
+    bridge::set_pinned_velocities(steered_[c], *cloths_[c]);
   }
   world_->step(time_step);
   // Bullet hands its soft bodies a single-precision step in both builds.

@@ -35,7 +35,6 @@ reference::Body make_body(const Cloth& cloth, const LawFilter& filter) {
   }
   body.positions = body.mesh.rest_positions;
   body.velocities = cloth.velocity.replicate(1, body.mesh.num_nodes());
-  for (const int node : body.mesh.pinned) body.velocities.col(node).setZero();
   body.collision_margin = cloth.collision_margin;
   body.friction = cloth.friction;
   return body;

@@ -66,6 +66,53 @@ TEST(SoftBodySolver, VelocityLawsActAfterTheProjection) {
   EXPECT_NEAR(static_cast<double>(body.m_nodes[3].m_v.x()), expected, num_steps * position_noise);
 }
 
+TEST(SoftBodySolver, LawsKnowTheTimeSinceTheyWereAttached) {
+  ClothMesh mesh = free_cloth();
+  mesh.node_sets = {{"hand", {5}}};
+  SoftWorld world({});
+  btSoftBody& body = world.add(make_cloth_body(world.info(), mesh, {}));
+  world.step(kTimeStep);
+  const double speed = 0.5;
+  const double stiffness = 4 * mesh.masses[5];  // w^2 = 4 / s^2
+  const forces::LawSpecification drive{
+      "drive", {}, {{"stiffness", {stiffness}}, {"velocity", {0, speed, 0}}}};
+  world.solver().attach(body, mesh, {drive});
+  const int num_steps = 128;
+  double x = 0, v = 0;
+  for (int step = 0; step < num_steps; ++step) {
+    world.step(kTimeStep);
+    v += kTimeStep * 4 * (speed * (step * kTimeStep) - x);
+    x += kTimeStep * v;
+  }
+  // An error of eps x / h per step in the velocity, integrated.
+  const double tolerance = num_steps * num_steps * kEpsilon * x;
+  EXPECT_GT(x, 0.1);
+  EXPECT_NEAR(static_cast<double>(body.m_nodes[5].m_x.y()), x, tolerance);
+}
+
+TEST(SoftBodySolver, PinnedNodesMoveWithTheirVelocity) {
+  ClothMesh mesh = free_cloth();
+  mesh.pinned = {0, 7};
+  mesh.pinned_velocities = Matrix3X<double>::Zero(3, 2);
+  mesh.pinned_velocities.col(1) << 0.25, -0.5, 0;
+  SoftWorld world({});
+  btSoftBody& body = world.add(make_cloth_body(world.info(), mesh, {}));
+  world.solver().attach(body, mesh, {law("tension", "stiffness", {5.0})});
+  const btVector3 start = body.m_nodes[7].m_x;
+  const btVector3 still = body.m_nodes[0].m_x;
+  const int num_steps = 128;
+  for (int step = 0; step < num_steps; ++step) {
+    set_pinned_velocities(mesh, body);
+    world.step(kTimeStep);
+  }
+  const double time = num_steps * kTimeStep;
+  const double tolerance = num_steps * kEpsilon;  // of positions up to 1 m
+  const btVector3 way = body.m_nodes[7].m_x - start;
+  EXPECT_NEAR(static_cast<double>(way.x()), 0.25 * time, tolerance);
+  EXPECT_NEAR(static_cast<double>(way.y()), -0.5 * time, tolerance);
+  EXPECT_EQ(body.m_nodes[0].m_x, still);
+}
+
 TEST(SoftBodySolver, DetachedBodyIsBulletsAgain) {
   const ClothMesh mesh = free_cloth();
   SoftWorld world({});

@@ -138,8 +138,9 @@ TEST_P(LawInput, MissingParametersAreNamedWithTheirUnit) {
 TEST_P(LawInput, DefaultsLieInTheirDomain) {
   for (const ParameterInfo& parameter : info_.parameters) {
     if (parameter.required) continue;
-    ASSERT_EQ(parameter.size, 1) << "only scalars can have a default";
-    EXPECT_EQ(error_of(with(parameter, {parameter.default_value})), "no error");
+    const std::vector<double> values(static_cast<std::size_t>(parameter.size),
+                                     parameter.default_value);
+    EXPECT_EQ(error_of(with(parameter, values)), "no error");
   }
 }
 
@@ -166,7 +167,10 @@ TEST_P(LawInput, UnknownSetsAreRefused) {
 TEST_P(LawInput, SetsNamedTwiceAreRefused) {
   const std::string key(set_key(info_.traits.elements));
   if (key.empty()) GTEST_SKIP() << "the law takes no sets";
-  const std::string name = key == "edge_sets" ? "shear" : key == "line_sets" ? "lines_v" : "ties";
+  const std::string name = key == "edge_sets"   ? "shear"
+                           : key == "line_sets" ? "lines_v"
+                           : key == "node_sets" ? "region"
+                                                : "ties";
   LawSpecification specification = good_;
   specification.sets = {name, name};
   EXPECT_THAT(error_of(specification), HasSubstr(std::string(info_.id) + ": " + key));

@@ -18,7 +18,10 @@ std::string domain(const ParameterInfo& parameter) {
 }
 
 std::string default_of(const ParameterInfo& parameter) {
-  return parameter.required ? "required" : fmt::format("{:g}", parameter.default_value);
+  if (parameter.required) return "required";
+  std::string text = fmt::format("{:g}", parameter.default_value);
+  for (int i = 1; i < parameter.size; ++i) text += fmt::format(", {:g}", parameter.default_value);
+  return text;
 }
 
 std::string_view elements(ElementKind kind) {
@@ -33,6 +36,8 @@ std::string_view elements(ElementKind kind) {
       return "triangles";
     case ElementKind::kConnections:
       return "connections (`connection_sets`)";
+    case ElementKind::kNodeSets:
+      return "regions of nodes (`node_sets`)";
     case ElementKind::kNodes:
       break;
   }

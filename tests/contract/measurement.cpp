@@ -45,12 +45,17 @@ Measurement order_of_convergence(const std::string& what, double order,
                                  const std::vector<double>& errors,
                                  const std::vector<double>& floors) {
   double largest = 0.0;
+  std::vector<double> fitted_steps, fitted_errors;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (!std::isfinite(errors[i])) return {errors[i], 0.0, what};
     if (errors[i] > 0) largest = std::max(largest, errors[i] / floors[i]);
+    if (!(errors[i] > floors[i])) continue;
+    fitted_steps.push_back(steps[i]);
+    fitted_errors.push_back(errors[i]);
   }
   if (largest <= 1.0) return {largest, 1.0, what + ", error over round-off (exact formula)"};
-  const double slope = fitted_slope(steps, errors);
+  if (fitted_steps.size() < 2) return {largest, 1.0, what + ", error over round-off (no order)"};
+  const double slope = fitted_slope(fitted_steps, fitted_errors);
   return {std::abs(slope - order), kOrderMargin,
           fmt::format("{}, |order - {}|, fitted {:.3f}, errors {:.2g} to {:.2g}", what, order,
                       slope, errors.front(), errors.back())};

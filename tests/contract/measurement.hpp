@@ -39,8 +39,9 @@ template <class Scalar>
 inline constexpr double kOrderMargin = 0.1;
 
 /// Fits error ~ step^order over a ladder of steps and measures |fit - order|. floors[i] is the
-/// round-off of errors[i]: where no error exceeds its floor the difference formula was exact (a
-/// linear law) and the largest error over floor is measured instead.
+/// round-off of errors[i]: errors that do not exceed it take no part in the fit. Where none does,
+/// the difference formula was exact (a linear law) and the largest error over floor is measured
+/// instead; where only one does, that one fails.
 [[nodiscard]] Measurement order_of_convergence(const std::string& what, double order,
                                                const std::vector<double>& steps,
                                                const std::vector<double>& errors,

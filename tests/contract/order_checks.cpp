@@ -53,6 +53,10 @@ ClothMesh renumbered(const ClothMesh& mesh, const std::vector<int>& new_index) {
   for (ConnectionSet& set : result.connection_sets) {
     for (int& node : set.connections.reshaped()) node = map(node);
   }
+  for (NodeSet& set : result.node_sets) {
+    for (int& node : set.nodes) node = map(node);
+    std::sort(set.nodes.begin(), set.nodes.end());
+  }
   for (int& node : result.pinned) node = map(node);
   std::sort(result.pinned.begin(), result.pinned.end());
   return result;
@@ -95,6 +99,7 @@ Measurement edge_order_does_not_matter(const Subject& subject) {
   for (EdgeSet& set : other.edge_sets) shuffle_columns(set.edges);
   for (LineSet& set : other.line_sets) shuffle_columns(set.triples);
   for (ConnectionSet& set : other.connection_sets) shuffle_columns(set.connections);
+  for (NodeSet& set : other.node_sets) std::reverse(set.nodes.begin(), set.nodes.end());
   shuffle_columns(other.triangles);
   shuffle_columns(other.crossed_triangles);
   const auto law = subject.make<Scalar>(mesh);
@@ -181,12 +186,14 @@ Measurement no_elements_no_force(const Subject& subject) {
   for (EdgeSet& set : mesh.edge_sets) set.edges.resize(2, 0);
   for (LineSet& set : mesh.line_sets) set.triples.resize(3, 0);
   for (ConnectionSet& set : mesh.connection_sets) set.connections.resize(2, 0);
+  for (NodeSet& set : mesh.node_sets) set.nodes.clear();
   mesh.triangles.resize(3, 0);
   mesh.crossed_triangles.resize(3, 0);
   double size = largest(everything(*subject.make<Scalar>(mesh), sample));
   mesh.edge_sets.clear();
   mesh.line_sets.clear();
   mesh.connection_sets.clear();
+  mesh.node_sets.clear();
   size += largest(everything(*subject.make<Scalar>(mesh), sample));
   return {size, 0.0, "|f| without elements [N]"};
 }

@@ -163,5 +163,13 @@ TEST(Measurement, AFirstOrderErrorFailsASecondOrderClaim) {
   EXPECT_FALSE(order_of_convergence("h", 2.0, steps, {1e-2, 5e-3, 2.5e-3}, floors).holds());
 }
 
+TEST(Measurement, ErrorsWithinTheirRoundOffTakeNoPartInTheFit) {
+  const std::vector<double> steps = {0.1, 0.05, 0.025, 0.0125};
+  const std::vector<double> floors = {1e-4, 2e-4, 4e-4, 8e-4};
+  EXPECT_TRUE(order_of_convergence("h^2", 2.0, steps, {1e-2, 2.5e-3, 3e-4, 3e-4}, floors).holds());
+  EXPECT_FALSE(order_of_convergence("h", 2.0, steps, {1e-2, 5e-3, 3e-4, 3e-4}, floors).holds());
+  EXPECT_FALSE(order_of_convergence("one", 2.0, steps, {1e-2, 1e-4, 3e-4, 3e-4}, floors).holds());
+}
+
 }  // namespace
 }  // namespace weft::contract

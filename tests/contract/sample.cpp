@@ -55,6 +55,7 @@ ClothMesh sheet(int columns, int rows) {
       if (node != middle) others.push_back(node);
     }
     connect(mesh, "ties", middle, others);
+    mesh.node_sets.push_back({"region", {0, 1, columns, mesh.num_nodes() - 1}});
   }
   return mesh;
 }

@@ -41,7 +41,8 @@ inline constexpr double kSpacing = 0.2;
 /// The same with about 1600 nodes, for the thread tests: many chunks.
 [[nodiscard]] ClothMesh large_battery_mesh(bool closed);
 
-/// The same plane and spacing, columns x rows nodes, with connections from a node in the middle.
+/// The same plane and spacing, columns x rows nodes, with connections from a node in the middle and a region
+/// of four nodes.
 [[nodiscard]] ClothMesh sheet(int columns, int rows);
 
 /// Waved and noisy, with random velocities of about 1 m/s. mesh must be one of those above.

@@ -26,7 +26,7 @@ inline constexpr std::array<MalformedCase, 62> kMalformedCases = {{
     {"duplicate_body", 18, 8, "another body has this name"},
     {"duplicate_key", 6, 12, "redefine"},
     {"dynamic_plane", 20, 8, "a plane cannot move"},
-    {"edge_set_twice", 16, 22, "expected each edge set once"},
+    {"edge_set_twice", 16, 22, "expected each set once"},
     {"empty", 1, 1, "is empty"},
     {"empty_pin", 13, 8, "holds no node"},
     {"fixed_velocity", 21, 12, "a fixed body cannot move"},

@@ -41,9 +41,16 @@ collision_margin = "3 mm"
 friction = 0.25
 pin = [{ corner = "-u-v" }, { corner = "+u-v" }, { corner = "-u+v" }, { corner = "+u+v" }, { edge = "-u" },
        { edge = "+u" }, { edge = "-v" }, { edge = "+v" },
-       { box = { min = ["-9 m", "-9 m", "-9 m"], max = ["9 m", "9 m", "9 m"] } }]
+       { box = { min = ["-9 m", "-9 m", "-9 m"], max = ["9 m", "9 m", "9 m"] } },
+       { edge = "-u", velocity = ["1/3 m/s", "0 m/s", "-2 m/s"] }]
+region = [{ name = "hand", nodes = [{ edge = "+v" }] }, { name = "foot", nodes = [{ corner = "-u-v" }] }]
 [[cloth.law]]
 law = "gravity"
+[[cloth.law]]
+law = "drive"
+node_sets = ["hand"]
+stiffness = "1/7 kN/m"
+angular_velocity = ["0 rad/s", "90 deg/s", "0 rad/s"]
 [[cloth.law]]
 law = "tension"
 stiffness = "1/7 kN/m"
@@ -207,8 +214,11 @@ TEST(SceneFile, EveryKeyReachesTheScene) {
   EXPECT_EQ(make_mesh(cloth).pinned.size(), 20U);  // the box pin holds all nodes
   const std::vector<double> gravity = {0.1, -1.0 / 3.0, 0};
   EXPECT_EQ(cloth.laws.at(0).parameters.at("acceleration"), gravity);
-  EXPECT_EQ(cloth.laws.at(1).parameters.at("stiffness").at(0), 1000.0 / 7.0);
-  EXPECT_EQ(cloth.laws.at(1).sets, (std::vector<std::string>{"stretch", "shear", "bend"}));
+  const forces::LawSpecification& drive = cloth.laws.at(1);
+  EXPECT_EQ(drive.sets, (std::vector<std::string>{"hand"}));
+  EXPECT_EQ(drive.parameters.at("displacement"), (std::vector<double>{0, 0, 0}));
+  EXPECT_EQ(cloth.laws.at(2).parameters.at("stiffness").at(0), 1000.0 / 7.0);
+  EXPECT_EQ(cloth.laws.at(2).sets, (std::vector<std::string>{"stretch", "shear", "bend"}));
   const Collider& ball = scene.colliders.at(0);
   EXPECT_EQ(std::get<SphereShape>(ball.shape).radius, 1.0 / 3.0);
   EXPECT_EQ(ball.mass, 1.0 / 9.0);
@@ -238,6 +248,21 @@ TEST(SceneFile, PinsHoldTheCornersAndEdgesTheyName) {
   EXPECT_EQ(pinned("{ box = { min = [\"-1 m\", \"0 m\", \"-0.5 m\"], max = [\"0 m\", \"0 m\", "
                    "\"-0.4 m\"] } }"),
             (Nodes{6, 7}));
+}
+
+TEST(SceneFile, MovingPinsAndRegionsHoldTheirNodes) {
+  const std::string text =
+      std::string(kSmallScene) +
+      "pin = [{ edge = \"-u\" }, { corner = \"-u-v\", velocity = [\"1 m/s\", \"2 m/s\", \"3 m/s\"] "
+      "}]\n"
+      "region = [{ name = \"hand\", nodes = [{ edge = \"+v\" }, { corner = \"-u-v\" }] }]\n";
+  const ClothMesh mesh = make_mesh(read_scene_text(text, "pins.toml").cloths.at(0));
+  EXPECT_EQ(mesh.pinned, (std::vector<int>{0, 3, 6}));
+  EXPECT_EQ(mesh.pinned_velocity(0), Vector3<double>(1, 2, 3));
+  EXPECT_EQ(mesh.pinned_velocity(2), Vector3<double>(0, 0, 0));
+  ASSERT_EQ(mesh.node_sets.size(), 1U);
+  EXPECT_EQ(mesh.node_sets[0].name, "hand");
+  EXPECT_EQ(mesh.node_sets[0].nodes, (std::vector<int>{0, 6, 7, 8}));
 }
 
 TEST(SceneFile, WrittenSceneReadsBackToTheSameText) {

@@ -15,5 +15,7 @@ void evaluate_nonlocal_torsion(const CaseInfo&, const CaseOptions&, const Engine
 
 void evaluate_acceleration_damping(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 void evaluate_rotation_damping(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+void evaluate_hover(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+void evaluate_balloon(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
 }  // namespace weft::validation

@@ -92,6 +92,17 @@ Sabotage friction_removed() {
   return sabotage;
 }
 
+Sabotage wind_removed() {
+  Sabotage sabotage{"no wind"};
+  sabotage.edit_scene = [](scenes::Scene& scene) {
+    for (scenes::Cloth& cloth : scene.cloths) {
+      std::erase_if(cloth.laws,
+                    [](const forces::LawSpecification& law) { return law.law == "wind"; });
+    }
+  };
+  return sabotage;
+}
+
 Sabotage colliders_moved(const Vector3<double>& shift) {
   Sabotage sabotage{fmt::format("collider {:.3g} m off", shift.norm())};
   sabotage.edit_scene = [shift](scenes::Scene& scene) {

@@ -25,6 +25,7 @@ struct Sabotage {
 [[nodiscard]] Sabotage initial_velocity_unset();  ///< of cloths and of rigid bodies
 [[nodiscard]] Sabotage no_contact();
 [[nodiscard]] Sabotage friction_removed();
+[[nodiscard]] Sabotage wind_removed();
 /// Every collider moved by shift [m].
 [[nodiscard]] Sabotage colliders_moved(const Vector3<double>& shift);
 

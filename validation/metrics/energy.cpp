@@ -84,7 +84,7 @@ void SceneEnergy::check(const scenes::SceneState& state) const {
   }
 }
 
-void SceneEnergy::add_cloth(const ClothPart& part, const scenes::ClothState& state,
+void SceneEnergy::add_cloth(const ClothPart& part, const scenes::ClothState& state, double time,
                             Energy& energy) {
   for (Eigen::Index i = 0; i < part.masses.size(); ++i) {
     const Vector3<double> position = state.positions.col(i);
@@ -94,7 +94,7 @@ void SceneEnergy::add_cloth(const ClothPart& part, const scenes::ClothState& sta
     energy.angular_momentum += position.cross(momentum);
     energy.center_of_mass += part.masses[i] * position;
   }
-  const forces::State<double> law_state{state.positions, state.velocities, part.masses};
+  const forces::State<double> law_state{state.positions, state.velocities, part.masses, time};
   for (const auto& law : part.laws) {
     double& store = law->info().id == kGravityLaw ? energy.gravitational : energy.elastic;
     store += law->potential_energy(law_state);
@@ -121,7 +121,8 @@ Energy SceneEnergy::evaluate(const scenes::SceneState& state) const {
   check(state);
   if (!all_finite(state)) return not_a_number();
   Energy energy;
-  for (std::size_t i = 0; i < cloths_.size(); ++i) add_cloth(cloths_[i], state.cloths[i], energy);
+  for (std::size_t i = 0; i < cloths_.size(); ++i)
+    add_cloth(cloths_[i], state.cloths[i], state.time, energy);
   for (const RigidPart& part : rigids_) add_rigid(part, state.rigids[part.index], energy);
   energy.center_of_mass /= mass_;  // 0 / 0 without any mass, as documented
   return energy;

@@ -52,7 +52,8 @@ class SceneEnergy {
   };
 
   void check(const scenes::SceneState& state) const;
-  static void add_cloth(const ClothPart& part, const scenes::ClothState& state, Energy& energy);
+  static void add_cloth(const ClothPart& part, const scenes::ClothState& state, double time,
+                        Energy& energy);
   void add_rigid(const RigidPart& part, const scenes::RigidState& state, Energy& energy) const;
 
   Vector3<double> gravity_;  ///< [m/s^2]

@@ -24,10 +24,10 @@ double power_on_added_inertia(const Body& body) {
 
 }  // namespace
 
-Energies energies(const System& system) {
+Energies energies(const System& system, double time) {
   Energies sum;
   for (const Body& body : system.bodies) {
-    const forces::State<double> state{body.positions, body.velocities, body.mesh.masses};
+    const forces::State<double> state{body.positions, body.velocities, body.mesh.masses, time};
     sum.kinetic += 0.5 * body.velocities.colwise().squaredNorm().dot(body.mesh.masses);
     sum.kinetic += body.laws.added_kinetic_energy(state);
     sum.potential += body.laws.potential_energy(state);

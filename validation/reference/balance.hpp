@@ -18,7 +18,8 @@ struct Energies {
 
 /// Contact impulses act on the plain masses and are not part of it: of a body with an inertia-level
 /// law they change the stored kinetic energy as well.
-[[nodiscard]] Energies energies(const System& system);
+/// time [s]: what the laws get to know as the time, for drive.
+[[nodiscard]] Energies energies(const System& system, double time = 0.0);
 
 /// Sum of m v over cloth nodes and colliders with a mass [kg m/s].
 [[nodiscard]] Vector3<double> linear_momentum(const System& system);

@@ -6,9 +6,11 @@ BodyDynamics::BodyDynamics(Body& body)
     : body_(&body), inverse_masses_(reference::inverse_masses(body.mesh)) {}
 
 void BodyDynamics::evaluate(ConstMatrix3XRef<double> positions, ConstMatrix3XRef<double> velocities,
-                            VelocityLaws velocity_laws, Matrix3XRef<double> accelerations) {
+                            double time_in_step, VelocityLaws velocity_laws,
+                            Matrix3XRef<double> accelerations) {
   accelerations.setZero();
-  const forces::State<double> state{positions, velocities, body_->mesh.masses};
+  const forces::State<double> state{positions, velocities, body_->mesh.masses,
+                                    time_ + time_in_step};
   forces::LawSet<double>& laws = body_->laws;
   const bool has_inertia = laws.has_level(forces::LawTraits::Level::kInertia);
   const forces::ForceReport report =
@@ -36,9 +38,9 @@ void BodyDynamics::evaluate(ConstMatrix3XRef<double> positions, ConstMatrix3XRef
 void BodyDynamics::advance_velocities(ConstMatrix3XRef<double> positions, double time_step,
                                       Matrix3X<double>& velocities) {
   before_ = velocities;
-  const forces::State<double> state{positions, before_, body_->mesh.masses};
+  const forces::State<double> state{positions, before_, body_->mesh.masses, time_};
   body_->laws.advance_velocities(state, time_step, velocities);
-  for (const int node : body_->mesh.pinned) velocities.col(node).setZero();
+  set_pinned_velocities(body_->mesh, velocities);
 }
 
 }  // namespace weft::reference

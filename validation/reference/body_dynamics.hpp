@@ -14,13 +14,17 @@ class BodyDynamics {
 
   using VelocityLaws = forces::LawSet<double>::VelocityLaws;
 
-  /// accelerations = M^-1 f(positions, velocities) [m/s^2], 0 for pinned nodes. Inertia-level laws
-  /// redistribute the forces of all laws but those of velocity level, whose rates are those of the
-  /// velocities in every integrator.
-  void evaluate(ConstMatrix3XRef<double> positions, ConstMatrix3XRef<double> velocities,
-                VelocityLaws velocity_laws, Matrix3XRef<double> accelerations);
+  /// Time at the start of the step [s].
+  void set_time(double time) { time_ = time; }
 
-  /// Applies the velocity-level laws alone over time_step [s]; pinned nodes stay at rest.
+  /// accelerations = M^-1 f(positions, velocities) [m/s^2], 0 for pinned nodes. time_in_step: [s]
+  /// since the start of the step, for laws with targets that move. Inertia-level laws redistribute the
+  /// forces of all laws but those of velocity level, whose rates are those of the velocities in every
+  /// integrator.
+  void evaluate(ConstMatrix3XRef<double> positions, ConstMatrix3XRef<double> velocities,
+                double time_in_step, VelocityLaws velocity_laws, Matrix3XRef<double> accelerations);
+
+  /// Applies the velocity-level laws alone over time_step [s]; pinned nodes keep their velocity.
   void advance_velocities(ConstMatrix3XRef<double> positions, double time_step,
                           Matrix3X<double>& velocities);
 
@@ -34,6 +38,7 @@ class BodyDynamics {
   Body* body_;
   VectorX<double> inverse_masses_;  // 0 for pinned nodes
   Matrix3X<double> before_;         // velocities as the velocity-level laws see them
+  double time_ = 0.0;               // [s]
   std::optional<int> first_non_finite_node_;
 };
 

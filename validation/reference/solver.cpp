@@ -30,7 +30,7 @@ SpringSolver::SpringSolver(System system, SolverOptions options)
       contact_(make_contact_model(options.contact)) {
   check_system(*system_);
   for (Body& body : system_->bodies) {
-    for (const int node : body.mesh.pinned) body.velocities.col(node).setZero();
+    set_pinned_velocities(body.mesh, body.velocities);
     dynamics_.emplace_back(body);
     motion_.inverse_masses.push_back(dynamics_.back().inverse_masses());
   }
@@ -63,7 +63,7 @@ StepOutcome SpringSolver::step(double time_step) {
   outcome.is_step_stable = substep_size < outcome.stable_step;
 
   for (int i = 0; i < outcome.substeps && !blow_up_; ++i) {
-    const ContactOutcome contact = substep(substep_size);
+    const ContactOutcome contact = substep(time_ + i * substep_size, substep_size);
     const int last_contacts = contact.num_contacts;
     outcome.contact = combined(outcome.contact, contact);
     outcome.contact.num_contacts = last_contacts;
@@ -74,9 +74,10 @@ StepOutcome SpringSolver::step(double time_step) {
   return outcome;
 }
 
-ContactOutcome SpringSolver::substep(double time_step) {
+ContactOutcome SpringSolver::substep(double time, double time_step) {
   motion_.time_step = time_step;
   for (std::size_t b = 0; b < dynamics_.size(); ++b) {
+    dynamics_[b].set_time(time);
     integrator_->advance(dynamics_[b], time_step, motion_.bodies[b]);
   }
   motion_.rigids.clear();

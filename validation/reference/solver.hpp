@@ -52,7 +52,7 @@ class SpringSolver {
   [[nodiscard]] Stability stability();
 
  private:
-  ContactOutcome substep(double time_step);
+  ContactOutcome substep(double time, double time_step);
   void write(double time_step);
   [[nodiscard]] std::optional<BlowUp> find_blow_up() const;
 

@@ -45,6 +45,14 @@ void check_body(const Body& body) {
       refuse(where, "pinned node", node, "0 to " + std::to_string(num_nodes - 1));
     }
   }
+  const Eigen::Index num_velocities = body.mesh.pinned_velocities.cols();
+  const auto num_pinned = static_cast<Eigen::Index>(body.mesh.pinned.size());
+  if (num_velocities != 0 && num_velocities != num_pinned) {
+    refuse(where, "pinned_velocities.cols()", num_velocities, "0 or " + std::to_string(num_pinned));
+  }
+  if (!body.mesh.pinned_velocities.allFinite()) {
+    refuse(where, "pinned_velocities [m/s]", "not finite", "finite numbers");
+  }
   require_not_negative(where, "collision_margin [m]", body.collision_margin);
   require_not_negative(where, "friction [-]", body.friction);
 }
@@ -80,6 +88,12 @@ VectorX<double> inverse_masses(const ClothMesh& mesh) {
   VectorX<double> inverse = mesh.masses.cwiseInverse();
   for (const int node : mesh.pinned) inverse[node] = 0.0;
   return inverse;
+}
+
+void set_pinned_velocities(const ClothMesh& mesh, Matrix3XRef<double> velocities) {
+  for (std::size_t i = 0; i < mesh.pinned.size(); ++i) {
+    velocities.col(mesh.pinned[i]) = mesh.pinned_velocity(i);
+  }
 }
 
 Vector3<double> principal_inertia(const Collider& collider) {

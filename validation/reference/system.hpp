@@ -15,7 +15,7 @@ namespace weft::reference {
 /// One cloth: mass points with force laws.
 struct Body {
   std::string name;
-  ClothMesh mesh;  ///< pinned nodes do not move: their forces and velocities are zeroed
+  ClothMesh mesh;  ///< pinned nodes feel no force and have the velocities that it gives them
   forces::LawSet<double> laws;    ///< everything that acts on the cloth, gravity too
   Matrix3X<double> positions;     ///< 3 x n [m]
   Matrix3X<double> velocities;    ///< 3 x n [m/s]
@@ -59,6 +59,9 @@ void check_system(const System& system);
 
 /// 1/m per node [1/kg], 0 for pinned nodes.
 [[nodiscard]] VectorX<double> inverse_masses(const ClothMesh& mesh);
+
+/// Gives the pinned nodes their velocities [m/s].
+void set_pinned_velocities(const ClothMesh& mesh, Matrix3XRef<double> velocities);
 
 /// Principal moments of inertia of a collider with a mass, body frame [kg m^2].
 [[nodiscard]] Vector3<double> principal_inertia(const Collider& collider);

@@ -14,7 +14,7 @@ class ExplicitEuler final : public Integrator {
   void advance(BodyDynamics& dynamics, double time_step, BodyStep& step) override {
     const Body& body = dynamics.body();
     acceleration_.resize(3, body.positions.cols());
-    dynamics.evaluate(body.positions, body.velocities, BodyDynamics::VelocityLaws::kAsForces,
+    dynamics.evaluate(body.positions, body.velocities, 0.0, BodyDynamics::VelocityLaws::kAsForces,
                       acceleration_);
     step.mean_velocities = body.velocities;
     step.end_velocities = body.velocities + time_step * acceleration_;

@@ -15,7 +15,7 @@ class ModifiedEuler final : public Integrator {
   void advance(BodyDynamics& dynamics, double time_step, BodyStep& step) override {
     const Body& body = dynamics.body();
     acceleration_.resize(3, body.positions.cols());
-    dynamics.evaluate(body.positions, body.velocities, BodyDynamics::VelocityLaws::kSeparate,
+    dynamics.evaluate(body.positions, body.velocities, 0.0, BodyDynamics::VelocityLaws::kSeparate,
                       acceleration_);
     step.end_velocities = body.velocities + time_step * acceleration_;
     step.mean_velocities = step.end_velocities;

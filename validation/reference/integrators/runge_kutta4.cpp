@@ -23,7 +23,9 @@ class RungeKutta4 final : public Integrator {
     constexpr double kFractions[] = {0.5, 0.5, 1.0};
     constexpr double kWeights[] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
     for (int stage = 0; stage < 4; ++stage) {
-      dynamics.evaluate(position_, velocity_, BodyDynamics::VelocityLaws::kAsForces, acceleration_);
+      const double time = stage == 0 ? 0.0 : kFractions[stage - 1] * time_step;
+      dynamics.evaluate(position_, velocity_, time, BodyDynamics::VelocityLaws::kAsForces,
+                        acceleration_);
       step.mean_velocities += kWeights[stage] * velocity_;
       acceleration_sum_ += kWeights[stage] * acceleration_;
       if (stage == 3) break;

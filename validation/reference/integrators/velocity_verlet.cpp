@@ -27,11 +27,11 @@ class VelocityVerlet final : public Integrator {
     start_ = body.velocities;
     dynamics.advance_velocities(body.positions, 0.5 * time_step, start_);
 
-    dynamics.evaluate(body.positions, start_, kSeparate, first_);
+    dynamics.evaluate(body.positions, start_, 0.0, kSeparate, first_);
     step.mean_velocities = start_ + 0.5 * time_step * first_;
     moved_ = body.positions + time_step * step.mean_velocities;
     predicted_ = start_ + time_step * first_;
-    dynamics.evaluate(moved_, predicted_, kSeparate, second_);
+    dynamics.evaluate(moved_, predicted_, time_step, kSeparate, second_);
     step.end_velocities = start_ + 0.5 * time_step * (first_ + second_);
   }
 
