@@ -37,6 +37,8 @@ std::span<const CaseInfo> all_cases() {
                nullptr, &evaluate_acceleration_damping},
       CaseInfo{"rotation_damping", "Spin and swirl decay at their rates, and nothing else does",
                nullptr, &evaluate_rotation_damping},
+      CaseInfo{"damped_hang", "The three damping laws in Bullet: step for step the same equations",
+               &plan_damped_hang, &evaluate_damped_hang},
       CaseInfo{"hover", "A sheet hovers in the wind that carries its weight", nullptr,
                &evaluate_hover},
       CaseInfo{"balloon", "Pressure curve of a balloon of springs, and where it bursts", nullptr,

@@ -65,9 +65,10 @@ TEST(RotationDamping, ADumbbellTurnsMoreSlowlyAndSwingsOn) {
 }
 
 TEST(RotationDamping, AThinRodIsNoSpecialCase) {
-  // From a line to a triangle as thick as it is long: L decays by the same factor, without a jump
-  // where the body counts as collinear. A rod's inertia has the condition (length / thickness)^2,
-  // which multiplies round-off up to the square of 1 / kCollinear's root.
+  // From a line to a triangle as thick as it is long: L decays by the same factor on both sides of
+  // the thickness at which the body counts as a line. There the moment about the line is kCollinear
+  // of the others, and so is what is left out.
+  constexpr double kJump = 1e-6;  // of L: sqrt(kCollinear) = 1e-7, times a factor of order 1
   for (const double thickness : {0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-4, 1e-2, 1.0}) {
     Matrix3X<double> positions(3, 3);
     positions << -1, 0, 1, 0, thickness, 0, 0, 0, 0;
@@ -75,7 +76,6 @@ TEST(RotationDamping, AThinRodIsNoSpecialCase) {
     const Matrix3X<double> before = rigid_motion(mesh, {0.3, -0.7, 0.5}, {0, 0, 0});
     const Vector3<double> expected = std::exp(-kRate * kTimeStep) * spin_momentum(mesh, before);
     const Matrix3X<double> after = advanced(kLaw, mesh, before, kTimeStep);
-    constexpr double kJump = 1e-6;  // of L: sqrt(kCollinear) times a factor of order 1
     EXPECT_LT((spin_momentum(mesh, after) - expected).norm(), kJump * expected.norm())
         << "thickness " << thickness;
   }

@@ -1,6 +1,7 @@
 #include <weft/custom_forces/torsional_rotation_damping.hpp>
 
 #include <gtest/gtest.h>
+#include <weft/custom_forces/law_set.hpp>
 
 #include "tests/custom_forces/small_bodies.hpp"
 
@@ -96,6 +97,25 @@ TEST(TorsionalRotationDamping, CentreAgainstRimDecaysAtTheRate) {
   const Matrix3X<double> rest = rigid_motion(mesh, {0.2, 0.1, -1}, {1, 2, 3});
   const Matrix3X<double> after = advanced(kLaw, mesh, rest + mode, kTimeStep);
   EXPECT_LT((after - rest - std::exp(-kRate * kTimeStep) * mode).norm(), kSumRoundoff);
+}
+
+TEST(TorsionalRotationDamping, AndRotationDampingMindEachOthersWork) {
+  // In a set each law goes on with the velocities that the one before it left. The two parts are
+  // orthogonal, so the order does not matter.
+  const ClothMesh mesh = lopsided_body();
+  const LawSpecification rotation{"rotation_damping", {}, {{"rate", {2.0}}}};
+  const Matrix3X<double> before = arbitrary(7, 1);
+  LawSet<double> laws;
+  laws.add(make_law<double>(kLaw, mesh));
+  laws.add(make_law<double>(rotation, mesh));
+  Matrix3X<double> together = before;
+  laws.advance_velocities({mesh.rest_positions, before, mesh.masses}, kTimeStep, together);
+  const Matrix3X<double> one_way =
+      advanced(rotation, mesh, advanced(kLaw, mesh, before, kTimeStep), kTimeStep);
+  const Matrix3X<double> other_way =
+      advanced(kLaw, mesh, advanced(rotation, mesh, before, kTimeStep), kTimeStep);
+  EXPECT_EQ(together, one_way);
+  EXPECT_LT((one_way - other_way).norm(), kSumRoundoff);
 }
 
 TEST(TorsionalRotationDamping, ABreathingBodyBreathesOn) {

@@ -21,4 +21,8 @@ void evaluate_determinism(const CaseInfo&, const CaseOptions&, const EngineRuns&
 void plan_sliding_cloth(const CaseInfo&, const CaseOptions&, EngineRuns&);
 void evaluate_sliding_cloth(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
+/// A hung cloth with the three damping laws: Bullet's world must follow the reference.
+void plan_damped_hang(const CaseInfo&, const CaseOptions&, EngineRuns&);
+void evaluate_damped_hang(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+
 }  // namespace weft::validation
