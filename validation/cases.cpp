@@ -3,6 +3,7 @@
 #include <array>
 
 #include <weft/validation/cases/analytic_cases.hpp>
+#include <weft/validation/cases/engine_cases.hpp>
 #include <weft/validation/cases/scene_cases.hpp>
 
 namespace weft::validation {
@@ -28,6 +29,10 @@ std::span<const CaseInfo> all_cases() {
       CaseInfo{"plate_rigidity", "A grid of hinges is an isotropic plate", nullptr,
                &evaluate_plate_rigidity},
       CaseInfo{"cantilever", "A heavy strip bends as the elastica", nullptr, &evaluate_cantilever},
+      CaseInfo{"engine_cantilever", "One heavy strip in every engine that carries Weft's laws",
+               &plan_engine_cantilever, &evaluate_engine_cantilever},
+      CaseInfo{"momentum", "A ball and a free cloth keep their momentum together", &plan_momentum,
+               &evaluate_momentum},
       CaseInfo{"torsion_beam", "A chain with three-point torsion is a beam", nullptr,
                &evaluate_torsion_beam},
       CaseInfo{"nonlocal_torsion",

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <weft/validation/cases/case.hpp>
+
+namespace weft::validation {
+
+/// The scene cantilever in every engine that carries Weft's laws: one H / W.
+void plan_engine_cantilever(const CaseInfo&, const CaseOptions&, EngineRuns&);
+void evaluate_engine_cantilever(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+
+/// ball_on_cloth without pins and without gravity: what one gains the other loses.
+void plan_momentum(const CaseInfo&, const CaseOptions&, EngineRuns&);
+void evaluate_momentum(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+
+}  // namespace weft::validation

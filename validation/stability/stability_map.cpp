@@ -1,0 +1,159 @@
+#include <weft/validation/stability/stability_map.hpp>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/registry.hpp>
+#include <weft/validation/cases/small_systems.hpp>
+#include <weft/validation/reference/spectrum.hpp>
+#include <weft/validation/reference/step_guard.hpp>
+
+namespace weft::validation {
+namespace {
+
+constexpr std::array<double, 5> kStiffnessFactors = {0.25, 0.5, 1, 2, 4};
+constexpr std::array<double, 4> kBetas = {0, 0.5, 1, 3};
+constexpr double kDisturbance = 1e-6;  ///< of the shortest spring [-]
+constexpr double kGrown = 1e-2;        ///< the same: 1e4 times as large, and springs still linear
+/// A step 1 % beyond the stable one grows by exp(2 sqrt(0.02)) = 1.33 a step: 1e4 after 33 steps, of
+/// which the disturbance needs some to find the mode.
+constexpr int kNumSteps = 250;
+
+/// The parameters that set how stiff a law is; all of them are linear in its force.
+bool is_stiffness(const forces::ParameterInfo& parameter) {
+  return parameter.name == "stiffness" || parameter.name == "rigidity";
+}
+
+reference::Body make_body(const scenes::Cloth& cloth, double stiffness_factor, double beta) {
+  reference::Body body;
+  body.name = cloth.name;
+  body.mesh = scenes::make_mesh(cloth);
+  bool stores_energy = false;
+  for (forces::LawSpecification law : cloth.laws) {
+    const forces::LawInfo& info = *forces::find_law(law.law);
+    if (!info.traits.internal || info.traits.level == forces::LawTraits::Level::kInertia) continue;
+    stores_energy = stores_energy || info.traits.has_energy;
+    law = forces::checked(law);
+    for (const forces::ParameterInfo& parameter : info.parameters) {
+      if (!is_stiffness(parameter)) continue;
+      law.parameters.at(std::string(parameter.name)).at(0) *= stiffness_factor;
+    }
+    body.laws.add(forces::make_law<double>(law, body.mesh));
+  }
+  if (!stores_energy) {
+    throw InvalidArgument("stability: cloth '" + cloth.name +
+                          "' has no law that stores energy, expected tension or the like");
+  }
+  if (beta > 0) {
+    body.laws.add(
+        forces::make_law<double>({"acceleration_damping", {}, {{"beta", {beta}}}}, body.mesh));
+  }
+  body.positions = body.mesh.rest_positions;
+  body.velocities.setZero(3, body.mesh.num_nodes());
+  return body;
+}
+
+double shortest_edge(const ClothMesh& mesh) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const EdgeSet& set : mesh.edge_sets) {
+    if (set.edges.cols() > 0) {
+      shortest = std::min(shortest, edge_lengths(mesh.rest_positions, set.edges).minCoeff());
+    }
+  }
+  return shortest;
+}
+
+bool is_stable(const scenes::Cloth& cloth, double stiffness_factor, double beta, double time_step) {
+  reference::Body body = make_body(cloth, stiffness_factor, beta);
+  const double unit = shortest_edge(body.mesh);
+  for (int node = 0; node < body.mesh.num_nodes(); ++node) {
+    // Without a pattern that the mesh shares: it holds a part of every mode.
+    for (int axis = 0; axis < 3; ++axis) {
+      body.positions(axis, node) += kDisturbance * unit * std::sin((7.0 + 4 * axis) * node + axis);
+    }
+  }
+  for (const int node : body.mesh.pinned) {
+    body.positions.col(node) = body.mesh.rest_positions.col(node);
+  }
+  reference::SpringSolver solver =
+      make_solver(std::move(body), reference::IntegratorKind::kModifiedEuler);
+  const reference::Body& now = solver.system().bodies[0];
+  for (int step = 0; step < kNumSteps; ++step) {
+    if (solver.step(time_step).blow_up) return false;
+    const double off = (now.positions - now.mesh.rest_positions).cwiseAbs().maxCoeff();
+    if (!(off <= kGrown * unit)) return false;
+  }
+  return true;
+}
+
+StabilityPoint map_point(const scenes::Cloth& cloth, double stiffness_factor, double beta) {
+  reference::Body body = make_body(cloth, stiffness_factor, beta);
+  StabilityPoint point{stiffness_factor, beta, 0.0, 0.0};
+  point.predicted =
+      reference::stable_step(reference::IntegratorKind::kModifiedEuler, reference::spectrum(body));
+  constexpr double kBracket = 2.0;  // a prediction off by more is shown as off by this much
+  double stable = point.predicted / kBracket;
+  double unstable = point.predicted * kBracket;
+  while (unstable > (1 + kStabilityResolution) * stable) {
+    const double middle = std::sqrt(stable * unstable);
+    (is_stable(cloth, stiffness_factor, beta, middle) ? stable : unstable) = middle;
+  }
+  point.measured = std::sqrt(stable * unstable);
+  return point;
+}
+
+}  // namespace
+
+std::vector<StabilityMap> map_stability(const scenes::Scene& scene) {
+  std::vector<StabilityMap> maps;
+  for (const scenes::Cloth& cloth : scene.cloths) {
+    StabilityMap map{cloth.name, {}};
+    for (const double beta : kBetas) {
+      for (const double factor : kStiffnessFactors) {
+        map.points.push_back(map_point(cloth, factor, beta));
+      }
+    }
+    maps.push_back(std::move(map));
+  }
+  return maps;
+}
+
+Section stability_section(const StabilityMap& map) {
+  Section section{map.cloth, "Largest stable time step of cloth '" + map.cloth + "'", {}, {}, {},
+                  ""};
+  Plot plot{"Stable step by stiffness and added inertia",
+            "stiffness / the scene's [1]",
+            "largest stable step [s]",
+            true,
+            true,
+            {}};
+  Table table{"Stable step",
+              {"stiffness factor", "beta", "predicted [s]", "measured [s]", "measured / predicted"},
+              {}};
+  for (const double beta : kBetas) {
+    Series predicted{fmt::format("predicted, beta = {:g}", beta), {}, {}};
+    Series measured{fmt::format("measured, beta = {:g}", beta), {}, {}};
+    for (const StabilityPoint& point : map.points) {
+      if (point.beta != beta) continue;
+      for (Series* series : {&predicted, &measured}) series->x.push_back(point.stiffness_factor);
+      predicted.y.push_back(point.predicted);
+      measured.y.push_back(point.measured);
+      table.rows.push_back({fmt::format("{:g}", point.stiffness_factor), fmt::format("{:g}", beta),
+                            fmt::format("{:.5g}", point.predicted),
+                            fmt::format("{:.5g}", point.measured),
+                            fmt::format("{:.4f}", point.measured / point.predicted)});
+    }
+    plot.series.push_back(std::move(predicted));
+    plot.series.push_back(std::move(measured));
+  }
+  section.plots.push_back(std::move(plot));
+  section.tables.push_back(std::move(table));
+  return section;
+}
+
+}  // namespace weft::validation
