@@ -1,5 +1,7 @@
 #include "bench/law_cases.hpp"
 
+#include <algorithm>
+
 #include <weft/custom_forces/core/cloth_grid.hpp>
 #include <weft/custom_forces/core/hinges.hpp>
 #include <weft/custom_forces/core/icosphere.hpp>
@@ -49,6 +51,9 @@ Count count_elements(ElementKind kind, const ClothMesh& mesh) {
         number += static_cast<double>(set.connections.cols());
       }
       return {"connection", number};
+    case ElementKind::kNodeSets:
+      for (const NodeSet& set : mesh.node_sets) number += static_cast<double>(set.nodes.size());
+      return {"node", number};
     case ElementKind::kNodes:
       break;
   }
@@ -69,6 +74,8 @@ ClothMesh classic_cloth() {
     }
   }
   connect(mesh, "rim", grid_node(grid, 25, 25), rim);
+  std::sort(rim.begin(), rim.end());
+  mesh.node_sets.push_back({"rim", rim});
   return mesh;
 }
 
