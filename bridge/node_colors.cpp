@@ -19,13 +19,13 @@ void couple(const std::vector<int>& group, Neighbours& neighbours) {
 }
 
 // Triangles, and pairs of triangles that share an edge.
-void couple_triangles(const ClothMesh& mesh, Neighbours& neighbours) {
+void couple_triangles(const Triangles& triangles, Neighbours& neighbours) {
   std::map<std::pair<int, int>, std::vector<int>> opposite;
-  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+  for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
     for (int k = 0; k < 3; ++k) {
-      const int a = mesh.triangles(k, t);
-      const int b = mesh.triangles((k + 1) % 3, t);
-      const int c = mesh.triangles((k + 2) % 3, t);
+      const int a = triangles(k, t);
+      const int b = triangles((k + 1) % 3, t);
+      const int c = triangles((k + 2) % 3, t);
       couple({a, b}, neighbours);
       std::vector<int>& others = opposite[std::minmax(a, b)];
       for (const int other : others) couple({other, c}, neighbours);
@@ -61,7 +61,8 @@ Neighbours neighbours_of(const ClothMesh& mesh) {
       couple({set.triples(0, l), set.triples(1, l), set.triples(2, l)}, neighbours);
     }
   }
-  couple_triangles(mesh, neighbours);
+  couple_triangles(mesh.triangles, neighbours);
+  couple_triangles(mesh.crossed_triangles, neighbours);
   couple_connections(mesh, neighbours);
   return neighbours;
 }

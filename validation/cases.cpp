@@ -20,6 +20,8 @@ std::span<const CaseInfo> all_cases() {
       CaseInfo{"ball_on_cloth", "A ball falls on a pinned cloth: both move", &plan_scene,
                &evaluate_scene},
       CaseInfo{"wind_hover", "A wind catches a falling cloth", &plan_scene, &evaluate_scene},
+      CaseInfo{"heavy_strip", "A stiff strip bends under its own weight", &plan_scene,
+               &evaluate_scene},
       CaseInfo{"oscillator", "Four integrators against their own exact recurrence", nullptr,
                &evaluate_oscillator},
       CaseInfo{"observed_orders", "The error falls with the step as each integrator promises",

@@ -34,7 +34,7 @@ std::vector<EngineChoice> engines(bool with_bullet) {
 }
 
 scenes::Scene scene_for(const EngineChoice& engine) {
-  scenes::Scene scene = scenes::load_scene("cantilever");
+  scenes::Scene scene = scenes::load_scene("heavy_strip");
   if (engine.engine == "bullet_deformable_implicit") scene.world.time_step = kImplicitTimeStep;
   return scene;
 }
@@ -63,7 +63,7 @@ void plan_engine_cantilever(const CaseInfo& info, const CaseOptions& options, En
 
 void evaluate_engine_cantilever(const CaseInfo& info, const CaseOptions& options,
                                 const EngineRuns& runs, Report& report) {
-  const scenes::Scene scene = scenes::load_scene("cantilever");
+  const scenes::Scene scene = scenes::load_scene("heavy_strip");
   const HeavyElastica elastica = solve_heavy_elastica(kGamma);
   const double exact = elastica.drop / elastica.reach;
   const std::vector<EngineChoice> list = engines(options.bullet);

@@ -4,7 +4,7 @@
 
 namespace weft::validation {
 
-/// The scene cantilever in every engine that carries Weft's laws: one H / W.
+/// The scene heavy_strip in every engine that carries Weft's laws: one H / W.
 void plan_engine_cantilever(const CaseInfo&, const CaseOptions&, EngineRuns&);
 void evaluate_engine_cantilever(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 

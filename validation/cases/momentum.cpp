@@ -25,7 +25,7 @@ std::vector<Judged> engines(bool with_bullet) {
   const Tolerance rounding{1e-9, Basis::kRoundoff, "equal and opposite impulses in each contact"};
   const Tolerance single{1e-4, Basis::kRoundoff,
                          "velocities from differences of single-precision positions"};
-  const Tolerance solver{1e-4, Basis::kTruncation,
+  const Tolerance solver{1e-3, Basis::kTruncation,
                          "Bullet ends its conjugate gradients at a residual, not at zero"};
   const Tolerance implicit{0.01, Basis::kModelGap,
                            "contact of an implicit step is predicted with an effective mass"};

@@ -193,6 +193,26 @@ std::vector<SceneGate> wind_hover() {
   return gates;
 }
 
+std::vector<SceneGate> heavy_strip() {
+  const double size = 0.2;               // [m]
+  const double time_step = 1.0 / 10000;  // [s]
+  std::vector<SceneGate> gates{step_for_step(Quantity::kLargestDistance, kFirstHalfSecond,
+                                             {damping_sign(), one_step_dropped()})};
+  gates.push_back({kForces32,
+                   "follows the reference within single precision",
+                   Quantity::kLargestDistance,
+                   0.0,
+                   kFirstHalfSecond,
+                   single_precision(size, time_step, kFirstHalfSecond),
+                   {damping_sign()},
+                   kSameEquationsNote});
+  for (const EngineChoice& engine : {kSoft32, kSoft64}) {
+    gates.push_back(near(engine, 0, kFirstHalfSecond, model_gap(0.02, kLinksWhy), {damping_sign()},
+                         kLinksNote));
+  }
+  return gates;
+}
+
 }  // namespace
 
 std::vector<SceneGate> scene_gates(const std::string& scene) {
@@ -202,6 +222,7 @@ std::vector<SceneGate> scene_gates(const std::string& scene) {
   if (scene == "drop_box") return drop_box();
   if (scene == "ball_on_cloth") return ball_on_cloth();
   if (scene == "wind_hover") return wind_hover();
+  if (scene == "heavy_strip") return heavy_strip();
   return {};
 }
 
