@@ -35,11 +35,12 @@ int map_scene(const StabilityOptions& options) {
                  fmt::format("x {:g}", point.stiffness_factor), point.beta, point.predicted,
                  point.measured, point.measured / point.predicted);
     }
+    report.checks.push_back(validation::stability_check(map));
     report.sections.push_back(validation::stability_section(map));
   }
   validation::write_report(report, options.output);
   fmt::print("Map: {}\n", (std::filesystem::path(options.output) / "index.html").string());
-  return kOk;
+  return report.passed() ? kOk : kCaseFailed;
 }
 
 }  // namespace

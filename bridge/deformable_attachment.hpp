@@ -30,7 +30,9 @@ struct DeformableAttachment {
   double time = 0.0;        ///< [s] of the steps since the body was attached
   double still_time = 0.0;  ///< when still_forces were evaluated [s]
 
-  [[nodiscard]] forces::State<btScalar> state() const { return {positions, velocities, masses, time}; }
+  [[nodiscard]] forces::State<btScalar> state() const {
+    return {positions, velocities, masses, time};
+  }
   [[nodiscard]] bool is_movable(int node) const { return body->m_nodes[node].m_im > 0; }
   /// Reads m_v and either m_x or m_q.
   void read(NodeVector position);

@@ -17,23 +17,6 @@ double ratio(double a, double b) {
   return b > 0.0 ? a / b : kInfinity;
 }
 
-/// First step at which the modified Euler margin vanishes.
-double modified_euler_step(const Spectrum& s) {
-  const auto margin = [&](double h) {
-    const double q = std::exp(-h * s.gamma_velocity_max) * (1.0 - h * s.gamma_force_max);
-    return 2.0 * (1.0 + q) - h * h * s.omega_max * s.omega_max;
-  };
-  double unstable = std::min(ratio(2.0, s.omega_max), ratio(2.0, s.gamma_force_max));
-  if (!std::isfinite(unstable) || margin(unstable) > 0.0) return unstable;
-  double stable = 0.0;
-  constexpr int kBisections = 60;  // one bit each, more than a double has
-  for (int i = 0; i < kBisections; ++i) {
-    const double middle = 0.5 * (stable + unstable);
-    (margin(middle) > 0.0 ? stable : unstable) = middle;
-  }
-  return stable;
-}
-
 double verlet_step(const Spectrum& s) {
   // Positive root of h^2 w^2 + 2 h f = 4, in the form that stays exact for w -> 0.
   const double f = s.gamma_force_max;
@@ -58,7 +41,7 @@ double stable_step(IntegratorKind integrator, const Spectrum& spectrum) {
     case IntegratorKind::kExplicitEuler:
       return explicit_euler_step(spectrum);
     case IntegratorKind::kModifiedEuler:
-      return modified_euler_step(spectrum);
+      return forces::critical_time_step(spectrum);
     case IntegratorKind::kVelocityVerlet:
       return verlet_step(spectrum);
     case IntegratorKind::kRungeKutta4:

@@ -12,10 +12,7 @@ namespace weft::reference {
 /// A mode is x'' = -w^2 x - (f + g) x'. Inertia-level laws lower w and f: acceleration_damping makes
 /// an undamped step sqrt(1 + beta) times as long.
 ///
-///   modified Euler   h^2 w^2 < 2 (1 + exp(-h g) (1 - h f)),  h f < 2
-///       exact for this scheme (Jury criterion of its 2 x 2 matrix: trace 1 - h^2 w^2 + q,
-///       determinant q = exp(-h g) (1 - h f)).
-///       Undamped: h w < 2. Small h g: h^2 w^2 + 2 h (f + g) < 4.
+///   modified Euler   forces::critical_time_step(), exact
 ///   Verlet           h^2 w^2 + 2 h f < 4
 ///       exact for f = 0, for every g, since the velocity-level laws are exact; conservative for
 ///       f > 0, where the scheme's own bound is h^2 w^2 < 4 - 2 h f + h^2 f^2, h f < 2.

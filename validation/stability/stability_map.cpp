@@ -123,6 +123,28 @@ std::vector<StabilityMap> map_stability(const scenes::Scene& scene) {
   return maps;
 }
 
+CheckResult stability_check(const StabilityMap& map) {
+  CheckResult check;
+  check.case_id = map.cloth;
+  check.engine = "reference";
+  check.claim = "the predicted step is the largest stable one";
+  check.metric = "largest |measured / predicted - 1| over the map";
+  check.unit = "1";
+  check.formula = "h^2 w^2 < 2 (1 + exp(-h g) (1 - h f))";
+  check.source = "power iteration at the rest shape, modified Euler";
+  const Tolerance tolerance{0.05, Basis::kTruncation,
+                            "half the search's bracket of 1 %, and damping that the two rates of a "
+                            "spectrum do not describe"};
+  for (const StabilityPoint& point : map.points) {
+    const double error = std::abs(point.measured / point.predicted - 1);
+    if (!(error <= check.measured)) check.measured = error;
+  }
+  check.tolerance = tolerance;
+  check.verdict = judge(check.measured, tolerance);
+  check.note = "damping that differs much from mode to mode, or a body that is soft at rest";
+  return check;
+}
+
 Section stability_section(const StabilityMap& map) {
   Section section{map.cloth, "Largest stable time step of cloth '" + map.cloth + "'", {}, {}, {},
                   ""};

@@ -30,6 +30,9 @@ struct StabilityMap {
 /// Throws InvalidArgument for a cloth without a law that stores energy.
 [[nodiscard]] std::vector<StabilityMap> map_stability(const scenes::Scene& scene);
 
+/// How far the prediction is from what was tried, at the worst point of a map.
+[[nodiscard]] CheckResult stability_check(const StabilityMap& map);
+
 /// Plot and table of a map.
 [[nodiscard]] Section stability_section(const StabilityMap& map);
 
