@@ -30,13 +30,17 @@ std::vector<Judged> engines(bool with_bullet) {
   const Tolerance implicit{0.01, Basis::kModelGap,
                            "contact of an implicit step is predicted with an effective mass"};
   std::vector<Judged> list;
+  const auto add = [&](const char* engine, scenes::StoredPrecision precision,
+                       const Tolerance& tolerance) {
+    list.push_back({EngineChoice{engine, precision}, tolerance});
+  };
   if (with_bullet) {
-    list = {{{"bullet_forces", kFloat32}, single},
-            {{"bullet_forces", kFloat64}, rounding},
-            {{"bullet_deformable", kFloat64}, solver},
-            {{"bullet_deformable_implicit", kFloat64}, implicit}};
+    add("bullet_forces", kFloat32, single);
+    add("bullet_forces", kFloat64, rounding);
+    add("bullet_deformable", kFloat64, solver);
+    add("bullet_deformable_implicit", kFloat64, implicit);
   }
-  list.push_back({{"reference", kFloat64}, rounding});
+  add("reference", kFloat64, rounding);
   return list;
 }
 
