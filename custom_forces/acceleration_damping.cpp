@@ -18,6 +18,7 @@ const LawInfo AccelerationDamping<Scalar>::kInfo{
     .summary = "Accelerations relative to the centre of mass are divided by 1 + beta",
     .formula = "f <- m (a_c + (f / m - a_c) / (1 + beta)), a_c = sum f / sum m",
     .source = "own derivation: a force against the acceleration, solved for the acceleration",
+    .checked_by = "cases acceleration_damping, damped_hang; tests AccelerationDamping.*",
     .traits = {.internal = true,
                .ignores_rigid_motion = true,
                .free_at_rest = true,

@@ -47,6 +47,7 @@ const LawInfo Drive<Scalar>::kInfo{
         "f = k (x_t - x) + c (v_t - v), x_t = x_c + d + u t + R(omega t) (x0 - x_c), "
         "v_t = u + omega x R (x0 - x_c)",
     .source = "proportional-derivative control of positions",
+    .checked_by = "tests Drive.*",
     .traits = {.elements = ElementKind::kNodeSets},
     .parameters = kParameters};
 

@@ -17,12 +17,14 @@ constexpr ParameterInfo kParameters[] = {
 }  // namespace
 
 template <class Scalar>
-const LawInfo Gravity<Scalar>::kInfo{.id = "gravity",
-                                     .summary = "Uniform gravity",
-                                     .formula = "f = m g, E = -m g . x",
-                                     .source = "uniform field",
-                                     .traits = {.ignores_rigid_motion = true, .has_energy = true},
-                                     .parameters = kParameters};
+const LawInfo Gravity<Scalar>::kInfo{
+    .id = "gravity",
+    .summary = "Uniform gravity",
+    .formula = "f = m g, E = -m g . x",
+    .source = "uniform field",
+    .checked_by = "cases hanging_chain, drape_sphere; tests Gravity.*",
+    .traits = {.ignores_rigid_motion = true, .has_energy = true},
+    .parameters = kParameters};
 
 template <class Scalar>
 Gravity<Scalar>::Gravity(const LawSpecification& specification, const ClothMesh&)

@@ -147,6 +147,8 @@ const LawInfo HingeTorsion<Scalar>::kInfo{
         "D l / h elsewhere, times factor at a clamp",
     .source =
         "own derivation: energy of a quadratic surface; length weighting as in Feng et al. 2022",
+    .checked_by =
+        "cases plate_rigidity, cantilever, engine_cantilever, heavy_strip; tests HingeTorsion.*",
     .traits = {.internal = true,
                .ignores_rigid_motion = true,
                .free_at_rest = true,

@@ -56,10 +56,11 @@ struct ParameterInfo {
 
 /// A row of the law table (registry.hpp).
 struct LawInfo {
-  std::string_view id;       ///< "tension"
-  std::string_view summary;  ///< one sentence
-  std::string_view formula;  ///< the law in one line, symbols as in parameters
-  std::string_view source;   ///< where the law comes from
+  std::string_view id;          ///< "tension"
+  std::string_view summary;     ///< one sentence
+  std::string_view formula;     ///< the law in one line, symbols as in parameters
+  std::string_view source;      ///< where the law comes from
+  std::string_view checked_by;  ///< validation cases and tests beside the contract tests
   LawTraits traits;
   std::span<const ParameterInfo> parameters;
 };

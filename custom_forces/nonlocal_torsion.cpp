@@ -78,6 +78,7 @@ const LawInfo NonlocalTorsion<Scalar>::kInfo{
     .summary = "Far nodes keep their direction in the local frame of a node",
     .formula = "E = kappa phi^2 / 2, phi the angle between d and R d0",
     .source = "Werth 2008: non-local connections with torsion; frame and energy ours",
+    .checked_by = "case nonlocal_torsion; tests NonlocalTorsion.*",
     .traits = {.internal = true,
                .ignores_rigid_motion = true,
                .free_at_rest = true,

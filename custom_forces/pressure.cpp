@@ -99,6 +99,7 @@ const LawInfo Pressure<Scalar>::kInfo{
         "p = p0 (V0 + V_r) / (V + V_r) - p_a, f = p dV/dx, "
         "E = -p0 (V0 + V_r) ln((V + V_r) / (V0 + V_r)) + p_a (V - V0)",
     .source = "Boyle's law",
+    .checked_by = "case balloon; tests Pressure.*",
     .traits = {.internal = true,
                .ignores_rigid_motion = true,
                .has_energy = true,

@@ -20,6 +20,7 @@ const LawInfo RotationDamping<Scalar>::kInfo{
     .summary = "Rotation of the body as a whole decays",
     .formula = "f = -m rate omega x r, omega = I^-1 L about the centre of mass",
     .source = "own derivation: a torque against the angular momentum, shared out as a rigid motion",
+    .checked_by = "cases rotation_damping, damped_hang; tests RotationDamping.*",
     .traits = {.free_at_rest = true, .dissipative = true, .level = LawTraits::Level::kVelocity},
     .parameters = kParameters};
 

@@ -16,6 +16,9 @@ const LawInfo SpringDamping<Scalar>::kInfo{.id = "spring_damping",
                                            .summary = "Viscous dampers along edges",
                                            .formula = "f_i = c ((v_j - v_i) . u) u, f_j = -f_i",
                                            .source = "dashpot parallel to each spring",
+                                           .checked_by =
+                                               "cases oscillator, rotation_damping (a spinning "
+                                               "ring keeps its spin); tests SpringDamping.*",
                                            .traits = {.internal = true,
                                                       .ignores_rigid_motion = true,
                                                       .free_at_rest = true,

@@ -26,6 +26,7 @@ const LawInfo Tension<Scalar>::kInfo{
         "f_i = k' (l - l0) u, f_j = -f_i, E = k' (l - l0)^2 / 2, "
         "k' = k if l >= l0, else ratio k",
     .source = "Werth 2008: tension constant times (length minus rest length)",
+    .checked_by = "cases hanging_chain, oscillator; tests Tension.*",
     .traits = {.internal = true,
                .ignores_rigid_motion = true,
                .free_at_rest = true,

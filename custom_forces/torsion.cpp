@@ -111,6 +111,7 @@ const LawInfo Torsion<Scalar>::kInfo{
         "E = kappa (s theta - theta0)^2 / 2, kappa = (k' d'^2 + k'' d''^2) / 2, k' = k, "
         "k'' = ratio k",
     .source = "Werth 2008: torsion over three points with rest lengths as lever arms; energy ours",
+    .checked_by = "case torsion_beam; tests Torsion.*",
     .traits = {.internal = true,
                .ignores_rigid_motion = true,
                .free_at_rest = true,

@@ -20,6 +20,7 @@ const LawInfo TorsionalRotationDamping<Scalar>::kInfo{
     .summary = "Swirl about the centre of mass that is not rigid rotation decays",
     .formula = "f = -M rate Pi v, Pi v = v without radial motion, translations and rigid rotations",
     .source = "own derivation: the orthogonal projector in the inner product of the masses",
+    .checked_by = "cases rotation_damping, damped_hang; tests TorsionalRotationDamping.*",
     .traits = {.internal = true,
                .ignores_rigid_motion = true,
                .free_at_rest = true,

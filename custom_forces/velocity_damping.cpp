@@ -20,6 +20,7 @@ const LawInfo VelocityDamping<Scalar>::kInfo{
     .summary = "Proportional loss of velocity, as in still air without area",
     .formula = "f = -gamma m v",
     .source = "de Joya 2011: damping as a proportional velocity loss",
+    .checked_by = "cases oscillator, damped_hang; tests VelocityDamping.*",
     .traits = {.free_at_rest = true, .dissipative = true, .level = LawTraits::Level::kVelocity},
     .parameters = kParameters};
 

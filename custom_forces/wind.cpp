@@ -41,6 +41,7 @@ const LawInfo Wind<Scalar>::kInfo{
         "f = rho (C_n |w.n| (w.n) n + C_t |w_t| w_t) A / 2 per face of area A and normal n, "
         "w = u - v, w_t = w - (w.n) n",
     .source = "quadratic drag, resolved along and across the face",
+    .checked_by = "cases hover, wind_hover; tests Wind.*",
     .traits = {.elements = ElementKind::kFaces},
     .parameters = kParameters};
 

@@ -182,6 +182,7 @@ TEST_P(LawInput, TheRowIsCompleteEnoughForDocumentation) {
   EXPECT_FALSE(info_.summary.empty());
   EXPECT_FALSE(info_.formula.empty());
   EXPECT_FALSE(info_.source.empty());
+  EXPECT_FALSE(info_.checked_by.empty());
   for (const ParameterInfo& parameter : info_.parameters) {
     EXPECT_FALSE(parameter.unit.empty()) << parameter.name;
     EXPECT_FALSE(parameter.summary.empty()) << parameter.name;
