@@ -197,7 +197,9 @@ void HingeTorsion<Scalar>::add_forces(const State<Scalar>& state, Matrix3XRef<Sc
                                       Matrix3XRef<Scalar> forces) const {
   hinges_.add_forces(
       state,
-      [this](Eigen::Index h, const auto& hinge, auto& parts) { add_hinge(h, hinge.x, parts); },
+      [this](Eigen::Index h, const auto& hinge, auto& parts) {
+        this->add_hinge(h, hinge.x, parts);
+      },
       scratch, forces);
 }
 
@@ -208,7 +210,9 @@ void HingeTorsion<Scalar>::add_stiffness_product(const State<Scalar>& state,
                                                  Matrix3XRef<Scalar> product) const {
   hinges_.add_stiffness_product(
       state,
-      [this](Eigen::Index h, const auto& hinge, auto& parts) { add_hinge(h, hinge.x, parts); },
+      [this](Eigen::Index h, const auto& hinge, auto& parts) {
+        this->add_hinge(h, hinge.x, parts);
+      },
       displacements, scratch, product);
 }
 

@@ -249,7 +249,7 @@ template <class Scalar>
 void NonlocalTorsion<Scalar>::add_forces(const State<Scalar>& state, Matrix3XRef<Scalar> scratch,
                                          Matrix3XRef<Scalar> forces) const {
   const auto kernel = [this](Eigen::Index e, const auto& tie, auto& parts) {
-    add_tie(e, tie, parts);
+    this->add_tie(e, tie, parts);
   };
   ties_.add_forces(state, kernel, scratch, forces);
 }
@@ -260,7 +260,7 @@ void NonlocalTorsion<Scalar>::add_stiffness_product(const State<Scalar>& state,
                                                     Matrix3XRef<Scalar> scratch,
                                                     Matrix3XRef<Scalar> product) const {
   const auto kernel = [this](Eigen::Index e, const auto& tie, auto& parts) {
-    add_tie(e, tie, parts);
+    this->add_tie(e, tie, parts);
   };
   ties_.add_stiffness_product(state, kernel, displacements, scratch, product);
 }

@@ -106,7 +106,8 @@ template <class Scalar>
 void Wind<Scalar>::add_forces(const State<Scalar>& state, Matrix3XRef<Scalar> scratch,
                               Matrix3XRef<Scalar> forces) const {
   faces_.add_forces(
-      state, [this](Eigen::Index f, const auto& face, auto& parts) { add_face(f, face, parts); },
+      state,
+      [this](Eigen::Index f, const auto& face, auto& parts) { this->add_face(f, face, parts); },
       scratch, forces);
 }
 
@@ -116,7 +117,8 @@ void Wind<Scalar>::add_stiffness_product(const State<Scalar>& state,
                                          Matrix3XRef<Scalar> scratch,
                                          Matrix3XRef<Scalar> product) const {
   faces_.add_stiffness_product(
-      state, [this](Eigen::Index f, const auto& face, auto& parts) { add_face(f, face, parts); },
+      state,
+      [this](Eigen::Index f, const auto& face, auto& parts) { this->add_face(f, face, parts); },
       displacements, scratch, product);
 }
 
@@ -126,7 +128,8 @@ void Wind<Scalar>::add_damping_product(const State<Scalar>& state,
                                        Matrix3XRef<Scalar> scratch,
                                        Matrix3XRef<Scalar> product) const {
   faces_.add_damping_product(
-      state, [this](Eigen::Index f, const auto& face, auto& parts) { add_face(f, face, parts); },
+      state,
+      [this](Eigen::Index f, const auto& face, auto& parts) { this->add_face(f, face, parts); },
       velocity_changes, scratch, product);
 }
 
@@ -134,7 +137,7 @@ template <class Scalar>
 Scalar Wind<Scalar>::non_conservative_power(const State<Scalar>& state) const {
   return faces_.sum(state, [this](Eigen::Index f, const auto& face) -> Scalar {
     const Vector3<Scalar> speed = (face.v[0] + face.v[1] + face.v[2]) * Scalar(1.0 / 3.0);
-    return face_force(f, face).dot(speed);
+    return this->face_force(f, face).dot(speed);
   });
 }
 

@@ -84,6 +84,10 @@ std::string expected_parameter(const forces::ParameterInfo& parameter) {
 forces::LawSpecification read_law(const TomlTable& table, const Cloth& cloth, const World& world) {
   const forces::LawInfo& info = find_info(table);
   std::vector<std::string_view> keys = {"law"};
+  if (info.traits.needs_closed_surface) {
+    table.require("law", "a law")
+        .fail("needs a closed surface, expected a law for a grid, which is open");
+  }
   const std::string_view sets_key = set_key(info.traits.elements);
   if (!sets_key.empty()) keys.push_back(sets_key);
   for (const forces::ParameterInfo& parameter : info.parameters) keys.push_back(parameter.name);
