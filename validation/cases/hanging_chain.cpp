@@ -37,7 +37,7 @@ double tip_drop(int num_masses, double stiffness) {
 
 void evaluate_hanging_chain(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                             Report& report) {
-  const Tolerance tolerance{1e-10, Basis::kRoundoff,
+  const Tolerance tolerance{1e-12, Basis::kRoundoff,
                             "rounding of a position of up to 3 m (0.1 m for one mass), divided by "
                             "a drop of 0.5 m (1 mm), "
                             "with room for what is left of the motion"};
