@@ -14,7 +14,7 @@ struct MalformedCase {
 };
 
 // clang-format off
-inline constexpr std::array<MalformedCase, 62> kMalformedCases = {{
+inline constexpr std::array<MalformedCase, 65> kMalformedCases = {{
     {"ambiguous_unit", 16, 13, "ambiguous unit 'N/m*rad'"},
     {"bad_name", 2, 8, "expected a name"},
     {"bare_number", 20, 10, "missing unit, expected a length such as \"2 m\""},
