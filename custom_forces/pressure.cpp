@@ -43,7 +43,7 @@ Scalar six_volumes(const Vector3<Scalar>& from, const Vector3<Scalar>& a, const 
 }
 
 Triangles closed_faces(const LawSpecification& specification, const ClothMesh& mesh) {
-  const Triangles faces = law_faces(specification, mesh);
+  Triangles faces = law_faces(specification, mesh);
   if (!is_closed_surface(faces)) {
     throw InvalidArgument(specification.law +
                           ": the surface of the mesh is open, expected every edge to belong to two "

@@ -68,7 +68,7 @@ template <class Number>
 Vector3<Number> Wind<Scalar>::face_force(Eigen::Index f,
                                          const ElementState<Number, 3>& face) const {
   using std::sqrt;
-  const Vector3<Number> none = Vector3<Number>::Constant(Number(Scalar(0)));
+  Vector3<Number> none = Vector3<Number>::Constant(Number(Scalar(0)));
   const Vector3<Number> edge1 = face.x[1] - face.x[0];
   const Vector3<Number> edge2 = face.x[2] - face.x[0];
   const Vector3<Number> normal = edge1.cross(edge2);  // twice the area vector
