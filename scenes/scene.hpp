@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -120,6 +121,8 @@ struct Camera {
 struct Scene {
   std::string name;     ///< identifier, [a-z0-9_]+
   std::string summary;  ///< one sentence, "Shows ..."
+  /// Names of the engines that the scene is made for, the first one is run by default. Empty: all.
+  std::vector<std::string> engines = {};
   World world;
   std::vector<Cloth> cloths;
   std::vector<Collider> colliders;
@@ -131,6 +134,9 @@ struct Scene {
 /// Mesh of a cloth with its pins, connections and regions resolved to node indices.
 /// Throws InvalidArgument if a pin, a region or the far end of a connection holds no node.
 [[nodiscard]] ClothMesh make_mesh(const Cloth& cloth);
+
+/// Whether the scene is made for the engine of this name.
+[[nodiscard]] bool is_for_engine(const Scene& scene, std::string_view engine);
 
 /// The scene with the time step that Bullet takes, which it rounds to single precision in both
 /// builds; duration and frame interval keep their numbers of steps. Engines that are to be compared

@@ -208,6 +208,13 @@ std::string write_scene(const Scene& scene) {
   line(out, "schema", toml_string(kSchema));
   line(out, "name", toml_string(scene.name));
   line(out, "summary", toml_string(scene.summary));
+  if (!scene.engines.empty()) {
+    std::string engines;
+    for (const std::string& engine : scene.engines) {
+      engines += (engines.empty() ? "" : ", ") + toml_string(engine);
+    }
+    line(out, "engines", "[" + engines + "]");
+  }
   out += "\n[world]\n";
   line(out, "gravity", vector_text(scene.world.gravity, "m/s^2"));
   line(out, "time_step", value_text(scene.world.time_step, "s"));
