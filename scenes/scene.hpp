@@ -12,6 +12,7 @@
 #include <weft/custom_forces/core/cloth_grid.hpp>
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
+#include <weft/scenes/shapes.hpp>
 
 namespace weft::scenes {
 
@@ -72,16 +73,6 @@ struct Cloth {
       0.5;  ///< Coulomb coefficient of the cloth [-]; with a collider: the product of both
   std::vector<forces::LawSpecification> laws;
 };
-
-struct SphereShape {
-  double radius;  ///< [m]
-};
-struct BoxShape {
-  Vector3<double> half_extents;  ///< [m]
-};
-/// The half space below the plane through the collider's position with its local y axis as normal.
-struct PlaneShape {};
-using Shape = std::variant<SphereShape, BoxShape, PlaneShape>;
 
 /// A rigid obstacle; with a mass it is a dynamic rigid body that the cloth pushes back.
 struct Collider {

@@ -15,7 +15,9 @@ inline constexpr std::array<std::string_view, 5> kEngineWords = {
 inline constexpr std::array<std::string_view, 3> kStencilWords = {"24-neighbour", "12-neighbour",
                                                                   "8-neighbour"};
 inline constexpr std::array<std::string_view, 2> kLumpingWords = {"area", "uniform"};
-inline constexpr std::array<std::string_view, 3> kShapeWords = {"sphere", "box", "plane"};
+inline constexpr std::array<std::string_view, 10> kShapeWords = {
+    "sphere", "box",         "plane", "capsule",  "cylinder",
+    "cone",   "convex_hull", "mesh",  "compound", "height_field"};
 inline constexpr std::array<std::string_view, 4> kIntegratorWords = {
     "explicit_euler", "modified_euler", "velocity_verlet", "runge_kutta_4"};
 inline constexpr std::array<std::string_view, 2> kContactWords = {"projection", "impulse"};

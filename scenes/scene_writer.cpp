@@ -7,6 +7,7 @@
 #include <weft/scenes/quantity.hpp>
 #include <weft/scenes/scene_file.hpp>
 #include <weft/scenes/scene_words.hpp>
+#include <weft/scenes/shape_writer.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -160,21 +161,10 @@ void write_cloth(std::string& out, const Cloth& cloth) {
   for (const forces::LawSpecification& law : cloth.laws) write_law(out, law);
 }
 
-void write_shape(std::string& out, const SphereShape& sphere) {
-  line(out, "radius", value_text(sphere.radius, "m"));
-}
-
-void write_shape(std::string& out, const BoxShape& box) {
-  line(out, "size", vector_text(2.0 * box.half_extents, "m"));
-}
-
-void write_shape(std::string&, const PlaneShape&) {}
-
 void write_collider(std::string& out, const Collider& collider) {
   out += "\n[[collider]]\n";
   line(out, "name", toml_string(collider.name));
-  line(out, "shape", word(kShapeWords, collider.shape.index()));
-  std::visit([&](const auto& shape) { write_shape(out, shape); }, collider.shape);
+  out += shape_text(collider.shape);
   line(out, "position", vector_text(collider.position, "m"));
   const Eigen::Quaterniond& q = collider.orientation;
   // As a quaternion: axis and angle would not read back to the same bits.
