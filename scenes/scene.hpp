@@ -72,6 +72,10 @@ struct Cloth {
   double friction =
       0.5;  ///< Coulomb coefficient of the cloth [-]; with a collider: the product of both
   std::vector<forces::LawSpecification> laws;
+  bool self_collision = false;
+  /// [m] distance that layers of the cloth keep, > 0; none: twice collision_margin
+  std::optional<double> self_thickness = std::nullopt;
+  bool soft_collision = false;  ///< with the other cloths that say so too
 };
 
 /// A rigid obstacle; with a mass it is a dynamic rigid body that the cloth pushes back.
@@ -86,9 +90,16 @@ struct Collider {
   Vector3<double> angular_velocity{0, 0, 0};  ///< [rad/s], dynamic bodies only
 };
 
+/// How Bullet's classic soft-body world meets a mesh or a height field, which are not convex.
+enum class ConcaveContact {
+  kPrisms,     ///< as a compound of convex solids behind its triangles
+  kTriangles,  ///< as Bullet does by itself: each triangle grown to a slab of 6 cm to both sides
+};
+
 /// Settings of Bullet's own solver, for the engines that use it.
 struct BulletSettings {
   int position_iterations = 20;  ///< >= 1; how often Bullet visits each link and contact per step
+  ConcaveContact concave = ConcaveContact::kPrisms;
 };
 
 enum class Integrator { kExplicitEuler, kModifiedEuler, kVelocityVerlet, kRungeKutta4 };

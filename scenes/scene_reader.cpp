@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 10> kRootKeys = {"schema",    "name",  "s
                                                         "reference", "camera"};
 constexpr std::array<std::string_view, 4> kWorldKeys = {"gravity", "time_step", "duration",
                                                         "frame_interval"};
-constexpr std::array<std::string_view, 1> kBulletKeys = {"position_iterations"};
+constexpr std::array<std::string_view, 2> kBulletKeys = {"position_iterations", "concave"};
 constexpr std::array<std::string_view, 3> kReferenceKeys = {"integrator", "contact", "step_guard"};
 constexpr std::array<std::string_view, 3> kCameraKeys = {"position", "target", "field_of_view"};
 
@@ -90,6 +90,9 @@ BulletSettings read_bullet(const TomlTable& table) {
   BulletSettings settings;
   if (const auto value = table.find("position_iterations")) {
     settings.position_iterations = value->integer(1, kMaxPositionIterations);
+  }
+  if (const auto value = table.find("concave")) {
+    settings.concave = static_cast<ConcaveContact>(value->choice(kConcaveWords, "contact"));
   }
   return settings;
 }

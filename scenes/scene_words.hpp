@@ -22,6 +22,7 @@ inline constexpr std::array<std::string_view, 4> kIntegratorWords = {
     "explicit_euler", "modified_euler", "velocity_verlet", "runge_kutta_4"};
 inline constexpr std::array<std::string_view, 2> kContactWords = {"projection", "impulse"};
 inline constexpr std::array<std::string_view, 3> kStepGuardWords = {"report", "refuse", "substep"};
+inline constexpr std::array<std::string_view, 2> kConcaveWords = {"prisms", "triangles"};
 inline constexpr std::array<std::string_view, 4> kCornerWords = {"-u-v", "+u-v", "-u+v", "+u+v"};
 inline constexpr std::array<std::string_view, 4> kEdgeWords = {"-u", "+u", "-v", "+v"};
 

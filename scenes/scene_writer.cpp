@@ -143,6 +143,9 @@ void write_cloth(std::string& out, const Cloth& cloth) {
   line(out, "collision_margin", value_text(cloth.collision_margin, "m"));
   line(out, "friction", value_text(cloth.friction, "1"));
   line(out, "pin", all_pins_text(cloth));
+  if (cloth.self_collision) line(out, "self_collision", "true");
+  if (cloth.self_thickness) line(out, "self_thickness", value_text(*cloth.self_thickness, "m"));
+  if (cloth.soft_collision) line(out, "soft_collision", "true");
   if (!cloth.connections.empty()) {
     std::string connections;
     for (const Connection& connection : cloth.connections) {
@@ -181,6 +184,7 @@ void write_collider(std::string& out, const Collider& collider) {
 void write_settings(std::string& out, const Scene& scene) {
   out += "\n[bullet]\n";
   line(out, "position_iterations", std::to_string(scene.bullet.position_iterations));
+  line(out, "concave", word(kConcaveWords, scene.bullet.concave));
   out += "\n[reference]\n";
   line(out, "integrator", word(kIntegratorWords, scene.reference.integrator));
   line(out, "contact", word(kContactWords, scene.reference.contact));

@@ -31,7 +31,7 @@ void BulletBodies::add(const Cloth& cloth, const ClothMesh& mesh, btSoftBody& bo
 
 void BulletBodies::add(const Collider& collider, btRigidBody& body) {
   rigids_.push_back(&body);
-  rigid_offsets_.push_back(bullet_shape_offset(collider.shape));
+  rigid_offsets_.push_back(bullet_shape_offset(collider));
   RigidState state;
   state.name = collider.name;
   state_.rigids.push_back(std::move(state));
@@ -61,8 +61,7 @@ void BulletBodies::read_state(double time) {
     const btQuaternion q = transform.getRotation();
     rigid.orientation = Eigen::Quaterniond(static_cast<double>(q.w()), static_cast<double>(q.x()),
                                            static_cast<double>(q.y()), static_cast<double>(q.z()));
-    rigid.position = from_bullet(transform.getOrigin()) +
-                     rigid.orientation * Vector3<double>(0, rigid_offsets_[r], 0);
+    rigid.position = from_bullet(transform.getOrigin()) - rigid.orientation * rigid_offsets_[r];
     rigid.velocity = from_bullet(rigids_[r]->getLinearVelocity());
     rigid.angular_velocity = from_bullet(rigids_[r]->getAngularVelocity());
   }
