@@ -64,6 +64,14 @@ void read_motion(const TomlTable& table, Collider& collider) {
     if (!why.empty()) mass->fail(std::string(why));
     collider.mass = mass->positive("kg");
   }
+  if (const auto path = table.find("path")) {
+    if (collider.mass) path->fail("a mass is given too, expected at most one of the two");
+    if (const auto position = table.find("position")) {
+      position->fail("path is given too, which says where the collider is, expected no position");
+    }
+    collider.path = read_path(*path);
+    collider.position = PathMotion(*collider.path).position(0.0);
+  }
   for (const std::string_view key : {"velocity", "angular_velocity"}) {
     const std::optional<TomlValue> value = table.find(key);
     if (value && !collider.mass) value->fail("a fixed body cannot move, expected a mass as well");
@@ -79,7 +87,7 @@ void read_motion(const TomlTable& table, Collider& collider) {
 Collider read_collider(const TomlTable& table) {
   Collider collider;
   collider.shape = read_shape(table, {"name", "shape", "position", "orientation", "friction",
-                                      "mass", "velocity", "angular_velocity"});
+                                      "mass", "velocity", "angular_velocity", "path"});
   collider.name = table.require("name", "a name such as \"ball\"").identifier();
   if (const auto value = table.find("position")) collider.position = value->vector("m");
   if (const auto value = table.find("orientation")) collider.orientation = read_orientation(*value);

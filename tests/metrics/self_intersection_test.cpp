@@ -73,8 +73,8 @@ TEST(SelfIntersection, AgreesWithEveryPairTriedAlone) {
       const auto nodes = mesh.triangles.col(t).array();
       const auto pierced = mesh.triangles.col(piercing.triangle).array();
       const bool has_edge = (nodes == piercing.from).any() && (nodes == piercing.to).any();
-      const bool is_apart =
-          !((pierced == nodes[0]).any() || (pierced == nodes[1]).any() || (pierced == nodes[2]).any());
+      const bool is_apart = !((pierced == nodes[0]).any() || (pierced == nodes[1]).any() ||
+                              (pierced == nodes[2]).any());
       weighted += has_edge && is_apart ? 1 : 0;
     }
   }

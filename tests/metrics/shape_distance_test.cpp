@@ -153,8 +153,8 @@ TEST(ShapeSurface, VolumesAndInertiasAreThoseOfTheSolids) {
 TEST(ShapeSurface, HullLeavesOutPointsInsideAndOnFaces) {
   ConvexHullShape hull = cube_points(1.0);
   hull.points.conservativeResize(3, 11);
-  hull.points.col(8) = Vector3<double>(0.1, 0.2, 0.3);  // inside
-  hull.points.col(9) = Vector3<double>(1.0, 0.2, 0.3);  // on a face
+  hull.points.col(8) = Vector3<double>(0.1, 0.2, 0.3);   // inside
+  hull.points.col(9) = Vector3<double>(1.0, 0.2, 0.3);   // on a face
   hull.points.col(10) = Vector3<double>(1.0, 1.0, 0.3);  // on an edge
   EXPECT_EQ(hull_surface(hull).triangles.cols(), 12);
   hull.points.row(1).setZero();

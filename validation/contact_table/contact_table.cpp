@@ -16,7 +16,7 @@ constexpr double kClothSize = 1.0;  // [m]
 constexpr int kNodes = 21;          // along one side
 /// [s] from the meeting on: what tunnels has passed by then, what rests has come to rest.
 constexpr double kDuration = 0.75;
-constexpr double kBrakeDistance = 0.6;  // [m] that a kinematic collider goes before it stops
+constexpr double kLedDistance = 0.6;  // [m] that a kinematic collider goes before and after
 
 scenes::Cloth thrown_cloth(double speed, double margin) {
   scenes::Cloth cloth;
@@ -34,13 +34,16 @@ scenes::Cloth thrown_cloth(double speed, double margin) {
   return cloth;
 }
 
-/// Comes down on a cloth that is held at its border, and stops below it.
-scenes::Path stopping_path(const Vector3<double>& start, double speed) {
-  const double time = kBrakeDistance / speed;
+double led_duration(double speed) {
+  return 1.5 * 2.0 * kLedDistance / speed;
+}
+
+/// From rest to rest, through `meeting` half way, where it is fastest: 1.5 times the mean.
+scenes::Path led_path(const Vector3<double>& meeting, double speed) {
+  const Vector3<double> half(0, -kLedDistance, 0);
   scenes::Path path;
-  path.times = {0.0, time, time + 10.0};
-  const Vector3<double> end = start - Vector3<double>(0, kBrakeDistance, 0);
-  path.points = {start, end, end};
+  path.times = {0.0, led_duration(speed)};
+  path.points = {meeting - half, meeting + half};
   return path;
 }
 
@@ -52,7 +55,9 @@ scenes::Scene contact_scene(const ContactTarget& target, double time_step, doubl
   scenes::Scene scene;
   scene.name = "contact_table";
   scene.world.time_step = time_step;
-  scene.world.duration = std::ceil((kDuration + kGap / speed) / time_step) * time_step;
+  const double meeting =
+      target.mover == Mover::kKinematic ? 0.5 * led_duration(speed) : kGap / speed;
+  scene.world.duration = std::ceil((kDuration + meeting) / time_step) * time_step;
   scene.world.frame_interval = time_step;
   scene.bullet.position_iterations = 10;
   scene.bullet.concave = target.concave;
@@ -67,7 +72,11 @@ scenes::Scene contact_scene(const ContactTarget& target, double time_step, doubl
     }
     collider.position.y() = target.radius + kMargin + kGap;
   }
-  if (target.mover == Mover::kKinematic) collider.path = stopping_path(collider.position, speed);
+  if (target.mover == Mover::kKinematic) {
+    collider.position.y() -= kGap;
+    collider.path = led_path(collider.position, speed);
+    collider.position = collider.path->points.front();
+  }
   if (target.mover == Mover::kDynamic) {
     collider.mass = 1.0;
     collider.velocity = {0, -speed, 0};
