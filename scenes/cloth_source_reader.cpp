@@ -91,7 +91,7 @@ ClothGrid read_grid(const TomlTable& cloth) {
 std::optional<double> read_center_node(const TomlTable& table) {
   const std::optional<TomlValue> share = table.find("center_mass_share");
   const std::optional<TomlValue> center = table.find("center_node");
-  if (!center || !center->flag()) {
+  if (!center || !center->boolean()) {
     if (share) share->fail("there is no centre node, expected center_node = true as well");
     return std::nullopt;
   }

@@ -11,8 +11,8 @@
 namespace weft::scenes {
 namespace {
 
-constexpr std::array<std::string_view, 6> kMovingPinKeys = {"corner", "edge",  "box",
-                                                            "sphere", "nodes", "velocity"};
+constexpr std::array<std::string_view, 7> kMovingPinKeys = {
+    "corner", "edge", "box", "sphere", "nodes", "velocity", "path"};
 constexpr Keys kPinKeys = Keys(kMovingPinKeys).first(5);
 constexpr std::array<std::string_view, 2> kBoxKeys = {"min", "max"};
 constexpr std::array<std::string_view, 2> kSphereKeys = {"center", "radius"};
@@ -150,8 +150,13 @@ void read_cloth_pins(const TomlValue& value, Cloth& cloth) {
     table.allow(kMovingPinKeys);
     const Pin pin = read_pin(table, cloth);
     check_holds_nodes(entry, pin, cloth);
-    if (const auto velocity = table.find("velocity")) {
+    const auto velocity = table.find("velocity");
+    const auto path = table.find("path");
+    if (velocity && path) velocity->fail("path is given too, expected at most one of the two");
+    if (velocity) {
       cloth.moving_pins.push_back({pin, velocity->vector("m/s")});
+    } else if (path) {
+      cloth.moving_pins.push_back({.nodes = pin, .path = read_path(*path)});
     } else {
       cloth.pins.push_back(pin);
     }
