@@ -24,6 +24,8 @@ Eigen::Quaterniond read_quaternion(const TomlValue& value) {
   return std::abs(norm - 1) <= kUnitTolerance ? q : q.normalized();
 }
 
+}  // namespace
+
 Eigen::Quaterniond read_orientation(const TomlTable& table) {
   table.allow(kOrientationKeys);
   if (const auto quaternion = table.find("quaternion")) {
@@ -41,6 +43,8 @@ Eigen::Quaterniond read_orientation(const TomlTable& table) {
   const double angle = table.require("angle", expected_quantity("rad")).quantity("rad");
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis / norm)).normalized();
 }
+
+namespace {
 
 Vector3<double> read_half_extents(const TomlValue& value, const std::string& expected) {
   Vector3<double> half;

@@ -8,9 +8,9 @@
 
 #include <Eigen/Geometry>
 
-#include <weft/custom_forces/core/cloth_grid.hpp>
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
+#include <weft/scenes/cloth_source.hpp>
 #include <weft/scenes/motion/path.hpp>
 
 namespace weft::scenes {
@@ -25,7 +25,7 @@ struct World {
   double frame_interval = 0.02;  ///< [s] between recorded frames; a whole number of time steps
 };
 
-/// Which grid nodes a pin holds.
+/// Which nodes a pin holds. Corners and edges are those of a grid.
 struct CornerPin {
   int u = 0;  ///< 0 = first column, -1 = last column
   int v = 0;  ///< 0 = first row, -1 = last row
@@ -38,7 +38,14 @@ struct BoxPin {
   Vector3<double> minimum;  ///< [m]
   Vector3<double> maximum;  ///< [m]
 };
-using Pin = std::variant<CornerPin, EdgePin, BoxPin>;
+struct SpherePin {
+  Vector3<double> center;  ///< [m]
+  double radius;           ///< [m]
+};
+struct NodePin {
+  std::vector<int> nodes;  ///< at least one
+};
+using Pin = std::variant<CornerPin, EdgePin, BoxPin, SpherePin, NodePin>;
 
 /// Nodes that are pinned and move: with a constant velocity, or with a frame that follows a path.
 struct MovingPin {
@@ -58,11 +65,13 @@ struct Connection {
   std::string name;
   std::array<int, 2> node{0, 0};  ///< column and row; negative values count from the far side
   std::vector<Pin> to;            ///< regions of far nodes; empty: every other node
+  /// Number of the node, in place of column and row; a source that is no grid needs it.
+  std::optional<int> node_number = std::nullopt;
 };
 
 struct Cloth {
   std::string name;
-  ClothGrid grid;
+  ClothSource source = ClothGrid();
   std::vector<Pin> pins;
   std::vector<MovingPin> moving_pins = {};  ///< a node of several moves with the last of them
   std::vector<Connection> connections = {};
@@ -72,6 +81,10 @@ struct Cloth {
   double friction =
       0.5;  ///< Coulomb coefficient of the cloth [-]; with a collider: the product of both
   std::vector<forces::LawSpecification> laws;
+
+  /// The source as a grid. Throws InvalidArgument if it is something else.
+  [[nodiscard]] ClothGrid& grid();
+  [[nodiscard]] const ClothGrid& grid() const;
 };
 
 struct SphereShape {
@@ -161,7 +174,8 @@ struct Scene {
 };
 
 /// Mesh of a cloth with its pins, connections and regions resolved to node indices.
-/// Throws InvalidArgument if a pin, a region or the far end of a connection holds no node.
+/// Throws InvalidArgument if a pin, a region or the far end of a connection holds no node, if one of
+/// them names a node that is not there, and for corners and edges of what is no grid.
 [[nodiscard]] ClothMesh make_mesh(const Cloth& cloth);
 
 /// The nodes of its mesh that a pin or region of the cloth holds, sorted.

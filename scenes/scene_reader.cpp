@@ -120,7 +120,7 @@ void read_bodies(const TomlTable& root, Scene& scene) {
   for (const TomlTable& table : root.tables("cloth")) {
     const Cloth& cloth = scene.cloths.emplace_back(read_cloth(table, scene.world));
     claim(table, cloth.name);
-    num_nodes += static_cast<long long>(cloth.grid.nodes[0]) * cloth.grid.nodes[1];
+    num_nodes += scenes::num_nodes(cloth.source);
     if (num_nodes > kMaxNodes) {
       table.fail(fmt::format("the cloths have {} nodes in all, expected at most {}", num_nodes,
                              kMaxNodes));

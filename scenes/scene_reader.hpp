@@ -14,7 +14,13 @@ inline constexpr int kMaxNodes = 1'000'000;   ///< of all cloths together
 [[nodiscard]] World read_world(const TomlTable& table);
 [[nodiscard]] Cloth read_cloth(const TomlTable& table, const World& world);
 [[nodiscard]] Collider read_collider(const TomlTable& table);
-/// cloth: the grid says which edge sets there are; world: gravity, if the law names no
+/// Keys of a cloth that say where its nodes come from and what they weigh: those of the source that
+/// the table names.
+[[nodiscard]] std::vector<std::string_view> cloth_source_keys(const TomlTable& table);
+[[nodiscard]] ClothSource read_cloth_source(const TomlTable& table);
+/// A table { axis, angle } or { quaternion }; of unit length.
+[[nodiscard]] Eigen::Quaterniond read_orientation(const TomlTable& table);
+/// cloth: the source says which edge sets there are; world: gravity, if the law names no
 /// acceleration.
 [[nodiscard]] forces::LawSpecification read_law(const TomlTable& table, const Cloth& cloth,
                                                 const World& world);
@@ -22,5 +28,7 @@ inline constexpr int kMaxNodes = 1'000'000;   ///< of all cloths together
 /// scene: its cloths say which there are.
 [[nodiscard]] ControllerSettings read_controller(const TomlTable& table, const Scene& scene);
 [[nodiscard]] std::vector<Pin> read_pins(const TomlValue& value, const Cloth& cloth);
+/// The pins of a cloth, which may move.
+void read_cloth_pins(const TomlValue& value, Cloth& cloth);
 
 }  // namespace weft::scenes

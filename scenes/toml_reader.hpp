@@ -32,7 +32,9 @@ class TomlValue {
   [[nodiscard]] double non_negative(std::string_view unit) const;
   [[nodiscard]] int integer(int minimum, int maximum) const;
   [[nodiscard]] bool boolean() const;
+  [[nodiscard]] bool is_integer() const { return node_->is_integer(); }
   [[nodiscard]] bool is_table() const { return node_->is_table(); }
+  [[nodiscard]] bool is_text() const { return node_->is_string(); }
   [[nodiscard]] std::string text() const;
   /// Letters, digits, '_' and '-', at most 64 of them.
   [[nodiscard]] std::string identifier() const;
