@@ -42,6 +42,7 @@ int run(int argc, char** argv) {
   actions["run"] = add_run_command(parser, command_line);
   actions["render"] = add_render_command(parser);
   actions["check"] = add_check_command(parser);
+  actions["contact-table"] = add_contact_table_command(parser);
   actions["stability"] = add_stability_command(parser);
   actions["validate"] = add_validate_command(parser, command_line);
 

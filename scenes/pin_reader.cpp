@@ -11,8 +11,8 @@
 namespace weft::scenes {
 namespace {
 
-constexpr std::array<std::string_view, 7> kMovingPinKeys = {
-    "corner", "edge", "box", "sphere", "nodes", "velocity", "path"};
+constexpr std::array<std::string_view, 7> kMovingPinKeys = {"corner", "edge",     "box", "sphere",
+                                                            "nodes",  "velocity", "path"};
 constexpr Keys kPinKeys = Keys(kMovingPinKeys).first(5);
 constexpr std::array<std::string_view, 2> kBoxKeys = {"min", "max"};
 constexpr std::array<std::string_view, 2> kSphereKeys = {"center", "radius"};

@@ -19,7 +19,9 @@ inline constexpr int kMaxNodes = 1'000'000;   ///< of all cloths together
 [[nodiscard]] std::vector<std::string_view> cloth_source_keys(const TomlTable& table);
 [[nodiscard]] ClothSource read_cloth_source(const TomlTable& table);
 /// A table { axis, angle } or { quaternion }; of unit length.
-[[nodiscard]] Eigen::Quaterniond read_orientation(const TomlTable& table);
+[[nodiscard]] Eigen::Quaterniond read_orientation(const TomlValue& value);
+/// The shape of a collider; other_keys: what its table may hold beside.
+[[nodiscard]] Shape read_shape(const TomlTable& table, std::vector<std::string_view> other_keys);
 /// cloth: the source says which edge sets there are; world: gravity, if the law names no
 /// acceleration.
 [[nodiscard]] forces::LawSpecification read_law(const TomlTable& table, const Cloth& cloth,

@@ -6,6 +6,7 @@
 #include <weft/scenes/scene_file.hpp>
 #include <weft/scenes/scene_text.hpp>
 #include <weft/scenes/scene_words.hpp>
+#include <weft/scenes/shape_writer.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -136,6 +137,9 @@ void write_cloth(std::string& out, const Cloth& cloth) {
   line(out, "collision_margin", value_text(cloth.collision_margin, "m"));
   line(out, "friction", value_text(cloth.friction, "1"));
   line(out, "pin", all_pins_text(cloth));
+  if (cloth.self_collision) line(out, "self_collision", "true");
+  if (cloth.self_thickness) line(out, "self_thickness", value_text(*cloth.self_thickness, "m"));
+  if (cloth.soft_collision) line(out, "soft_collision", "true");
   if (!cloth.connections.empty()) {
     std::string connections;
     for (const Connection& connection : cloth.connections) {
@@ -154,21 +158,10 @@ void write_cloth(std::string& out, const Cloth& cloth) {
   for (const forces::LawSpecification& law : cloth.laws) write_law(out, law);
 }
 
-void write_shape(std::string& out, const SphereShape& sphere) {
-  line(out, "radius", value_text(sphere.radius, "m"));
-}
-
-void write_shape(std::string& out, const BoxShape& box) {
-  line(out, "size", vector_text(2.0 * box.half_extents, "m"));
-}
-
-void write_shape(std::string&, const PlaneShape&) {}
-
 void write_collider(std::string& out, const Collider& collider) {
   out += "\n[[collider]]\n";
   line(out, "name", toml_string(collider.name));
-  line(out, "shape", word(kShapeWords, collider.shape.index()));
-  std::visit([&](const auto& shape) { write_shape(out, shape); }, collider.shape);
+  out += shape_text(collider.shape);
   if (collider.path) {
     line(out, "path", path_text(*collider.path));
   } else {
@@ -207,6 +200,7 @@ void write_controller(std::string& out, const Roll& roll) {
 void write_settings(std::string& out, const Scene& scene) {
   out += "\n[bullet]\n";
   line(out, "position_iterations", std::to_string(scene.bullet.position_iterations));
+  line(out, "concave", word(kConcaveWords, scene.bullet.concave));
   out += "\n[reference]\n";
   line(out, "integrator", word(kIntegratorWords, scene.reference.integrator));
   line(out, "contact", word(kContactWords, scene.reference.contact));
@@ -224,6 +218,13 @@ std::string write_scene(const Scene& scene) {
   line(out, "schema", toml_string(kSchema));
   line(out, "name", toml_string(scene.name));
   line(out, "summary", toml_string(scene.summary));
+  if (!scene.engines.empty()) {
+    std::string engines;
+    for (const std::string& engine : scene.engines) {
+      engines += (engines.empty() ? "" : ", ") + toml_string(engine);
+    }
+    line(out, "engines", "[" + engines + "]");
+  }
   out += "\n[world]\n";
   line(out, "gravity", vector_text(scene.world.gravity, "m/s^2"));
   line(out, "time_step", value_text(scene.world.time_step, "s"));
