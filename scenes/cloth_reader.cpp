@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/scenes/appearance_reader.hpp>
 #include <weft/scenes/quantity.hpp>
 #include <weft/scenes/scene_reader.hpp>
 #include <weft/scenes/scene_words.hpp>
@@ -218,7 +219,9 @@ std::vector<Pin> read_pins(const TomlValue& value, const Cloth& cloth) {
 }
 
 Cloth read_cloth(const TomlTable& table, const World& world) {
-  table.allow(kClothKeys);
+  std::vector<std::string_view> keys(kClothKeys.begin(), kClothKeys.end());
+  keys.insert(keys.end(), kClothAppearanceKeys.begin(), kClothAppearanceKeys.end());
+  table.allow(keys);
   Cloth cloth;
   cloth.name = table.require("name", "a name such as \"cloth\"").identifier();
   const std::string grid = "a table such as { nodes = [50, 50], size = [\"1 m\", \"1 m\"] }";
@@ -239,6 +242,7 @@ Cloth read_cloth(const TomlTable& table, const World& world) {
   }
   if (const auto value = table.find("region")) cloth.regions = read_regions(*value, cloth);
   read_laws(table, world, cloth);
+  cloth.appearance = read_appearance(table);
   return cloth;
 }
 

@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include <weft/scenes/appearance_reader.hpp>
 #include <weft/scenes/quantity.hpp>
 #include <weft/scenes/scene_reader.hpp>
 #include <weft/scenes/scene_words.hpp>
@@ -54,6 +55,7 @@ Vector3<double> read_half_extents(const TomlValue& value, const std::string& exp
 Shape read_shape(const TomlTable& table, std::string_view word) {
   std::vector<std::string_view> keys = {"name",     "shape", "position", "orientation",
                                         "friction", "mass",  "velocity", "angular_velocity"};
+  keys.insert(keys.end(), kColliderAppearanceKeys.begin(), kColliderAppearanceKeys.end());
   if (word == "sphere") {
     keys.push_back("radius");
     table.allow(keys);
@@ -101,6 +103,7 @@ Collider read_collider(const TomlTable& table) {
   }
   if (const auto value = table.find("friction")) collider.friction = value->non_negative("1");
   read_motion(table, collider);
+  collider.appearance = read_appearance(table);
   return collider;
 }
 

@@ -11,6 +11,7 @@
 #include <weft/custom_forces/core/cloth_grid.hpp>
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
+#include <weft/scenes/appearance.hpp>
 
 namespace weft::scenes {
 
@@ -70,6 +71,7 @@ struct Cloth {
   double friction =
       0.5;  ///< Coulomb coefficient of the cloth [-]; with a collider: the product of both
   std::vector<forces::LawSpecification> laws;
+  Appearance appearance = {};
 };
 
 struct SphereShape {
@@ -92,6 +94,7 @@ struct Collider {
   std::optional<double> mass = std::nullopt;  ///< [kg]; none: fixed
   Vector3<double> velocity{0, 0, 0};          ///< [m/s], dynamic bodies only
   Vector3<double> angular_velocity{0, 0, 0};  ///< [rad/s], dynamic bodies only
+  Appearance appearance = {};
 };
 
 /// Settings of Bullet's own solver, for the engines that use it.
@@ -115,6 +118,9 @@ struct Camera {
   Vector3<double> position{8, 6, 10};  ///< [m]
   Vector3<double> target{0, 1, 0};     ///< [m]
   double field_of_view = 0.6;          ///< vertical [rad]
+  std::string follow = {};             ///< name of a body that it keeps in view; empty: none
+  /// [s] of the most telling picture; none: the last one.
+  std::optional<double> poster_time = std::nullopt;
 };
 
 struct Scene {
@@ -126,6 +132,7 @@ struct Scene {
   BulletSettings bullet;
   ReferenceSettings reference;
   Camera camera;
+  std::vector<SceneFile> files = {};  ///< those that appearances name, each once
 };
 
 /// Mesh of a cloth with its pins, connections and regions resolved to node indices.

@@ -14,6 +14,8 @@ inline constexpr std::array<std::string_view, 3> kStencilWords = {"24-neighbour"
                                                                   "8-neighbour"};
 inline constexpr std::array<std::string_view, 2> kLumpingWords = {"area", "uniform"};
 inline constexpr std::array<std::string_view, 3> kShapeWords = {"sphere", "box", "plane"};
+inline constexpr std::array<std::string_view, 7> kPatternWords = {
+    "plain", "checks", "stripes", "dots", "tartan", "carpet", "eyeball"};
 inline constexpr std::array<std::string_view, 4> kIntegratorWords = {
     "explicit_euler", "modified_euler", "velocity_verlet", "runge_kutta_4"};
 inline constexpr std::array<std::string_view, 2> kContactWords = {"projection", "impulse"};

@@ -4,45 +4,26 @@
 #include <fmt/format.h>
 
 #include <weft/custom_forces/registry.hpp>
+#include <weft/scenes/appearance_reader.hpp>
 #include <weft/scenes/quantity.hpp>
 #include <weft/scenes/scene_file.hpp>
 #include <weft/scenes/scene_words.hpp>
+#include <weft/scenes/toml_text.hpp>
 
 namespace weft::scenes {
 namespace {
-
-/// TOML number that reads back to the same bits: a decimal point or exponent keeps it a float.
-std::string number_text(double value) {
-  std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
-  return text;
-}
 
 std::string value_text(double value, std::string_view unit) {
   if (!std::isfinite(value)) {
     throw InvalidArgument(
         fmt::format("write_scene: a value = {} [{}], expected finite", value, unit));
   }
-  return unit == "1" ? number_text(value) : "\"" + format_quantity(value, unit) + "\"";
+  return unit == "1" ? toml_number(value) : "\"" + format_quantity(value, unit) + "\"";
 }
 
 std::string vector_text(const Vector3<double>& vector, std::string_view unit) {
   return fmt::format("[{}, {}, {}]", value_text(vector.x(), unit), value_text(vector.y(), unit),
                      value_text(vector.z(), unit));
-}
-
-std::string toml_string(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20U || byte == 0x7FU) {
-      result += fmt::format("\\u{:04X}", byte);
-    } else {
-      if (c == '"' || c == '\\') result += '\\';
-      result += c;
-    }
-  }
-  return result + "\"";
 }
 
 void line(std::string& out, std::string_view key, const std::string& value) {
@@ -157,6 +138,7 @@ void write_cloth(std::string& out, const Cloth& cloth) {
     }
     line(out, "region", "[" + regions + "]");
   }
+  out += write_appearance(cloth.appearance);
   for (const forces::LawSpecification& law : cloth.laws) write_law(out, law);
 }
 
@@ -182,6 +164,7 @@ void write_collider(std::string& out, const Collider& collider) {
        fmt::format("{{ quaternion = [{}, {}, {}, {}] }}", value_text(q.w(), "1"),
                    value_text(q.x(), "1"), value_text(q.y(), "1"), value_text(q.z(), "1")));
   line(out, "friction", value_text(collider.friction, "1"));
+  out += write_appearance(collider.appearance);
   if (!collider.mass) return;
   line(out, "mass", value_text(*collider.mass, "kg"));
   line(out, "velocity", vector_text(collider.velocity, "m/s"));
@@ -199,6 +182,10 @@ void write_settings(std::string& out, const Scene& scene) {
   line(out, "position", vector_text(scene.camera.position, "m"));
   line(out, "target", vector_text(scene.camera.target, "m"));
   line(out, "field_of_view", value_text(scene.camera.field_of_view, "rad"));
+  if (!scene.camera.follow.empty()) line(out, "follow", toml_string(scene.camera.follow));
+  if (scene.camera.poster_time) {
+    line(out, "poster_time", value_text(*scene.camera.poster_time, "s"));
+  }
 }
 
 }  // namespace

@@ -117,6 +117,12 @@ int TomlValue::integer(int minimum, int maximum) const {
   return static_cast<int>(number->get());
 }
 
+bool TomlValue::flag() const {
+  const auto* value = node_->as_boolean();
+  if (value == nullptr) fail("expected true or false");
+  return value->get();
+}
+
 std::string TomlValue::text() const {
   const auto* text = node_->as_string();
   if (text == nullptr) fail("expected a text in quotes");

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <weft/scenes/playback/collider_mesh.hpp>
+
 namespace weft::scenes {
 namespace {
 
@@ -11,14 +13,8 @@ using Box = Eigen::AlignedBox3d;
 
 Box collider_box(const Collider& collider) {
   Box box;
-  if (const auto* sphere = std::get_if<SphereShape>(&collider.shape)) {
-    box.extend(collider.position + Vector3<double>::Constant(sphere->radius));
-    box.extend(collider.position - Vector3<double>::Constant(sphere->radius));
-  } else if (const auto* shape = std::get_if<BoxShape>(&collider.shape)) {
-    const Vector3<double> half =
-        collider.orientation.toRotationMatrix().cwiseAbs() * shape->half_extents;
-    box.extend(collider.position + half);
-    box.extend(collider.position - half);
+  for (const SurfaceVertex& vertex : collider_surface(collider.shape).vertices) {
+    box.extend(collider.position + collider.orientation * vertex.position.cast<double>());
   }
   return box;
 }
@@ -81,6 +77,8 @@ Stage make_stage(const Scene& scene) {
   stage.ground_is_collider = plane != nullptr;
   stage.ground_position = {stage.center.x(), lowest, stage.center.z()};
   if (plane != nullptr) {
+    stage.ground_is_visible = plane->appearance.visible;
+    stage.ground_color = plane->appearance.color;
     // The foot of the centre on the plane: the ground's mesh is fine only around its middle.
     const Vector3<double> normal = plane->orientation * Vector3<double>::UnitY();
     const double height = normal.dot(stage.center - plane->position);
@@ -90,12 +88,28 @@ Stage make_stage(const Scene& scene) {
   return stage;
 }
 
-double state_radius(const Stage& stage, const SceneState& state) {
+Vector3<double> camera_shift(const Scene& scene, const std::vector<ClothMesh>& meshes,
+                             const SceneState& state) {
+  Vector3<double> shift(0, 0, 0);
+  const std::string& name = scene.camera.follow;
+  if (name.empty()) return shift;
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+    if (scene.cloths[i].name != name) continue;
+    shift = state.cloths[i].positions.rowwise().mean() - meshes[i].rest_positions.rowwise().mean();
+  }
+  for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
+    if (scene.colliders[i].name == name)
+      shift = state.rigids[i].position - scene.colliders[i].position;
+  }
+  return shift.allFinite() ? shift : Vector3<double>(0, 0, 0);
+}
+
+double state_radius(const Stage& stage, const Vector3<double>& shift, const SceneState& state) {
   constexpr double kStep = 1.25;
   const double largest = 8.0 * stage.radius;
   double needed = stage.radius;
   const auto include = [&](const Vector3<double>& x) {
-    const double distance = (x - stage.center).norm();
+    const double distance = (x - stage.center - shift).norm();
     if (std::isfinite(distance) && distance <= largest) needed = std::max(needed, distance);
   };
   for (const ClothState& cloth : state.cloths) {
@@ -145,7 +159,8 @@ View make_view(const Camera& camera, const Stage& stage, double aspect_ratio) {
   return {(clip_from_eye * eye_from_world).cast<float>(), eye.cast<float>()};
 }
 
-Eigen::Matrix4f light_matrix(const Eigen::Vector3f& towards_light, double radius) {
+Eigen::Matrix4f light_matrix(const Eigen::Vector3f& towards_light, const Eigen::Vector3f& center,
+                             double radius) {
   const Eigen::Vector3f back = towards_light.normalized();
   const Eigen::Vector3f helper =
       std::abs(back.y()) < 0.9f ? Eigen::Vector3f::UnitY() : Eigen::Vector3f::UnitX();
@@ -155,6 +170,7 @@ Eigen::Matrix4f light_matrix(const Eigen::Vector3f& towards_light, double radius
   matrix.block<1, 3>(0, 0) = scale * right.transpose();
   matrix.block<1, 3>(1, 0) = scale * back.cross(right).transpose();
   matrix.block<1, 3>(2, 0) = -scale * back.transpose();
+  matrix.block<3, 1>(0, 3) = -matrix.block<3, 3>(0, 0) * center;
   return matrix;
 }
 
