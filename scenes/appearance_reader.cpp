@@ -77,8 +77,8 @@ Appearance read_appearance(const TomlTable& table) {
   }
   if (const auto value = table.find("texture")) read_texture(*value, appearance);
   if (const auto value = table.find("texture_repeat")) read_repeat(*value, appearance);
-  if (const auto value = table.find("smooth")) appearance.smooth = value->flag();
-  if (const auto value = table.find("visible")) appearance.visible = value->flag();
+  if (const auto value = table.find("smooth")) appearance.smooth = value->boolean();
+  if (const auto value = table.find("visible")) appearance.visible = value->boolean();
   return appearance;
 }
 

@@ -19,7 +19,8 @@ constexpr std::array<std::string_view, 15> kClothKeys = {
     "law",  "velocity",      "pin",          "connection",       "region"};
 constexpr std::array<std::string_view, 3> kGridKeys = {"nodes", "size", "stencil"};
 constexpr std::array<std::string_view, 3> kPinKeys = {"corner", "edge", "box"};
-constexpr std::array<std::string_view, 4> kMovingPinKeys = {"corner", "edge", "box", "velocity"};
+constexpr std::array<std::string_view, 5> kMovingPinKeys = {"corner", "edge", "box", "velocity",
+                                                            "path"};
 constexpr std::array<std::string_view, 2> kRegionKeys = {"name", "nodes"};
 constexpr std::array<std::string_view, 2> kBoxPinKeys = {"min", "max"};
 constexpr std::array<std::string_view, 3> kConnectionKeys = {"name", "node", "to"};
@@ -197,8 +198,13 @@ void read_cloth_pins(const TomlValue& value, Cloth& cloth) {
     table.allow(kMovingPinKeys);
     const Pin pin = read_pin(table);
     check_holds_nodes(entry, pin, cloth);
-    if (const auto velocity = table.find("velocity")) {
+    const auto velocity = table.find("velocity");
+    const auto path = table.find("path");
+    if (velocity && path) velocity->fail("path is given too, expected at most one of the two");
+    if (velocity) {
       cloth.moving_pins.push_back({pin, velocity->vector("m/s")});
+    } else if (path) {
+      cloth.moving_pins.push_back({.nodes = pin, .path = read_path(*path)});
     } else {
       cloth.pins.push_back(pin);
     }

@@ -54,7 +54,8 @@ Vector3<double> read_half_extents(const TomlValue& value, const std::string& exp
 
 Shape read_shape(const TomlTable& table, std::string_view word) {
   std::vector<std::string_view> keys = {"name",     "shape", "position", "orientation",
-                                        "friction", "mass",  "velocity", "angular_velocity"};
+                                        "friction", "mass",  "velocity", "angular_velocity",
+                                        "path"};
   keys.insert(keys.end(), kColliderAppearanceKeys.begin(), kColliderAppearanceKeys.end());
   if (word == "sphere") {
     keys.push_back("radius");
@@ -77,6 +78,14 @@ void read_motion(const TomlTable& table, Collider& collider) {
       mass->fail("a plane cannot move, expected no mass");
     }
     collider.mass = mass->positive("kg");
+  }
+  if (const auto path = table.find("path")) {
+    if (collider.mass) path->fail("a mass is given too, expected at most one of the two");
+    if (const auto position = table.find("position")) {
+      position->fail("path is given too, which says where the collider is, expected no position");
+    }
+    collider.path = read_path(*path);
+    collider.position = PathMotion(*collider.path).position(0.0);
   }
   for (const std::string_view key : {"velocity", "angular_velocity"}) {
     const std::optional<TomlValue> value = table.find(key);

@@ -24,8 +24,8 @@ bool holds(const BoxPin& pin, const ClothGrid&, const Vector3<double>& position,
 }
 
 /// The nodes that at least one of the regions holds, sorted. what: "pin".
-std::vector<int> nodes_of(const std::vector<Pin>& regions, const Cloth& cloth,
-                          const ClothMesh& mesh, const std::string& what) {
+std::vector<int> nodes_of_all(const std::vector<Pin>& regions, const Cloth& cloth,
+                              const ClothMesh& mesh, const std::string& what) {
   std::vector<bool> held(static_cast<std::size_t>(mesh.num_nodes()), false);
   for (const Pin& region : regions) {
     bool any = false;
@@ -54,7 +54,7 @@ void add_connection(const Connection& connection, const Cloth& cloth, ClothMesh&
     far.resize(static_cast<std::size_t>(mesh.num_nodes()));
     std::iota(far.begin(), far.end(), 0);
   } else {
-    far = nodes_of(connection.to, cloth, mesh, "connection");
+    far = nodes_of_all(connection.to, cloth, mesh, "connection");
   }
   far.erase(std::remove(far.begin(), far.end(), node), far.end());
   connect(mesh, connection.name, node, far);
@@ -65,22 +65,26 @@ void add_pins(const Cloth& cloth, ClothMesh& mesh) {
   Matrix3X<double> velocities = Matrix3X<double>::Zero(3, mesh.num_nodes());
   std::vector<Pin> pins = cloth.pins;
   for (const MovingPin& pin : cloth.moving_pins) {
-    for (const int node : nodes_of({pin.nodes}, cloth, mesh, "pin")) {
+    for (const int node : nodes_of(pin.nodes, cloth, mesh)) {
       velocities.col(node) = pin.velocity;
     }
     pins.push_back(pin.nodes);
   }
-  mesh.pinned = nodes_of(pins, cloth, mesh, "pin");
+  mesh.pinned = nodes_of_all(pins, cloth, mesh, "pin");
   if (!cloth.moving_pins.empty()) mesh.pinned_velocities = velocities(Eigen::all, mesh.pinned);
 }
 
 }  // namespace
 
+std::vector<int> nodes_of(const Pin& pin, const Cloth& cloth, const ClothMesh& mesh) {
+  return nodes_of_all({pin}, cloth, mesh, "pin");
+}
+
 ClothMesh make_mesh(const Cloth& cloth) {
   ClothMesh mesh = make_cloth_grid(cloth.grid);
   add_pins(cloth, mesh);
   for (const Region& region : cloth.regions) {
-    mesh.node_sets.push_back({region.name, nodes_of(region.nodes, cloth, mesh, "region")});
+    mesh.node_sets.push_back({region.name, nodes_of_all(region.nodes, cloth, mesh, "region")});
   }
   for (const Connection& connection : cloth.connections) add_connection(connection, cloth, mesh);
   return mesh;

@@ -12,6 +12,7 @@
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
 #include <weft/scenes/appearance.hpp>
+#include <weft/scenes/motion/path.hpp>
 
 namespace weft::scenes {
 
@@ -40,10 +41,11 @@ struct BoxPin {
 };
 using Pin = std::variant<CornerPin, EdgePin, BoxPin>;
 
-/// Nodes that are pinned and move with a constant velocity.
+/// Nodes that are pinned and move: with a constant velocity, or with a frame that follows a path.
 struct MovingPin {
   Pin nodes;
-  Vector3<double> velocity{0, 0, 0};  ///< [m/s]
+  Vector3<double> velocity{0, 0, 0};  ///< [m/s], without a path
+  std::optional<Path> path = {};      ///< each node keeps its place in the frame of the start
 };
 
 /// A named set of nodes, for drive.
@@ -95,6 +97,9 @@ struct Collider {
   Vector3<double> velocity{0, 0, 0};          ///< [m/s], dynamic bodies only
   Vector3<double> angular_velocity{0, 0, 0};  ///< [rad/s], dynamic bodies only
   Appearance appearance = {};
+  /// Leads the centre, absolute [m]; turns beyond orientation. The collider has no mass then and
+  /// position is the path's at time 0.
+  std::optional<Path> path = std::nullopt;
 };
 
 /// Settings of Bullet's own solver, for the engines that use it.
@@ -114,6 +119,32 @@ struct ReferenceSettings {
   StepGuard step_guard = StepGuard::kReport;
 };
 
+/// Draws a cloth towards a target, as if it crept there: the heart of the ooze of Werth 2008. It
+/// pushes the nodes of a region and turns them about the vertical; the cloth follows through its
+/// own laws.
+struct Seek {
+  std::string cloth;
+  std::string region;              ///< of the cloth
+  Path target;                     ///< [m]; only its horizontal part counts
+  Vector3<double> front{0, 0, 1};  ///< direction at the start that shall look at the target [-]
+  double speed = 0.2;              ///< [m/s], > 0
+  double force = 1.0;              ///< [N], >= 0: the largest, all nodes together
+  double turn_rate = 1.0;          ///< [rad/s], > 0
+  double torque = 0.0;             ///< [N m], >= 0: the largest
+  double arrival = 0.1;            ///< [m], > 0: slows down within this distance
+};
+
+/// Rolls a body towards a target by a torque about its centre of mass.
+struct Roll {
+  std::string cloth;
+  Path target;             ///< [m]; only its horizontal part counts
+  double turn_rate = 3.0;  ///< [rad/s], > 0: of rolling
+  double torque = 1.0;     ///< [N m], >= 0: the largest
+  double arrival = 0.5;    ///< [m], > 0: rolls slower within this distance
+};
+
+using ControllerSettings = std::variant<Seek, Roll>;
+
 struct Camera {
   Vector3<double> position{8, 6, 10};  ///< [m]
   Vector3<double> target{0, 1, 0};     ///< [m]
@@ -129,6 +160,7 @@ struct Scene {
   World world;
   std::vector<Cloth> cloths;
   std::vector<Collider> colliders;
+  std::vector<ControllerSettings> controllers = {};
   BulletSettings bullet;
   ReferenceSettings reference;
   Camera camera;
@@ -138,6 +170,9 @@ struct Scene {
 /// Mesh of a cloth with its pins, connections and regions resolved to node indices.
 /// Throws InvalidArgument if a pin, a region or the far end of a connection holds no node.
 [[nodiscard]] ClothMesh make_mesh(const Cloth& cloth);
+
+/// The nodes of its mesh that a pin or region of the cloth holds, sorted.
+[[nodiscard]] std::vector<int> nodes_of(const Pin& pin, const Cloth& cloth, const ClothMesh& mesh);
 
 /// The scene with the time step that Bullet takes, which it rounds to single precision in both
 /// builds; duration and frame interval keep their numbers of steps. Engines that are to be compared

@@ -21,8 +21,9 @@ constexpr int kMaxPositionIterations = 100'000;
 /// rounding of both, and after kMaxSteps steps the recording is still only 1/100 of a step off.
 constexpr double kWholeStepTolerance = 1e-9;
 
-constexpr std::array<std::string_view, 9> kRootKeys = {
-    "schema", "name", "summary", "world", "cloth", "collider", "bullet", "reference", "camera"};
+constexpr std::array<std::string_view, 10> kRootKeys = {
+    "schema",   "name",       "summary", "world",     "cloth",
+    "collider", "controller", "bullet",  "reference", "camera"};
 constexpr std::array<std::string_view, 4> kWorldKeys = {"gravity", "time_step", "duration",
                                                         "frame_interval"};
 constexpr std::array<std::string_view, 1> kBulletKeys = {"position_iterations"};
@@ -145,6 +146,9 @@ void read_bodies(const TomlTable& root, Scene& scene) {
   for (const TomlTable& table : root.tables("collider")) {
     scene.colliders.push_back(read_collider(table));
     claim(table, scene.colliders.back().name);
+  }
+  for (const TomlTable& table : root.tables("controller")) {
+    scene.controllers.push_back(read_controller(table, scene));
   }
 }
 

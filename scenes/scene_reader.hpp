@@ -20,6 +20,9 @@ inline constexpr int kMaxNodes = 1'000'000;   ///< of all cloths together
 /// acceleration.
 [[nodiscard]] forces::LawSpecification read_law(const TomlTable& table, const Cloth& cloth,
                                                 const World& world);
+[[nodiscard]] Path read_path(const TomlValue& value);
+/// scene: its cloths say which there are.
+[[nodiscard]] ControllerSettings read_controller(const TomlTable& table, const Scene& scene);
 [[nodiscard]] std::vector<Pin> read_pins(const TomlValue& value, const Cloth& cloth);
 
 }  // namespace weft::scenes

@@ -22,5 +22,7 @@ inline constexpr std::array<std::string_view, 2> kContactWords = {"projection", 
 inline constexpr std::array<std::string_view, 3> kStepGuardWords = {"report", "refuse", "substep"};
 inline constexpr std::array<std::string_view, 4> kCornerWords = {"-u-v", "+u-v", "-u+v", "+u+v"};
 inline constexpr std::array<std::string_view, 4> kEdgeWords = {"-u", "+u", "-v", "+v"};
+inline constexpr std::array<std::string_view, 3> kFollowWords = {"fixed", "heading", "banked"};
+inline constexpr std::array<std::string_view, 2> kControllerWords = {"seek", "roll"};
 
 }  // namespace weft::scenes

@@ -66,13 +66,39 @@ std::string pins_text(const std::vector<Pin>& pins) {
   return "[" + text + "]";
 }
 
+template <class Values, class Text>
+std::string array_text(const Values& values, const Text& text_of) {
+  std::string text;
+  for (const auto& value : values) text += (text.empty() ? "" : ", ") + text_of(value);
+  return "[" + text + "]";
+}
+
+std::string path_text(const Path& path) {
+  const auto time = [](double t) { return value_text(t, "s"); };
+  const auto angle = [](double a) { return value_text(a, "rad"); };
+  const auto point = [](const Vector3<double>& p) { return vector_text(p, "m"); };
+  std::string turns;
+  if (!path.turns.empty()) {
+    turns = fmt::format(", turn_axis = {}, turns = {}", vector_text(path.turn_axis, "1"),
+                        array_text(path.turns, angle));
+  }
+  return fmt::format("{{ times = {}, points = {}, loop = {}, ease_in = {}, follow = {}{} }}",
+                     array_text(path.times, time), array_text(path.points, point), path.loop,
+                     value_text(path.ease_in, "s"), word(kFollowWords, path.follow), turns);
+}
+
+std::string motion_text(const MovingPin& pin) {
+  return pin.path ? "path = " + path_text(*pin.path)
+                  : "velocity = " + vector_text(pin.velocity, "m/s");
+}
+
 std::string all_pins_text(const Cloth& cloth) {
   std::string text = pins_text(cloth.pins);
   for (const MovingPin& pin : cloth.moving_pins) {
     const std::string nodes = std::visit([](const auto& p) { return pin_text(p); }, pin.nodes);
     text.pop_back();
-    text += fmt::format("{}{}, velocity = {} }}]", text.size() > 1 ? ", " : "",
-                        nodes.substr(0, nodes.size() - 2), vector_text(pin.velocity, "m/s"));
+    text += fmt::format("{}{}, {} }}]", text.size() > 1 ? ", " : "",
+                        nodes.substr(0, nodes.size() - 2), motion_text(pin));
   }
   return text;
 }
@@ -157,7 +183,11 @@ void write_collider(std::string& out, const Collider& collider) {
   line(out, "name", toml_string(collider.name));
   line(out, "shape", word(kShapeWords, collider.shape.index()));
   std::visit([&](const auto& shape) { write_shape(out, shape); }, collider.shape);
-  line(out, "position", vector_text(collider.position, "m"));
+  if (collider.path) {
+    line(out, "path", path_text(*collider.path));
+  } else {
+    line(out, "position", vector_text(collider.position, "m"));
+  }
   const Eigen::Quaterniond& q = collider.orientation;
   // As a quaternion: axis and angle would not read back to the same bits.
   line(out, "orientation",
@@ -169,6 +199,28 @@ void write_collider(std::string& out, const Collider& collider) {
   line(out, "mass", value_text(*collider.mass, "kg"));
   line(out, "velocity", vector_text(collider.velocity, "m/s"));
   line(out, "angular_velocity", vector_text(collider.angular_velocity, "rad/s"));
+}
+
+void write_controller(std::string& out, const Seek& seek) {
+  line(out, "kind", toml_string("seek"));
+  line(out, "cloth", toml_string(seek.cloth));
+  line(out, "region", toml_string(seek.region));
+  line(out, "target", path_text(seek.target));
+  line(out, "front", vector_text(seek.front, "1"));
+  line(out, "speed", value_text(seek.speed, "m/s"));
+  line(out, "force", value_text(seek.force, "N"));
+  line(out, "turn_rate", value_text(seek.turn_rate, "rad/s"));
+  line(out, "torque", value_text(seek.torque, "N*m"));
+  line(out, "arrival", value_text(seek.arrival, "m"));
+}
+
+void write_controller(std::string& out, const Roll& roll) {
+  line(out, "kind", toml_string("roll"));
+  line(out, "cloth", toml_string(roll.cloth));
+  line(out, "target", path_text(roll.target));
+  line(out, "turn_rate", value_text(roll.turn_rate, "rad/s"));
+  line(out, "torque", value_text(roll.torque, "N*m"));
+  line(out, "arrival", value_text(roll.arrival, "m"));
 }
 
 void write_settings(std::string& out, const Scene& scene) {
@@ -202,6 +254,10 @@ std::string write_scene(const Scene& scene) {
   line(out, "frame_interval", value_text(scene.world.frame_interval, "s"));
   for (const Cloth& cloth : scene.cloths) write_cloth(out, cloth);
   for (const Collider& collider : scene.colliders) write_collider(out, collider);
+  for (const ControllerSettings& settings : scene.controllers) {
+    out += "\n[[controller]]\n";
+    std::visit([&](const auto& controller) { write_controller(out, controller); }, settings);
+  }
   write_settings(out, scene);
   return out;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -53,6 +55,8 @@ struct SceneState {
   std::vector<RigidState> rigids;  ///< as Scene::colliders, fixed ones too
 };
 
+class Controller;
+
 /// The port: every engine that can run a scene. Cross-validation is a loop over simulators.
 class Simulator {
  public:
@@ -65,6 +69,20 @@ class Simulator {
   [[nodiscard]] virtual StepReport step(double time_step) = 0;
 
   [[nodiscard]] virtual const SceneState& state() const = 0;
+
+  /// Controllers beside those of the scene, asked after them before every step (steering.hpp). Counts
+  /// from the next load().
+  void set_controllers(std::vector<std::shared_ptr<Controller>> controllers) {
+    controllers_ = std::move(controllers);
+  }
+
+ protected:
+  [[nodiscard]] const std::vector<std::shared_ptr<Controller>>& controllers() const {
+    return controllers_;
+  }
+
+ private:
+  std::vector<std::shared_ptr<Controller>> controllers_;
 };
 
 }  // namespace weft::scenes

@@ -4,18 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include <weft/custom_forces/core/types.hpp>
+#include <weft/scenes/motion/pose.hpp>
 #include <weft/scenes/simulator.hpp>
 
 namespace weft::scenes {
-
-/// Place and orientation of a rigid frame in the world.
-struct Pose {
-  Vector3<double> position{0, 0, 0};  ///< [m]
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-};
 
 /// What shall happen to one cloth in the step that begins.
 struct ClothSteering {

@@ -117,7 +117,7 @@ int TomlValue::integer(int minimum, int maximum) const {
   return static_cast<int>(number->get());
 }
 
-bool TomlValue::flag() const {
+bool TomlValue::boolean() const {
   const auto* value = node_->as_boolean();
   if (value == nullptr) fail("expected true or false");
   return value->get();

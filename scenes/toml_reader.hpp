@@ -31,7 +31,8 @@ class TomlValue {
   [[nodiscard]] double positive(std::string_view unit) const;
   [[nodiscard]] double non_negative(std::string_view unit) const;
   [[nodiscard]] int integer(int minimum, int maximum) const;
-  [[nodiscard]] bool flag() const;  ///< true or false
+  [[nodiscard]] bool boolean() const;
+  [[nodiscard]] bool is_table() const { return node_->is_table(); }
   [[nodiscard]] std::string text() const;
   /// Letters, digits, '_' and '-', at most 64 of them.
   [[nodiscard]] std::string identifier() const;

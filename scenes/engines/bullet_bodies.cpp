@@ -3,6 +3,9 @@
 #include <utility>
 
 #include <weft/bridge/cloth_body.hpp>
+#include <weft/bridge/node_state.hpp>
+#include <weft/bridge/pinned_nodes.hpp>
+#include <weft/custom_forces/core/error.hpp>
 #include <weft/scenes/engines/bullet_shapes.hpp>
 
 namespace weft::scenes {
@@ -10,6 +13,19 @@ namespace {
 
 Vector3<double> from_bullet(const btVector3& v) {
   return Vector3<btScalar>(v.x(), v.y(), v.z()).cast<double>();
+}
+
+void lead_collider(const Pose& pose, double offset, btRigidBody& body) {
+  if (!body.isKinematicObject()) {
+    throw InvalidArgument(
+        "steering: a collider that is led has a mass or stands still, expected one with a path");
+  }
+  const Eigen::Quaternion<btScalar> q = pose.orientation.cast<btScalar>();
+  const Vector3<btScalar> place =
+      (pose.position - pose.orientation * Vector3<double>(0, offset, 0)).cast<btScalar>();
+  // Bullet derives the velocity that friction needs from the last two of these.
+  body.setWorldTransform(btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()),
+                                     btVector3(place[0], place[1], place[2])));
 }
 
 }  // namespace
@@ -37,9 +53,31 @@ void BulletBodies::add(const Collider& collider, btRigidBody& body) {
   state_.rigids.push_back(std::move(state));
 }
 
-void BulletBodies::steer_pins() {
+void BulletBodies::begin_step(const Steering* steering, double time_step) {
   for (std::size_t c = 0; c < cloths_.size(); ++c) {
-    bridge::set_pinned_velocities(steered_[c], *cloths_[c]);
+    btSoftBody& body = *cloths_[c];
+    const ClothSteering* lead = steering ? &steering->cloths[c] : nullptr;
+    if (lead && lead->pinned_positions.cols() > 0) {
+      bridge::lead_nodes(steered_[c].pinned, lead->pinned_positions, time_step, body);
+    } else {
+      bridge::set_pinned_velocities(steered_[c], body);
+    }
+    if (!lead || lead->node_forces.cols() == 0) continue;
+    bridge::add_node_forces(lead->node_forces.cast<btScalar>(), body);
+  }
+  if (!steering) return;
+  for (std::size_t r = 0; r < rigids_.size(); ++r) {
+    if (const auto& pose = steering->colliders[r])
+      lead_collider(*pose, rigid_offsets_[r], *rigids_[r]);
+  }
+}
+
+void BulletBodies::end_step(const Steering* steering, double time_step) {
+  if (!steering) return;
+  for (std::size_t c = 0; c < cloths_.size(); ++c) {
+    const Matrix3X<double>& targets = steering->cloths[c].pinned_positions;
+    if (targets.cols() == 0) continue;
+    bridge::place_nodes(steered_[c].pinned, targets, time_step, *cloths_[c]);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <weft/scenes/scene.hpp>
 #include <weft/scenes/simulator.hpp>
+#include <weft/scenes/steering.hpp>
 
 namespace weft::scenes {
 
@@ -16,8 +17,12 @@ class BulletBodies {
   /// mesh and body are the cloth's; its free nodes get the cloth's initial velocity.
   void add(const Cloth& cloth, const ClothMesh& mesh, btSoftBody& body);
   void add(const Collider& collider, btRigidBody& body);
-  /// Gives pinned nodes the velocities of their pins; before every step.
-  void steer_pins();
+  /// Before every step: pins move as the mesh says, or as steering does; so do colliders that are
+  /// led, and the forces of controllers are added. steering may be nullptr. time_step [s] is that
+  /// which Bullet takes.
+  void begin_step(const Steering* steering, double time_step);
+  /// After the step: puts what was led exactly where it shall be.
+  void end_step(const Steering* steering, double time_step);
   /// Reads all positions and velocities from Bullet; time is [s].
   void read_state(double time);
 

@@ -5,6 +5,7 @@
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/deformable_world.hpp>
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/scenes/controllers/director.hpp>
 #include <weft/scenes/engines/blow_up_check.hpp>
 #include <weft/scenes/engines/bullet_bodies.hpp>
 #include <weft/scenes/engines/bullet_shapes.hpp>
@@ -44,6 +45,10 @@ void DeformableSimulator::load(const Scene& scene) {
     bodies_.add(collider, world_->add(std::move(made.body), std::move(made.shape)));
   }
   bodies_.read_state(0.0);
+  if (Director(scene, controllers()).is_needed()) {
+    throw InvalidArgument("bullet_deformable: scene '" + scene.name +
+                          "' has paths or controllers, expected none, or another engine");
+  }
 }
 
 void DeformableSimulator::add_cloth(const Cloth& cloth) {

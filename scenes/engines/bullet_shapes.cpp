@@ -78,6 +78,10 @@ BulletCollider make_bullet_collider(const Collider& collider) {
     result.body->setLinearVelocity(to_bullet(collider.velocity));
     result.body->setAngularVelocity(to_bullet(collider.angular_velocity));
   }
+  if (collider.path) {
+    result.body->setCollisionFlags(result.body->getCollisionFlags() |
+                                   btCollisionObject::CF_KINEMATIC_OBJECT);
+  }
   result.body->setActivationState(DISABLE_DEACTIVATION);
   return result;
 }

@@ -6,6 +6,7 @@
 #include <weft/bridge/soft_world.hpp>
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
+#include <weft/scenes/controllers/director.hpp>
 #include <weft/scenes/engines/blow_up_check.hpp>
 #include <weft/scenes/engines/bullet_bodies.hpp>
 #include <weft/scenes/engines/bullet_shapes.hpp>
@@ -33,6 +34,7 @@ class BulletSimulator final : public Simulator {
   double links_time_step_ = 0.0;
   std::unique_ptr<bridge::SoftWorld> world_;
   BulletBodies bodies_;
+  Director director_;
   StepReport report_;
 };
 
@@ -48,6 +50,7 @@ void BulletSimulator::load(const Scene& scene) {
     bodies_.add(collider, world_->add(std::move(made.body), std::move(made.shape)));
   }
   bodies_.read_state(0.0);
+  director_ = Director(scene, controllers());
 }
 
 bridge::LinkSet BulletSimulator::link_set(const Cloth& cloth,
@@ -96,12 +99,15 @@ StepReport BulletSimulator::step(double time_step) {
         "bullet_soft: the time step differs from the scene's, for which the links' stiffness was "
         "mapped; expected the same time step");
   }
-  bodies_.steer_pins();
-  world_->step(time_step);
   // Bullet hands its soft bodies a single-precision step in both builds.
   report_.time_step = static_cast<double>(static_cast<float>(time_step));
   report_.step += 1;
   report_.time += report_.time_step;
+  const Steering* steering =
+      director_.is_needed() ? &director_.steer(state(), report_.time) : nullptr;
+  bodies_.begin_step(steering, report_.time_step);
+  world_->step(time_step);
+  bodies_.end_step(steering, report_.time_step);
   report_.num_contacts = 0;
   for (const btSoftBody* cloth : bodies_.cloths())
     report_.num_contacts += cloth->m_rcontacts.size();

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <weft/custom_forces/registry.hpp>
+#include <weft/scenes/controllers/director.hpp>
 #include <weft/scenes/engines/blow_up_check.hpp>
 #include <weft/validation/reference/solver.hpp>
 
@@ -18,12 +19,15 @@ class ReferenceSimulator final : public Simulator {
   [[nodiscard]] const SceneState& state() const override { return state_; }
 
  private:
+  void begin_step(const Steering& steering, double time_step);
+  void end_step(const Steering& steering);
   void read_state();
 
   LawFilter filter_;
   std::unique_ptr<reference::SpringSolver> solver_;
   SceneState state_;
   StepReport report_;
+  Director director_;
 };
 
 reference::Body make_body(const Cloth& cloth, const LawFilter& filter) {
@@ -104,6 +108,32 @@ void ReferenceSimulator::load(const Scene& scene) {
   state_ = {};
   report_ = {};
   read_state();
+  director_ = Director(scene, controllers());
+}
+
+void ReferenceSimulator::begin_step(const Steering& steering, double time_step) {
+  for (std::size_t c = 0; c < steering.cloths.size(); ++c) {
+    const ClothSteering& cloth = steering.cloths[c];
+    if (cloth.pinned_positions.cols() > 0) {
+      solver_->lead_pins(c, cloth.pinned_positions, time_step);
+    }
+    solver_->set_external_forces(c, cloth.node_forces);
+  }
+  for (std::size_t k = 0; k < steering.colliders.size(); ++k) {
+    const auto& pose = steering.colliders[k];
+    if (pose) solver_->lead_collider(k, pose->position, pose->orientation, time_step);
+  }
+}
+
+void ReferenceSimulator::end_step(const Steering& steering) {
+  for (std::size_t c = 0; c < steering.cloths.size(); ++c) {
+    const Matrix3X<double>& targets = steering.cloths[c].pinned_positions;
+    if (targets.cols() > 0) solver_->place_pins(c, targets);
+  }
+  for (std::size_t k = 0; k < steering.colliders.size(); ++k) {
+    const auto& pose = steering.colliders[k];
+    if (pose) solver_->place_collider(k, pose->position, pose->orientation);
+  }
 }
 
 void ReferenceSimulator::read_state() {
@@ -125,7 +155,11 @@ void ReferenceSimulator::read_state() {
 
 StepReport ReferenceSimulator::step(double time_step) {
   if (report_.blow_up) return report_;
+  const Steering* steering =
+      director_.is_needed() ? &director_.steer(state_, solver_->time() + time_step) : nullptr;
+  if (steering) begin_step(*steering, time_step);
   const reference::StepOutcome outcome = solver_->step(time_step);
+  if (steering) end_step(*steering);
   report_.step += 1;
   report_.time = solver_->time();
   report_.time_step = time_step;

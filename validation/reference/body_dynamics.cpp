@@ -24,6 +24,7 @@ void BodyDynamics::evaluate(ConstMatrix3XRef<double> positions, ConstMatrix3XRef
       (void)laws.add_forces(state, VelocityLaws::kAlone, accelerations);
     }
   }
+  if (body_->external_forces.cols() > 0) accelerations += body_->external_forces;
   // A pinned node's inverse mass is 0, but 0 * inf would be NaN: division keeps the same bits as f
   // / m.
   for (Eigen::Index i = 0; i < accelerations.cols(); ++i) {

@@ -45,6 +45,21 @@ class SpringSolver {
   StepOutcome step(double time_step);
 
   [[nodiscard]] const System& system() const { return *system_; }
+  /// Leads what has no free motion, for steps to come: pinned nodes reach targets, 3 x pinned.size()
+  /// [m], in a step of time_step [s]. Throws InvalidArgument for another number of targets.
+  void lead_pins(std::size_t body, ConstMatrix3XRef<double> targets, double time_step);
+  /// After that step: puts them there exactly.
+  void place_pins(std::size_t body, ConstMatrix3XRef<double> targets);
+  /// Sets Body::external_forces, 3 x n [N] or empty. Throws InvalidArgument for another size.
+  void set_external_forces(std::size_t body, const Matrix3X<double>& forces);
+  /// A collider without a mass reaches a place and an orientation in a step of time_step [s]. Throws
+  /// InvalidArgument for one with a mass.
+  void lead_collider(std::size_t collider, const Vector3<double>& position,
+                     const Eigen::Quaterniond& orientation, double time_step);
+  /// After that step: puts it there exactly.
+  void place_collider(std::size_t collider, const Vector3<double>& position,
+                      const Eigen::Quaterniond& orientation);
+
   [[nodiscard]] const SolverOptions& options() const { return options_; }
   [[nodiscard]] double time() const { return time_; }  ///< [s]
 

@@ -16,9 +16,11 @@ namespace weft::reference {
 struct Body {
   std::string name;
   ClothMesh mesh;  ///< pinned nodes feel no force and have the velocities that it gives them
-  forces::LawSet<double> laws;    ///< everything that acts on the cloth, gravity too
-  Matrix3X<double> positions;     ///< 3 x n [m]
-  Matrix3X<double> velocities;    ///< 3 x n [m/s]
+  forces::LawSet<double> laws;  ///< everything that acts on the cloth, gravity too
+  Matrix3X<double> positions;   ///< 3 x n [m]
+  Matrix3X<double> velocities;  ///< 3 x n [m/s]
+  /// Forces beside the laws', 3 x n [N], that inertia-level laws do not redistribute. Empty: none.
+  Matrix3X<double> external_forces = {};
   double collision_margin = 0.0;  ///< [m] distance from a surface at which a node rests, >= 0
   double friction = 0.0;          ///< Coulomb coefficient [-], >= 0; with a collider: the product
 };

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+
+#include <weft/scenes/scene.hpp>
+#include <weft/scenes/steering.hpp>
+
+namespace weft::scenes {
+
+/// Leads a collider along its path.
+class ColliderPathController final : public Controller {
+ public:
+  /// index: number of the collider in its scene.
+  ColliderPathController(const Collider& collider, std::size_t index)
+      : collider_(index), motion_(*collider.path), orientation_(collider.orientation) {}
+
+  void steer(const SceneState&, double end_time, Steering& steering) override {
+    Pose pose = motion_.pose(end_time);
+    pose.orientation = (pose.orientation * orientation_).normalized();
+    steering.colliders[collider_] = pose;
+  }
+
+ private:
+  std::size_t collider_;
+  PathMotion motion_;
+  Eigen::Quaterniond orientation_;
+};
+
+}  // namespace weft::scenes

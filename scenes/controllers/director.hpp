@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <weft/scenes/scene.hpp>
+#include <weft/scenes/steering.hpp>
+
+namespace weft::scenes {
+
+/// Leads a scene: its paths and controllers, and those that a program adds. An engine asks it
+/// before every step.
+class Director {
+ public:
+  Director() = default;
+  /// Throws InvalidArgument for a path or a controller that does not fit the scene.
+  /// added: come after those of the scene.
+  explicit Director(const Scene& scene, std::vector<std::shared_ptr<Controller>> added = {});
+
+  /// Whether anything of the scene is led: if not, engines need not ask.
+  [[nodiscard]] bool is_needed() const { return !controllers_.empty(); }
+
+  /// Of a step from state to end_time [s]. The result lives until the next call.
+  [[nodiscard]] const Steering& steer(const SceneState& state, double end_time);
+
+ private:
+  std::vector<std::shared_ptr<Controller>> controllers_;
+  Steering steering_;
+};
+
+}  // namespace weft::scenes

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <weft/custom_forces/core/types.hpp>
+
+namespace weft::scenes {
+
+/// Place and orientation of a rigid frame in the world.
+struct Pose {
+  Vector3<double> position{0, 0, 0};  ///< [m]
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+};
+
+}  // namespace weft::scenes
