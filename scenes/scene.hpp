@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include <weft/custom_forces/law_info.hpp>
 #include <weft/scenes/appearance.hpp>
 #include <weft/scenes/motion/path.hpp>
+#include <weft/scenes/shapes.hpp>
 
 namespace weft::scenes {
 
@@ -75,16 +77,6 @@ struct Cloth {
   std::vector<forces::LawSpecification> laws;
   Appearance appearance = {};
 };
-
-struct SphereShape {
-  double radius;  ///< [m]
-};
-struct BoxShape {
-  Vector3<double> half_extents;  ///< [m]
-};
-/// The half space below the plane through the collider's position with its local y axis as normal.
-struct PlaneShape {};
-using Shape = std::variant<SphereShape, BoxShape, PlaneShape>;
 
 /// A rigid obstacle; with a mass it is a dynamic rigid body that the cloth pushes back.
 struct Collider {
@@ -157,6 +149,8 @@ struct Camera {
 struct Scene {
   std::string name;     ///< identifier, [a-z0-9_]+
   std::string summary;  ///< one sentence, "Shows ..."
+  /// Names of the engines that the scene is made for, the first one is run by default. Empty: all.
+  std::vector<std::string> engines = {};
   World world;
   std::vector<Cloth> cloths;
   std::vector<Collider> colliders;
@@ -173,6 +167,8 @@ struct Scene {
 
 /// The nodes of its mesh that a pin or region of the cloth holds, sorted.
 [[nodiscard]] std::vector<int> nodes_of(const Pin& pin, const Cloth& cloth, const ClothMesh& mesh);
+/// Whether the scene is made for the engine of this name.
+[[nodiscard]] bool is_for_engine(const Scene& scene, std::string_view engine);
 
 /// The scene with the time step that Bullet takes, which it rounds to single precision in both
 /// builds; duration and frame interval keep their numbers of steps. Engines that are to be compared

@@ -21,8 +21,8 @@ constexpr int kMaxPositionIterations = 100'000;
 /// rounding of both, and after kMaxSteps steps the recording is still only 1/100 of a step off.
 constexpr double kWholeStepTolerance = 1e-9;
 
-constexpr std::array<std::string_view, 10> kRootKeys = {
-    "schema",   "name",       "summary", "world",     "cloth",
+constexpr std::array<std::string_view, 11> kRootKeys = {
+    "schema",   "name",       "summary", "engines",   "world", "cloth",
     "collider", "controller", "bullet",  "reference", "camera"};
 constexpr std::array<std::string_view, 4> kWorldKeys = {"gravity", "time_step", "duration",
                                                         "frame_interval"};
@@ -48,6 +48,19 @@ std::string read_name(const TomlTable& root) {
     value.fail("expected lower-case letters, digits and '_' only");
   }
   return name;
+}
+
+std::vector<std::string> read_engines(const TomlValue& value) {
+  std::vector<std::string> engines;
+  for (const TomlValue& item : value.items("a list of engines such as [\"bullet_soft\"]")) {
+    std::string engine(kEngineWords[item.choice(kEngineWords, "engine")]);
+    if (std::find(engines.begin(), engines.end(), engine) != engines.end()) {
+      item.fail("expected each engine once");
+    }
+    engines.push_back(std::move(engine));
+  }
+  if (engines.empty()) value.fail("is empty, expected at least one engine, or no such key");
+  return engines;
 }
 
 void check_steps(const World& world, const TomlTable& table) {
@@ -171,6 +184,7 @@ Scene read_scene(const TomlTable& root, const FileSource& files) {
   Scene scene;
   scene.name = read_name(root);
   if (const auto value = root.find("summary")) scene.summary = value->text();
+  if (const auto value = root.find("engines")) scene.engines = read_engines(*value);
   const std::string world = "a table [world] with time_step and duration";
   scene.world = read_world(root.require("world", world).table(world));
   read_bodies(root, scene);

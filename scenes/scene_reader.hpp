@@ -16,6 +16,9 @@ inline constexpr int kMaxNodes = 1'000'000;   ///< of all cloths together
 [[nodiscard]] World read_world(const TomlTable& table);
 [[nodiscard]] Cloth read_cloth(const TomlTable& table, const World& world);
 [[nodiscard]] Collider read_collider(const TomlTable& table);
+[[nodiscard]] Eigen::Quaterniond read_orientation(const TomlValue& value);
+/// The shape of a collider; other_keys: what its table may hold beside.
+[[nodiscard]] Shape read_shape(const TomlTable& table, std::vector<std::string_view> other_keys);
 /// cloth: the grid says which edge sets there are; world: gravity, if the law names no
 /// acceleration.
 [[nodiscard]] forces::LawSpecification read_law(const TomlTable& table, const Cloth& cloth,

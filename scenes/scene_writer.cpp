@@ -8,6 +8,7 @@
 #include <weft/scenes/quantity.hpp>
 #include <weft/scenes/scene_file.hpp>
 #include <weft/scenes/scene_words.hpp>
+#include <weft/scenes/shape_writer.hpp>
 #include <weft/scenes/toml_text.hpp>
 
 namespace weft::scenes {
@@ -168,21 +169,10 @@ void write_cloth(std::string& out, const Cloth& cloth) {
   for (const forces::LawSpecification& law : cloth.laws) write_law(out, law);
 }
 
-void write_shape(std::string& out, const SphereShape& sphere) {
-  line(out, "radius", value_text(sphere.radius, "m"));
-}
-
-void write_shape(std::string& out, const BoxShape& box) {
-  line(out, "size", vector_text(2.0 * box.half_extents, "m"));
-}
-
-void write_shape(std::string&, const PlaneShape&) {}
-
 void write_collider(std::string& out, const Collider& collider) {
   out += "\n[[collider]]\n";
   line(out, "name", toml_string(collider.name));
-  line(out, "shape", word(kShapeWords, collider.shape.index()));
-  std::visit([&](const auto& shape) { write_shape(out, shape); }, collider.shape);
+  out += shape_text(collider.shape);
   if (collider.path) {
     line(out, "path", path_text(*collider.path));
   } else {
@@ -247,6 +237,13 @@ std::string write_scene(const Scene& scene) {
   line(out, "schema", toml_string(kSchema));
   line(out, "name", toml_string(scene.name));
   line(out, "summary", toml_string(scene.summary));
+  if (!scene.engines.empty()) {
+    std::string engines;
+    for (const std::string& engine : scene.engines) {
+      engines += (engines.empty() ? "" : ", ") + toml_string(engine);
+    }
+    line(out, "engines", "[" + engines + "]");
+  }
   out += "\n[world]\n";
   line(out, "gravity", vector_text(scene.world.gravity, "m/s^2"));
   line(out, "time_step", value_text(scene.world.time_step, "s"));

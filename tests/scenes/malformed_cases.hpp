@@ -14,7 +14,7 @@ struct MalformedCase {
 };
 
 // clang-format off
-inline constexpr std::array<MalformedCase, 65> kMalformedCases = {{
+inline constexpr std::array<MalformedCase, 68> kMalformedCases = {{
     {"ambiguous_unit", 16, 13, "ambiguous unit 'N/m*rad'"},
     {"bad_name", 2, 8, "expected a name"},
     {"bare_number", 20, 10, "missing unit, expected a length such as \"2 m\""},
@@ -79,6 +79,9 @@ inline constexpr std::array<MalformedCase, 65> kMalformedCases = {{
     {"zero_axis", 10, 10, "no direction"},
     {"zero_denominator", 4, 13, "divides by zero"},
     {"zero_nodes", 9, 19, "expected a whole number from 2"},
+    {"engine_twice", 3, 27, "expected each engine once"},
+    {"no_engine", 3, 11, "expected at least one engine"},
+    {"unknown_engine", 3, 12, "unknown engine, did you mean 'bullet_soft'?"},
     {"zero_radius", 20, 10, "expected a length > 0"},
 }};
 // clang-format on

@@ -288,6 +288,19 @@ TEST(SceneFile, WrittenSceneReadsBackToTheSameBits) {
   }
 }
 
+TEST(SceneFile, EnginesAreNamedInTheirOrder) {
+  const Scene all = read_scene_text(kSmallScene, "small.toml");
+  EXPECT_TRUE(all.engines.empty());
+  EXPECT_TRUE(is_for_engine(all, "reference"));
+  const std::string text =
+      "engines = [\"bullet_forces\", \"bullet_soft\"]\n" + std::string(kSmallScene);
+  const Scene some = read_scene_text(text, "small.toml");
+  EXPECT_EQ(some.engines, (std::vector<std::string>{"bullet_forces", "bullet_soft"}));
+  EXPECT_TRUE(is_for_engine(some, "bullet_soft"));
+  EXPECT_FALSE(is_for_engine(some, "reference"));
+  EXPECT_EQ(read_scene_text(write_scene(some), "written.toml").engines, some.engines);
+}
+
 TEST(SceneFile, WriterRefusesWhatTheFormatCannotSay) {
   Scene scene = read_scene_text(kSmallScene, "small.toml");
   scene.cloths[0].pins = {CornerPin{.u = 1, .v = 0}};
