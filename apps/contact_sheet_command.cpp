@@ -53,7 +53,7 @@ double poster_time(const scenes::Scene& scene) {
 }
 
 Exhibit simulate(const scenes::Scene& scene) {
-  const std::string name = kUsualEngine;
+  const std::string name = scene.engines.empty() ? kUsualEngine : scene.engines.front();
   const std::unique_ptr<scenes::Simulator> simulator = find_any_precision(name).make();
   simulator->load(scene);
   const double end = poster_time(scene);
@@ -100,6 +100,13 @@ std::string what_it_shows(const std::string& summary) {
   return summary.starts_with(kShows) ? summary.substr(kShows.size()) : summary;
 }
 
+std::string engines_of(const scenes::Scene& scene) {
+  if (scene.engines.empty()) return "all";
+  std::string names;
+  for (const std::string& name : scene.engines) names += (names.empty() ? "`" : ", `") + name + "`";
+  return names;
+}
+
 std::string scene_page(const std::vector<Exhibit>& exhibits, const std::string& command) {
   std::string page = fmt::format(
       "# What scenes are there, and what do they look like?\n\n"
@@ -113,7 +120,8 @@ std::string scene_page(const std::vector<Exhibit>& exhibits, const std::string& 
     page += fmt::format(
         "| ![{0}](img/scenes/{0}.png) | [`{0}`](../scenes/catalog/{0}.toml) | {1} | {2} "
         "| {3}, t = {4:.3g} s |\n",
-        name, what_it_shows(exhibit.scene.summary), "all", exhibit.engine, exhibit.state.time);
+        name, what_it_shows(exhibit.scene.summary), engines_of(exhibit.scene), exhibit.engine,
+        exhibit.state.time);
   }
   return page;
 }

@@ -19,18 +19,39 @@ Box collider_box(const Collider& collider) {
   return box;
 }
 
-/// Height that a cloth will hardly fall below: it hangs from its lowest pin, or, if free, from its
-/// own height.
-double lowest_reach(const ClothMesh& mesh) {
-  double hold = mesh.rest_positions.row(1).minCoeff();
-  for (const int node : mesh.pinned) {
-    hold = std::max(hold, mesh.rest_positions(1, node));
+/// Largest distance of a node to the pin that is nearest at rest: what hangs below the pins. [m]
+double hanging_length(const ClothMesh& mesh) {
+  // Enough of each to know it to some per cent, however large the cloth is.
+  constexpr std::size_t kMaxPins = 64;
+  constexpr int kMaxNodes = 4096;
+  const std::size_t pin_step = mesh.pinned.size() / kMaxPins + 1;
+  const int node_step = mesh.num_nodes() / kMaxNodes + 1;
+  double longest = 0.0;
+  for (int node = 0; node < mesh.num_nodes(); node += node_step) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < mesh.pinned.size(); i += pin_step) {
+      const Vector3<double> way =
+          mesh.rest_positions.col(node) - mesh.rest_positions.col(mesh.pinned[i]);
+      nearest = std::min(nearest, way.norm());
+    }
+    longest = std::max(longest, nearest);
   }
-  const Vector3<double> low = mesh.rest_positions.rowwise().minCoeff();
-  const Vector3<double> high = mesh.rest_positions.rowwise().maxCoeff();
-  const double diagonal = (high - low).norm();
-  // A pinned cloth can stretch below its own length; a free one bends over what it falls on.
-  return hold - (mesh.pinned.empty() ? 0.6 : 1.1) * diagonal;
+  return longest;
+}
+
+/// Height that a cloth will hardly fall below: it hangs from its lowest pin, or, if free, bends over
+/// what it falls on.
+double lowest_reach(const ClothMesh& mesh) {
+  const double low = mesh.rest_positions.row(1).minCoeff();
+  if (mesh.pinned.empty()) {
+    const Vector3<double> size =
+        mesh.rest_positions.rowwise().maxCoeff() - mesh.rest_positions.rowwise().minCoeff();
+    return low - 0.6 * size.norm();
+  }
+  double hold = std::numeric_limits<double>::infinity();
+  for (const int node : mesh.pinned) hold = std::min(hold, mesh.rest_positions(1, node));
+  // A pinned cloth can stretch below its own length.
+  return std::min(low, hold - 1.1 * hanging_length(mesh));
 }
 
 const Collider* find_plane(const Scene& scene) {
@@ -127,7 +148,7 @@ StudioLights studio_lights(const Camera& camera) {
   const Vector3<double> up = Vector3<double>::UnitY();
   const Vector3<double> ahead = up.cross(right).normalized();
   StudioLights lights;
-  lights.key = (-0.25 * ahead - 1.00 * right + 0.95 * up).normalized().cast<float>();
+  lights.key = (-0.25 * ahead - 0.80 * right + 1.00 * up).normalized().cast<float>();
   lights.fill = (-0.80 * ahead + 0.80 * right + 0.25 * up).normalized().cast<float>();
   lights.rim = (0.90 * ahead + 0.60 * right + 0.35 * up).normalized().cast<float>();
   return lights;
