@@ -6,6 +6,7 @@
 
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
+#include <weft/scenes/appearance_reader.hpp>
 #include <weft/scenes/quantity.hpp>
 #include <weft/scenes/scene_reader.hpp>
 
@@ -117,6 +118,7 @@ void read_cloth_contact(const TomlTable& table, Cloth& cloth) {
 Cloth read_cloth(const TomlTable& table, const World& world) {
   std::vector<std::string_view> keys = cloth_source_keys(table);
   keys.insert(keys.end(), kClothKeys.begin(), kClothKeys.end());
+  keys.insert(keys.end(), kClothAppearanceKeys.begin(), kClothAppearanceKeys.end());
   table.allow(keys);
   Cloth cloth;
   cloth.name = table.require("name", "a name such as \"cloth\"").identifier();
@@ -133,6 +135,7 @@ Cloth read_cloth(const TomlTable& table, const World& world) {
   }
   if (const auto value = table.find("region")) cloth.regions = read_regions(*value, cloth);
   read_laws(table, world, cloth);
+  cloth.appearance = read_appearance(table);
   return cloth;
 }
 

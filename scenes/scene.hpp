@@ -11,6 +11,7 @@
 
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
+#include <weft/scenes/appearance.hpp>
 #include <weft/scenes/cloth_source.hpp>
 #include <weft/scenes/motion/path.hpp>
 #include <weft/scenes/shapes.hpp>
@@ -91,6 +92,7 @@ struct Cloth {
   /// The source as a grid. Throws InvalidArgument if it is something else.
   [[nodiscard]] ClothGrid& grid();
   [[nodiscard]] const ClothGrid& grid() const;
+  Appearance appearance = {};
 };
 
 /// A rigid obstacle; with a mass it is a dynamic rigid body that the cloth pushes back.
@@ -103,6 +105,7 @@ struct Collider {
   std::optional<double> mass = std::nullopt;  ///< [kg]; none: fixed
   Vector3<double> velocity{0, 0, 0};          ///< [m/s], dynamic bodies only
   Vector3<double> angular_velocity{0, 0, 0};  ///< [rad/s], dynamic bodies only
+  Appearance appearance = {};
   /// Leads the centre, absolute [m]; turns beyond orientation. The collider has no mass then and
   /// position is the path's at time 0.
   std::optional<Path> path = std::nullopt;
@@ -162,6 +165,9 @@ struct Camera {
   Vector3<double> position{8, 6, 10};  ///< [m]
   Vector3<double> target{0, 1, 0};     ///< [m]
   double field_of_view = 0.6;          ///< vertical [rad]
+  std::string follow = {};             ///< name of a body that it keeps in view; empty: none
+  /// [s] of the most telling picture; none: the last one.
+  std::optional<double> poster_time = std::nullopt;
 };
 
 struct Scene {
@@ -176,6 +182,7 @@ struct Scene {
   BulletSettings bullet;
   ReferenceSettings reference;
   Camera camera;
+  std::vector<SceneFile> files = {};  ///< those that appearances name, each once
 };
 
 /// Mesh of a cloth with its pins, connections and regions resolved to node indices.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <weft/scenes/scene.hpp>
+#include <weft/scenes/scene_file.hpp>
 #include <weft/scenes/toml_reader.hpp>
 
 namespace weft::scenes {
@@ -10,7 +11,8 @@ namespace weft::scenes {
 inline constexpr int kMaxSteps = 10'000'000;  ///< of a whole run
 inline constexpr int kMaxNodes = 1'000'000;   ///< of all cloths together
 
-[[nodiscard]] Scene read_scene(const TomlTable& root);
+/// files: for the pictures that bodies are drawn with.
+[[nodiscard]] Scene read_scene(const TomlTable& root, const FileSource& files);
 [[nodiscard]] World read_world(const TomlTable& table);
 [[nodiscard]] Cloth read_cloth(const TomlTable& table, const World& world);
 [[nodiscard]] Collider read_collider(const TomlTable& table);

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <weft/custom_forces/registry.hpp>
+#include <weft/scenes/appearance_reader.hpp>
 #include <weft/scenes/scene_file.hpp>
 #include <weft/scenes/scene_text.hpp>
 #include <weft/scenes/scene_words.hpp>
 #include <weft/scenes/shape_writer.hpp>
+#include <weft/scenes/toml_text.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -155,6 +157,7 @@ void write_cloth(std::string& out, const Cloth& cloth) {
     }
     line(out, "region", "[" + regions + "]");
   }
+  out += write_appearance(cloth.appearance);
   for (const forces::LawSpecification& law : cloth.laws) write_law(out, law);
 }
 
@@ -169,6 +172,7 @@ void write_collider(std::string& out, const Collider& collider) {
   }
   line(out, "orientation", orientation_text(collider.orientation));
   line(out, "friction", value_text(collider.friction, "1"));
+  out += write_appearance(collider.appearance);
   if (!collider.mass) return;
   line(out, "mass", value_text(*collider.mass, "kg"));
   line(out, "velocity", vector_text(collider.velocity, "m/s"));
@@ -209,6 +213,10 @@ void write_settings(std::string& out, const Scene& scene) {
   line(out, "position", vector_text(scene.camera.position, "m"));
   line(out, "target", vector_text(scene.camera.target, "m"));
   line(out, "field_of_view", value_text(scene.camera.field_of_view, "rad"));
+  if (!scene.camera.follow.empty()) line(out, "follow", toml_string(scene.camera.follow));
+  if (scene.camera.poster_time) {
+    line(out, "poster_time", value_text(*scene.camera.poster_time, "s"));
+  }
 }
 
 }  // namespace
