@@ -31,5 +31,6 @@ struct CommandLine {
 [[nodiscard]] Action add_render_command(CLI::App& parser);
 [[nodiscard]] Action add_stability_command(CLI::App& parser);
 [[nodiscard]] Action add_check_command(CLI::App& parser);
+[[nodiscard]] Action add_check_mesh_command(CLI::App& parser);
 
 }  // namespace weft::app

@@ -6,6 +6,7 @@
 #include <weft/scenes/scene_file.hpp>
 #include <weft/scenes/scene_text.hpp>
 #include <weft/scenes/scene_words.hpp>
+#include <weft/scenes/text_guard.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -236,6 +237,12 @@ std::string write_scene(const Scene& scene) {
     std::visit([&](const auto& controller) { write_controller(out, controller); }, settings);
   }
   write_settings(out, scene);
+  if (out.size() > kMaxTextSize) {
+    throw InvalidArgument(
+        fmt::format("write_scene: the resolved scene has {} bytes, expected at most {}: its meshes "
+                    "are too large",
+                    out.size(), kMaxTextSize));
+  }
   return out;
 }
 
