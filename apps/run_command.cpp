@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 #include <CLI/CLI.hpp>
@@ -30,7 +30,7 @@ namespace {
 
 struct RunOptions {
   std::string scene;
-  std::string engine = "reference";
+  std::string engine;
   std::string precision;
   std::string output;
   std::string duration;
@@ -41,6 +41,17 @@ struct RunOptions {
   bool force = false;
   int threads = 0;
 };
+
+/// The engine asked for, or the first that the scene is made for.
+std::string requested_engine(const RunOptions& options, const scenes::Scene& scene) {
+  if (options.engine.empty()) return scene.engines.empty() ? "reference" : scene.engines.front();
+  if (!scenes::is_for_engine(scene, options.engine)) {
+    throw InvalidArgument(fmt::format(
+        "--engine {}: scene '{}' is not made for it, expected {}{}", options.engine, scene.name,
+        scene.engines.size() > 1 ? "one of " : "", fmt::join(scene.engines, ", ")));
+  }
+  return options.engine;
+}
 
 scenes::StoredPrecision requested_precision(const RunOptions& options) {
   if (options.engine == "reference") {
@@ -79,7 +90,8 @@ scenes::Scene requested_scene(const RunOptions& options) {
     scene.reference.integrator = scenes::Integrator::kRungeKutta4;
   }
   // The edited scene must hold to the same rules as a file.
-  scene = scenes::read_scene_text(scenes::write_scene(scene), options.scene);
+  scene =
+      scenes::read_scene_text(scenes::write_scene(scene), options.scene, scenes::files_of(scene));
   if (options.bullet_time_step) scene = scenes::with_bullets_time_step(std::move(scene));
   return scene;
 }
@@ -178,13 +190,14 @@ int report(const Recorded& recorded, const std::string& output) {
   return kCaseFailed;
 }
 
-int run(const RunOptions& options, const CommandLine& command_line) {
+int run(RunOptions options, const CommandLine& command_line) {
+  const scenes::Scene scene = requested_scene(options);
+  options.engine = requested_engine(options, scene);
   const scenes::StoredPrecision precision = requested_precision(options);
   if (!options.integrator.empty() && options.engine != "reference") {
     throw InvalidArgument("--integrator " + options.integrator + ": " + options.engine +
                           " has Bullet's own integrator, expected --engine reference");
   }
-  const scenes::Scene scene = requested_scene(options);
   const scenes::EngineInfo* engine = scenes::find_engine(options.engine, precision);
   if (!engine) hand_over(command_line, precision);
 
@@ -225,10 +238,12 @@ Action add_run_command(CLI::App& parser, const CommandLine& command_line) {
   CLI::App* command = parser.add_subcommand("run", "Simulate a scene and record it");
   auto options = std::make_shared<RunOptions>();
   command->add_option("SCENE", options->scene, "Catalog name or scene file")->required();
-  command->add_option("-e,--engine", options->engine, "Which engine simulates")
+  command
+      ->add_option("-e,--engine", options->engine,
+                   "Which engine simulates (default: the first that the scene names, else the "
+                   "reference)")
       ->check(CLI::IsMember({"bullet_soft", "bullet_forces", "bullet_deformable",
-                             "bullet_deformable_implicit", "reference"}))
-      ->capture_default_str();
+                             "bullet_deformable_implicit", "reference"}));
   command
       ->add_option("-p,--precision", options->precision,
                    "float32 or float64; of Bullet (default float32), the reference has float64")

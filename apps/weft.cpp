@@ -42,8 +42,10 @@ int run(int argc, char** argv) {
   actions["list"] = add_list_command(parser);
   actions["run"] = add_run_command(parser, command_line);
   actions["render"] = add_render_command(parser);
+  actions["contact-sheet"] = add_contact_sheet_command(parser);
   actions["check"] = add_check_command(parser);
   actions["check-mesh"] = add_check_mesh_command(parser);
+  actions["contact-table"] = add_contact_table_command(parser);
   actions["stability"] = add_stability_command(parser);
   actions["validate"] = add_validate_command(parser, command_line);
 

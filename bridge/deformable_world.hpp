@@ -44,7 +44,8 @@ class DeformableWorld {
   /// The world takes the objects over and deletes them with itself; a soft body goes through
   /// prepare_for_deformable_world().
   btSoftBody& add(std::unique_ptr<btSoftBody> body);
-  btRigidBody& add(std::unique_ptr<btRigidBody> body, std::unique_ptr<btCollisionShape> shape);
+  /// A shape that needs others, or arrays, to live as long owns them: shared_ptr's aliasing.
+  btRigidBody& add(std::unique_ptr<btRigidBody> body, std::shared_ptr<btCollisionShape> shape);
 
   /// One step of time_step [s], without Bullet's interpolation, in the precision of btScalar.
   void step(double time_step);

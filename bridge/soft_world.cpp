@@ -13,7 +13,7 @@ struct SoftWorld::Parts {
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
   btSequentialImpulseConstraintSolver constraint_solver;
-  std::vector<std::unique_ptr<btCollisionShape>> shapes;
+  std::vector<std::shared_ptr<btCollisionShape>> shapes;
   std::vector<std::unique_ptr<btRigidBody>> rigid_bodies;
   std::vector<std::unique_ptr<btSoftBody>> soft_bodies;
 };
@@ -49,7 +49,7 @@ btSoftBody& SoftWorld::add(std::unique_ptr<btSoftBody> body) {
 }
 
 btRigidBody& SoftWorld::add(std::unique_ptr<btRigidBody> body,
-                            std::unique_ptr<btCollisionShape> shape) {
+                            std::shared_ptr<btCollisionShape> shape) {
   parts_->shapes.push_back(std::move(shape));
   world_->addRigidBody(body.get());
   parts_->rigid_bodies.push_back(std::move(body));

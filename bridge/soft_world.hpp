@@ -33,7 +33,8 @@ class SoftWorld {
 
   /// The world takes the objects over and deletes them with itself.
   btSoftBody& add(std::unique_ptr<btSoftBody> body);
-  btRigidBody& add(std::unique_ptr<btRigidBody> body, std::unique_ptr<btCollisionShape> shape);
+  /// A shape that needs others, or arrays, to live as long owns them: shared_ptr's aliasing.
+  btRigidBody& add(std::unique_ptr<btRigidBody> body, std::shared_ptr<btCollisionShape> shape);
 
   /// One step of time_step [s], without Bullet's interpolation. Bullet rounds it to single
   /// precision.

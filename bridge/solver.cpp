@@ -41,8 +41,33 @@ struct SoftBodySolver::Attachment {
   void check_laws();
 };
 
+namespace {
+
+struct ContactEntry {
+  btSoftBody* body;
+  ClothContact contact;
+  bool was_in_world = false;
+};
+
+/// Forgets bodies that were in the world and are no more: they may be deleted, and another may stand
+/// at the same address tomorrow.
+template <class Entry>
+void forget_departed(const btAlignedObjectArray<btSoftBody*>& present,
+                     std::vector<std::unique_ptr<Entry>>& list) {
+  const auto has_left = [&](const std::unique_ptr<Entry>& entry) {
+    const bool is_in_world = present.findLinearSearch(entry->body) != present.size();
+    const bool left = entry->was_in_world && !is_in_world;
+    entry->was_in_world = is_in_world;
+    return left;
+  };
+  list.erase(std::remove_if(list.begin(), list.end(), has_left), list.end());
+}
+
+}  // namespace
+
 struct SoftBodySolver::Attachments {
   std::vector<std::unique_ptr<Attachment>> list;
+  std::vector<std::unique_ptr<ContactEntry>> contacts;
 };
 
 bool SoftBodySolver::Attachment::acts_after_projection(Level level) const {
@@ -156,6 +181,20 @@ void SoftBodySolver::detach(btSoftBody& body) {
              list.end());
 }
 
+void SoftBodySolver::set_cloth_contact(btSoftBody& body, const ClothContactSettings& settings) {
+  auto entry = std::make_unique<ContactEntry>(ContactEntry{&body, ClothContact(body, settings)});
+  auto& list = attachments_->contacts;
+  std::erase_if(list, [&](const auto& known) { return known->body == &body; });
+  list.push_back(std::move(entry));
+}
+
+ClothContact* SoftBodySolver::find_contact(const btSoftBody& body) const {
+  for (const auto& entry : attachments_->contacts) {
+    if (entry->body == &body) return &entry->contact;
+  }
+  return nullptr;
+}
+
 void SoftBodySolver::set_deferred(bool is_deferred) {
   is_deferred_ = is_deferred;
   if (is_deferred) return;
@@ -181,19 +220,11 @@ bool SoftBodySolver::is_frozen(const btSoftBody& body) const {
   return attachment && attachment->blow_up;
 }
 
-// The world hands over its bodies at the start of every step: one that was there and is no more may be deleted,
-// and another may stand at its address tomorrow.
+// The world hands over its bodies at the start of every step.
 void SoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool force_update) {
   btDefaultSoftBodySolver::optimize(bodies, force_update);
-  auto& list = attachments_->list;
-  const auto has_left = [&](const std::unique_ptr<Attachment>& attachment) {
-    const bool is_in_world =
-        m_softBodySet.findLinearSearch(attachment->body) != m_softBodySet.size();
-    const bool left = attachment->was_in_world && !is_in_world;
-    attachment->was_in_world = is_in_world;
-    return left;
-  };
-  list.erase(std::remove_if(list.begin(), list.end(), has_left), list.end());
+  forget_departed(m_softBodySet, attachments_->list);
+  forget_departed(m_softBodySet, attachments_->contacts);
 }
 
 void SoftBodySolver::predictMotion(btScalar time_step) {
@@ -215,11 +246,31 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
     if (!body.isActive() || is_frozen(body)) continue;
+    if (ClothContact* contact = find_contact(body)) contact->add_self_contacts(body, time_step_);
     body.solveConstraints();
+  }
+  settle_contact_velocities();
+  for (int i = 0; i < m_softBodySet.size(); ++i) {
+    btSoftBody& body = *m_softBodySet[i];
+    if (!body.isActive() || is_frozen(body)) continue;
     if (Attachment* attachment = find(body)) attachment->damp_velocities(time_step_);
   }
   for (const auto& attachment : attachments_->list) {
     if (attachment->was_in_world) attachment->time += static_cast<double>(time_step_);
+  }
+}
+
+// A contact of a later body moves the nodes of an earlier one, whose velocities Bullet has derived by
+// then: without this their momentum would be lost.
+void SoftBodySolver::settle_contact_velocities() {
+  for (const auto& entry : attachments_->contacts) {
+    btSoftBody& body = *entry->body;
+    if (!entry->was_in_world || !entry->contact.settings().with_others) continue;
+    if (!body.isActive() || is_frozen(body)) continue;
+    for (int i = 0; i < body.m_nodes.size(); ++i) {
+      btSoftBody::Node& node = body.m_nodes[i];
+      node.m_v = (node.m_x - node.m_q) * body.m_sst.isdt;
+    }
   }
 }
 
@@ -240,6 +291,14 @@ void SoftBodySolver::processCollision(btSoftBody* body, const btCollisionObjectW
 
 void SoftBodySolver::processCollision(btSoftBody* body, btSoftBody* other) {
   if (is_frozen(*body) || is_frozen(*other)) return;
+  const ClothContact* contact = find_contact(*body);
+  const ClothContact* other_contact = find_contact(*other);
+  if (contact && other_contact && contact->settings().with_others &&
+      other_contact->settings().with_others) {
+    add_contacts(*body, contact->settings(), *other, other_contact->settings(), time_step_);
+    add_contacts(*other, other_contact->settings(), *body, contact->settings(), time_step_);
+    return;
+  }
   btDefaultSoftBodySolver::processCollision(body, other);
 }
 

@@ -8,6 +8,7 @@
 #include <BulletSoftBody/btDefaultSoftBodySolver.h>
 
 #include <weft/bridge/bullet_guard.hpp>
+#include <weft/bridge/cloth_contact.hpp>
 #include <weft/bridge/law_attachment.hpp>
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_set.hpp>
@@ -85,6 +86,11 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   /// Set once the body has exploded; it does not move any more.
   [[nodiscard]] std::optional<BodyBlowUp> blow_up(const btSoftBody& body) const;
 
+  /// Contact of the body with itself and with the others that have it too, see ClothContact. Made
+  /// from the body's present shape as its rest shape; replaces what was set before. Bodies without
+  /// it meet as Bullet's flags say. Throws InvalidArgument for settings out of their domain.
+  void set_cloth_contact(btSoftBody& body, const ClothContactSettings& settings);
+
   /// Deferred: the forces of the next step are started when a step ends, on other threads, and
   /// fetched when the next one begins; the time between belongs to the caller. Changes no bit: a
   /// body whose nodes were moved in between has its forces computed anew. Off at first.
@@ -104,6 +110,8 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   struct Attachment;
   struct Attachments;
   [[nodiscard]] Attachment* find(const btSoftBody& body) const;
+  [[nodiscard]] ClothContact* find_contact(const btSoftBody& body) const;
+  void settle_contact_velocities();
   [[nodiscard]] bool is_frozen(const btSoftBody& body) const;
 
   std::unique_ptr<Attachments> attachments_;

@@ -6,14 +6,19 @@
 
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
+#include <weft/scenes/appearance_reader.hpp>
 #include <weft/scenes/quantity.hpp>
 #include <weft/scenes/scene_reader.hpp>
 
 namespace weft::scenes {
 namespace {
 
-constexpr std::array<std::string_view, 8> kClothKeys = {
-    "name", "collision_margin", "friction", "law", "velocity", "pin", "connection", "region"};
+constexpr std::array<std::string_view, 11> kClothKeys = {"name",           "collision_margin",
+                                                         "friction",       "law",
+                                                         "velocity",       "pin",
+                                                         "connection",     "region",
+                                                         "self_collision", "self_thickness",
+                                                         "soft_collision"};
 constexpr std::array<std::string_view, 2> kRegionKeys = {"name", "nodes"};
 constexpr std::array<std::string_view, 3> kConnectionKeys = {"name", "node", "to"};
 
@@ -95,11 +100,25 @@ void read_laws(const TomlTable& table, const World& world, Cloth& cloth) {
   }
 }
 
+void read_cloth_contact(const TomlTable& table, Cloth& cloth) {
+  if (const auto value = table.find("self_collision")) cloth.self_collision = value->boolean();
+  if (const auto value = table.find("self_thickness")) {
+    cloth.self_thickness = value->positive("m");
+    if (!cloth.self_collision) value->fail("expected self_collision = true as well");
+  }
+  if (const auto value = table.find("soft_collision")) cloth.soft_collision = value->boolean();
+  if ((cloth.self_collision && !cloth.self_thickness) || cloth.soft_collision) {
+    if (cloth.collision_margin > 0) return;
+    table.require("collision_margin", "").fail("expected > 0: layers of cloth keep twice of it");
+  }
+}
+
 }  // namespace
 
 Cloth read_cloth(const TomlTable& table, const World& world) {
   std::vector<std::string_view> keys = cloth_source_keys(table);
   keys.insert(keys.end(), kClothKeys.begin(), kClothKeys.end());
+  keys.insert(keys.end(), kClothAppearanceKeys.begin(), kClothAppearanceKeys.end());
   table.allow(keys);
   Cloth cloth;
   cloth.name = table.require("name", "a name such as \"cloth\"").identifier();
@@ -109,12 +128,14 @@ Cloth read_cloth(const TomlTable& table, const World& world) {
     cloth.collision_margin = value->non_negative("m");
   }
   if (const auto value = table.find("friction")) cloth.friction = value->non_negative("1");
+  read_cloth_contact(table, cloth);
   if (const auto value = table.find("pin")) read_cloth_pins(*value, cloth);
   if (const auto value = table.find("connection")) {
     cloth.connections = read_connections(*value, cloth);
   }
   if (const auto value = table.find("region")) cloth.regions = read_regions(*value, cloth);
   read_laws(table, world, cloth);
+  cloth.appearance = read_appearance(table);
   return cloth;
 }
 

@@ -115,8 +115,7 @@ Icosphere read_icosphere(const TomlTable& cloth) {
   sphere.center_mass_share = read_center_node(table);
   if (const auto value = cloth.find("center")) sphere.center = value->vector("m");
   if (const auto value = cloth.find("orientation")) {
-    sphere.orientation =
-        read_orientation(value->table("a table such as { axis = [0, 1, 0], angle = \"30 deg\" }"));
+    sphere.orientation = read_orientation(*value);
   }
   return sphere;
 }

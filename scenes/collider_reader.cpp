@@ -1,9 +1,9 @@
 #include <array>
 #include <cmath>
 
+#include <weft/scenes/appearance_reader.hpp>
 #include <weft/scenes/quantity.hpp>
 #include <weft/scenes/scene_reader.hpp>
-#include <weft/scenes/scene_words.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -26,7 +26,8 @@ Eigen::Quaterniond read_quaternion(const TomlValue& value) {
 
 }  // namespace
 
-Eigen::Quaterniond read_orientation(const TomlTable& table) {
+Eigen::Quaterniond read_orientation(const TomlValue& value) {
+  const TomlTable table = value.table("a table such as { axis = [0, 1, 0], angle = \"30 deg\" }");
   table.allow(kOrientationKeys);
   if (const auto quaternion = table.find("quaternion")) {
     if (table.has("axis") || table.has("angle")) {
@@ -46,39 +47,22 @@ Eigen::Quaterniond read_orientation(const TomlTable& table) {
 
 namespace {
 
-Vector3<double> read_half_extents(const TomlValue& value, const std::string& expected) {
-  Vector3<double> half;
-  const std::vector<TomlValue> edges = value.items(expected, 3);
-  for (int axis = 0; axis < 3; ++axis) {
-    half[axis] = 0.5 * edges[static_cast<std::size_t>(axis)].positive("m");
+/// Why a shape cannot be a dynamic body; empty if it can.
+std::string_view why_fixed(const Shape& shape) {
+  if (std::holds_alternative<PlaneShape>(shape)) return "a plane cannot move, expected no mass";
+  if (std::holds_alternative<HeightFieldShape>(shape)) {
+    return "a height field cannot move, expected no mass";
   }
-  return half;
-}
-
-Shape read_shape(const TomlTable& table, std::string_view word) {
-  std::vector<std::string_view> keys = {"name",     "shape", "position", "orientation",
-                                        "friction", "mass",  "velocity", "angular_velocity",
-                                        "path"};
-  if (word == "sphere") {
-    keys.push_back("radius");
-    table.allow(keys);
-    return SphereShape{table.require("radius", expected_quantity("m")).positive("m")};
+  if (std::holds_alternative<MeshShape>(shape)) {
+    return "a mesh has no stated inside to weigh, expected no mass, or a compound of convex shapes";
   }
-  if (word == "box") {
-    keys.push_back("size");
-    table.allow(keys);
-    const std::string expected = "three edge lengths such as [\"1 m\", \"1 m\", \"1 m\"]";
-    return BoxShape{read_half_extents(table.require("size", expected), expected)};
-  }
-  table.allow(keys);
-  return PlaneShape{};
+  return {};
 }
 
 void read_motion(const TomlTable& table, Collider& collider) {
   if (const auto mass = table.find("mass")) {
-    if (std::holds_alternative<PlaneShape>(collider.shape)) {
-      mass->fail("a plane cannot move, expected no mass");
-    }
+    const std::string_view why = why_fixed(collider.shape);
+    if (!why.empty()) mass->fail(std::string(why));
     collider.mass = mass->positive("kg");
   }
   if (const auto path = table.find("path")) {
@@ -103,17 +87,17 @@ void read_motion(const TomlTable& table, Collider& collider) {
 
 Collider read_collider(const TomlTable& table) {
   Collider collider;
-  const TomlValue shape = table.require("shape", "one of sphere, box, plane");
-  const std::string_view word = kShapeWords[shape.choice(kShapeWords, "shape")];
-  collider.shape = read_shape(table, word);
+  std::vector<std::string_view> keys = {"name",     "shape", "position", "orientation",
+                                        "friction", "mass",  "velocity", "angular_velocity",
+                                        "path"};
+  keys.insert(keys.end(), kColliderAppearanceKeys.begin(), kColliderAppearanceKeys.end());
+  collider.shape = read_shape(table, keys);
   collider.name = table.require("name", "a name such as \"ball\"").identifier();
   if (const auto value = table.find("position")) collider.position = value->vector("m");
-  if (const auto value = table.find("orientation")) {
-    collider.orientation =
-        read_orientation(value->table("a table such as { axis = [0, 1, 0], angle = \"30 deg\" }"));
-  }
+  if (const auto value = table.find("orientation")) collider.orientation = read_orientation(*value);
   if (const auto value = table.find("friction")) collider.friction = value->non_negative("1");
   read_motion(table, collider);
+  collider.appearance = read_appearance(table);
   return collider;
 }
 

@@ -141,6 +141,11 @@ ClothMesh make_mesh(const Cloth& cloth) {
   return mesh;
 }
 
+bool is_for_engine(const Scene& scene, std::string_view engine) {
+  return scene.engines.empty() ||
+         std::find(scene.engines.begin(), scene.engines.end(), engine) != scene.engines.end();
+}
+
 Scene with_bullets_time_step(Scene scene) {
   World& world = scene.world;
   const double num_steps = std::round(world.duration / world.time_step);

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -10,8 +11,10 @@
 
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
+#include <weft/scenes/appearance.hpp>
 #include <weft/scenes/cloth_source.hpp>
 #include <weft/scenes/motion/path.hpp>
+#include <weft/scenes/shapes.hpp>
 
 namespace weft::scenes {
 
@@ -81,21 +84,16 @@ struct Cloth {
   double friction =
       0.5;  ///< Coulomb coefficient of the cloth [-]; with a collider: the product of both
   std::vector<forces::LawSpecification> laws;
+  bool self_collision = false;
+  /// [m] distance that layers of the cloth keep, > 0; none: twice collision_margin
+  std::optional<double> self_thickness = std::nullopt;
+  bool soft_collision = false;  ///< with the other cloths that say so too
 
   /// The source as a grid. Throws InvalidArgument if it is something else.
   [[nodiscard]] ClothGrid& grid();
   [[nodiscard]] const ClothGrid& grid() const;
+  Appearance appearance = {};
 };
-
-struct SphereShape {
-  double radius;  ///< [m]
-};
-struct BoxShape {
-  Vector3<double> half_extents;  ///< [m]
-};
-/// The half space below the plane through the collider's position with its local y axis as normal.
-struct PlaneShape {};
-using Shape = std::variant<SphereShape, BoxShape, PlaneShape>;
 
 /// A rigid obstacle; with a mass it is a dynamic rigid body that the cloth pushes back.
 struct Collider {
@@ -107,14 +105,22 @@ struct Collider {
   std::optional<double> mass = std::nullopt;  ///< [kg]; none: fixed
   Vector3<double> velocity{0, 0, 0};          ///< [m/s], dynamic bodies only
   Vector3<double> angular_velocity{0, 0, 0};  ///< [rad/s], dynamic bodies only
+  Appearance appearance = {};
   /// Leads the centre, absolute [m]; turns beyond orientation. The collider has no mass then and
   /// position is the path's at time 0.
   std::optional<Path> path = std::nullopt;
 };
 
+/// How Bullet's classic soft-body world meets a mesh or a height field, which are not convex.
+enum class ConcaveContact {
+  kPrisms,     ///< as a compound of convex solids behind its triangles
+  kTriangles,  ///< as Bullet does by itself: each triangle grown to a slab of 6 cm to both sides
+};
+
 /// Settings of Bullet's own solver, for the engines that use it.
 struct BulletSettings {
   int position_iterations = 20;  ///< >= 1; how often Bullet visits each link and contact per step
+  ConcaveContact concave = ConcaveContact::kPrisms;
 };
 
 enum class Integrator { kExplicitEuler, kModifiedEuler, kVelocityVerlet, kRungeKutta4 };
@@ -159,11 +165,16 @@ struct Camera {
   Vector3<double> position{8, 6, 10};  ///< [m]
   Vector3<double> target{0, 1, 0};     ///< [m]
   double field_of_view = 0.6;          ///< vertical [rad]
+  std::string follow = {};             ///< name of a body that it keeps in view; empty: none
+  /// [s] of the most telling picture; none: the last one.
+  std::optional<double> poster_time = std::nullopt;
 };
 
 struct Scene {
   std::string name;     ///< identifier, [a-z0-9_]+
   std::string summary;  ///< one sentence, "Shows ..."
+  /// Names of the engines that the scene is made for, the first one is run by default. Empty: all.
+  std::vector<std::string> engines = {};
   World world;
   std::vector<Cloth> cloths;
   std::vector<Collider> colliders;
@@ -171,6 +182,7 @@ struct Scene {
   BulletSettings bullet;
   ReferenceSettings reference;
   Camera camera;
+  std::vector<SceneFile> files = {};  ///< those that appearances name, each once
 };
 
 /// Mesh of a cloth with its pins, connections and regions resolved to node indices.
@@ -180,6 +192,8 @@ struct Scene {
 
 /// The nodes of its mesh that a pin or region of the cloth holds, sorted.
 [[nodiscard]] std::vector<int> nodes_of(const Pin& pin, const Cloth& cloth, const ClothMesh& mesh);
+/// Whether the scene is made for the engine of this name.
+[[nodiscard]] bool is_for_engine(const Scene& scene, std::string_view engine);
 
 /// The scene with the time step that Bullet takes, which it rounds to single precision in both
 /// builds; duration and frame interval keep their numbers of steps. Engines that are to be compared

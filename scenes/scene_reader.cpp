@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <weft/scenes/appearance_reader.hpp>
 #include <weft/scenes/quantity.hpp>
 #include <weft/scenes/scene_words.hpp>
 
@@ -20,14 +21,15 @@ constexpr int kMaxPositionIterations = 100'000;
 /// rounding of both, and after kMaxSteps steps the recording is still only 1/100 of a step off.
 constexpr double kWholeStepTolerance = 1e-9;
 
-constexpr std::array<std::string_view, 10> kRootKeys = {
-    "schema",   "name",       "summary", "world",     "cloth",
+constexpr std::array<std::string_view, 11> kRootKeys = {
+    "schema",   "name",       "summary", "engines",   "world", "cloth",
     "collider", "controller", "bullet",  "reference", "camera"};
 constexpr std::array<std::string_view, 4> kWorldKeys = {"gravity", "time_step", "duration",
                                                         "frame_interval"};
-constexpr std::array<std::string_view, 1> kBulletKeys = {"position_iterations"};
+constexpr std::array<std::string_view, 2> kBulletKeys = {"position_iterations", "concave"};
 constexpr std::array<std::string_view, 3> kReferenceKeys = {"integrator", "contact", "step_guard"};
-constexpr std::array<std::string_view, 3> kCameraKeys = {"position", "target", "field_of_view"};
+constexpr std::array<std::string_view, 5> kCameraKeys = {"position", "target", "field_of_view",
+                                                         "follow", "poster_time"};
 
 void check_schema(const TomlTable& root) {
   const std::string expected = fmt::format("schema = \"{}\"", kSchema);
@@ -46,6 +48,19 @@ std::string read_name(const TomlTable& root) {
     value.fail("expected lower-case letters, digits and '_' only");
   }
   return name;
+}
+
+std::vector<std::string> read_engines(const TomlValue& value) {
+  std::vector<std::string> engines;
+  for (const TomlValue& item : value.items("a list of engines such as [\"bullet_soft\"]")) {
+    std::string engine(kEngineWords[item.choice(kEngineWords, "engine")]);
+    if (std::find(engines.begin(), engines.end(), engine) != engines.end()) {
+      item.fail("expected each engine once");
+    }
+    engines.push_back(std::move(engine));
+  }
+  if (engines.empty()) value.fail("is empty, expected at least one engine, or no such key");
+  return engines;
 }
 
 void check_steps(const World& world, const TomlTable& table) {
@@ -78,6 +93,9 @@ BulletSettings read_bullet(const TomlTable& table) {
   if (const auto value = table.find("position_iterations")) {
     settings.position_iterations = value->integer(1, kMaxPositionIterations);
   }
+  if (const auto value = table.find("concave")) {
+    settings.concave = static_cast<ConcaveContact>(value->choice(kConcaveWords, "contact"));
+  }
   return settings;
 }
 
@@ -96,7 +114,14 @@ ReferenceSettings read_reference(const TomlTable& table) {
   return settings;
 }
 
-Camera read_camera(const TomlTable& table) {
+void check_follow(const TomlValue& value, const std::string& name, const Scene& scene) {
+  const auto has_name = [&](const auto& body) { return body.name == name; };
+  if (std::any_of(scene.cloths.begin(), scene.cloths.end(), has_name)) return;
+  if (std::any_of(scene.colliders.begin(), scene.colliders.end(), has_name)) return;
+  value.fail("no body has this name, expected a cloth or a collider");
+}
+
+Camera read_camera(const TomlTable& table, const Scene& scene) {
   table.allow(kCameraKeys);
   Camera camera;
   if (const auto value = table.find("position")) camera.position = value->vector("m");
@@ -104,6 +129,13 @@ Camera read_camera(const TomlTable& table) {
   if (const auto value = table.find("field_of_view")) {
     camera.field_of_view = value->positive("rad");
     if (camera.field_of_view >= std::numbers::pi) value->fail("expected an angle < 180 deg");
+  }
+  if (const auto value = table.find("follow")) {
+    camera.follow = value->identifier();
+    check_follow(*value, camera.follow, scene);
+  }
+  if (const auto value = table.find("poster_time")) {
+    camera.poster_time = value->non_negative("s");
   }
   if (camera.position == camera.target) table.fail("position = target, expected two points");
   return camera;
@@ -149,20 +181,23 @@ World read_world(const TomlTable& table) {
   return world;
 }
 
-Scene read_scene(const TomlTable& root) {
+Scene read_scene(const TomlTable& root, const FileSource& files) {
   check_schema(root);
   root.allow(kRootKeys);
   Scene scene;
   scene.name = read_name(root);
   if (const auto value = root.find("summary")) scene.summary = value->text();
+  if (const auto value = root.find("engines")) scene.engines = read_engines(*value);
   const std::string world = "a table [world] with time_step and duration";
   scene.world = read_world(root.require("world", world).table(world));
   read_bodies(root, scene);
+  load_appearance_files(root, files, scene);
   if (const auto value = root.find("bullet")) scene.bullet = read_bullet(value->table("a table"));
   if (const auto value = root.find("reference")) {
     scene.reference = read_reference(value->table("a table"));
   }
-  if (const auto value = root.find("camera")) scene.camera = read_camera(value->table("a table"));
+  if (const auto value = root.find("camera"))
+    scene.camera = read_camera(value->table("a table"), scene);
   return scene;
 }
 

@@ -10,14 +10,21 @@ namespace weft::scenes {
 
 inline constexpr std::string_view kSchema = "weft-scene/1";
 
+inline constexpr std::array<std::string_view, 5> kEngineWords = {
+    "bullet_soft", "bullet_forces", "bullet_deformable", "bullet_deformable_implicit", "reference"};
 inline constexpr std::array<std::string_view, 3> kStencilWords = {"24-neighbour", "12-neighbour",
                                                                   "8-neighbour"};
 inline constexpr std::array<std::string_view, 2> kLumpingWords = {"area", "uniform"};
-inline constexpr std::array<std::string_view, 3> kShapeWords = {"sphere", "box", "plane"};
+inline constexpr std::array<std::string_view, 10> kShapeWords = {
+    "sphere", "box",         "plane", "capsule",  "cylinder",
+    "cone",   "convex_hull", "mesh",  "compound", "height_field"};
+inline constexpr std::array<std::string_view, 7> kPatternWords = {
+    "plain", "checks", "stripes", "dots", "tartan", "carpet", "eyeball"};
 inline constexpr std::array<std::string_view, 4> kIntegratorWords = {
     "explicit_euler", "modified_euler", "velocity_verlet", "runge_kutta_4"};
 inline constexpr std::array<std::string_view, 2> kContactWords = {"projection", "impulse"};
 inline constexpr std::array<std::string_view, 3> kStepGuardWords = {"report", "refuse", "substep"};
+inline constexpr std::array<std::string_view, 2> kConcaveWords = {"prisms", "triangles"};
 inline constexpr std::array<std::string_view, 4> kCornerWords = {"-u-v", "+u-v", "-u+v", "+u+v"};
 inline constexpr std::array<std::string_view, 4> kEdgeWords = {"-u", "+u", "-v", "+v"};
 inline constexpr std::array<std::string_view, 3> kFollowWords = {"fixed", "heading", "banked"};

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <weft/custom_forces/registry.hpp>
+#include <weft/scenes/appearance_reader.hpp>
 #include <weft/scenes/scene_file.hpp>
 #include <weft/scenes/scene_text.hpp>
 #include <weft/scenes/scene_words.hpp>
+#include <weft/scenes/shape_writer.hpp>
 #include <weft/scenes/text_guard.hpp>
+#include <weft/scenes/toml_text.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -137,6 +140,9 @@ void write_cloth(std::string& out, const Cloth& cloth) {
   line(out, "collision_margin", value_text(cloth.collision_margin, "m"));
   line(out, "friction", value_text(cloth.friction, "1"));
   line(out, "pin", all_pins_text(cloth));
+  if (cloth.self_collision) line(out, "self_collision", "true");
+  if (cloth.self_thickness) line(out, "self_thickness", value_text(*cloth.self_thickness, "m"));
+  if (cloth.soft_collision) line(out, "soft_collision", "true");
   if (!cloth.connections.empty()) {
     std::string connections;
     for (const Connection& connection : cloth.connections) {
@@ -152,24 +158,14 @@ void write_cloth(std::string& out, const Cloth& cloth) {
     }
     line(out, "region", "[" + regions + "]");
   }
+  out += write_appearance(cloth.appearance);
   for (const forces::LawSpecification& law : cloth.laws) write_law(out, law);
 }
-
-void write_shape(std::string& out, const SphereShape& sphere) {
-  line(out, "radius", value_text(sphere.radius, "m"));
-}
-
-void write_shape(std::string& out, const BoxShape& box) {
-  line(out, "size", vector_text(2.0 * box.half_extents, "m"));
-}
-
-void write_shape(std::string&, const PlaneShape&) {}
 
 void write_collider(std::string& out, const Collider& collider) {
   out += "\n[[collider]]\n";
   line(out, "name", toml_string(collider.name));
-  line(out, "shape", word(kShapeWords, collider.shape.index()));
-  std::visit([&](const auto& shape) { write_shape(out, shape); }, collider.shape);
+  out += shape_text(collider.shape);
   if (collider.path) {
     line(out, "path", path_text(*collider.path));
   } else {
@@ -177,6 +173,7 @@ void write_collider(std::string& out, const Collider& collider) {
   }
   line(out, "orientation", orientation_text(collider.orientation));
   line(out, "friction", value_text(collider.friction, "1"));
+  out += write_appearance(collider.appearance);
   if (!collider.mass) return;
   line(out, "mass", value_text(*collider.mass, "kg"));
   line(out, "velocity", vector_text(collider.velocity, "m/s"));
@@ -208,6 +205,7 @@ void write_controller(std::string& out, const Roll& roll) {
 void write_settings(std::string& out, const Scene& scene) {
   out += "\n[bullet]\n";
   line(out, "position_iterations", std::to_string(scene.bullet.position_iterations));
+  line(out, "concave", word(kConcaveWords, scene.bullet.concave));
   out += "\n[reference]\n";
   line(out, "integrator", word(kIntegratorWords, scene.reference.integrator));
   line(out, "contact", word(kContactWords, scene.reference.contact));
@@ -216,6 +214,10 @@ void write_settings(std::string& out, const Scene& scene) {
   line(out, "position", vector_text(scene.camera.position, "m"));
   line(out, "target", vector_text(scene.camera.target, "m"));
   line(out, "field_of_view", value_text(scene.camera.field_of_view, "rad"));
+  if (!scene.camera.follow.empty()) line(out, "follow", toml_string(scene.camera.follow));
+  if (scene.camera.poster_time) {
+    line(out, "poster_time", value_text(*scene.camera.poster_time, "s"));
+  }
 }
 
 }  // namespace
@@ -225,6 +227,13 @@ std::string write_scene(const Scene& scene) {
   line(out, "schema", toml_string(kSchema));
   line(out, "name", toml_string(scene.name));
   line(out, "summary", toml_string(scene.summary));
+  if (!scene.engines.empty()) {
+    std::string engines;
+    for (const std::string& engine : scene.engines) {
+      engines += (engines.empty() ? "" : ", ") + toml_string(engine);
+    }
+    line(out, "engines", "[" + engines + "]");
+  }
   out += "\n[world]\n";
   line(out, "gravity", vector_text(scene.world.gravity, "m/s^2"));
   line(out, "time_step", value_text(scene.world.time_step, "s"));

@@ -15,14 +15,13 @@ Vector3<double> from_bullet(const btVector3& v) {
   return Vector3<btScalar>(v.x(), v.y(), v.z()).cast<double>();
 }
 
-void lead_collider(const Pose& pose, double offset, btRigidBody& body) {
+void lead_collider(const Pose& pose, const Vector3<double>& offset, btRigidBody& body) {
   if (!body.isKinematicObject()) {
     throw InvalidArgument(
         "steering: a collider that is led has a mass or stands still, expected one with a path");
   }
   const Eigen::Quaternion<btScalar> q = pose.orientation.cast<btScalar>();
-  const Vector3<btScalar> place =
-      (pose.position - pose.orientation * Vector3<double>(0, offset, 0)).cast<btScalar>();
+  const Vector3<btScalar> place = (pose.position + pose.orientation * offset).cast<btScalar>();
   // Bullet derives the velocity that friction needs from the last two of these.
   body.setWorldTransform(btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()),
                                      btVector3(place[0], place[1], place[2])));
@@ -47,7 +46,7 @@ void BulletBodies::add(const Cloth& cloth, const ClothMesh& mesh, btSoftBody& bo
 
 void BulletBodies::add(const Collider& collider, btRigidBody& body) {
   rigids_.push_back(&body);
-  rigid_offsets_.push_back(bullet_shape_offset(collider.shape));
+  rigid_offsets_.push_back(bullet_shape_offset(collider));
   RigidState state;
   state.name = collider.name;
   state_.rigids.push_back(std::move(state));
@@ -99,8 +98,7 @@ void BulletBodies::read_state(double time) {
     const btQuaternion q = transform.getRotation();
     rigid.orientation = Eigen::Quaterniond(static_cast<double>(q.w()), static_cast<double>(q.x()),
                                            static_cast<double>(q.y()), static_cast<double>(q.z()));
-    rigid.position = from_bullet(transform.getOrigin()) +
-                     rigid.orientation * Vector3<double>(0, rigid_offsets_[r], 0);
+    rigid.position = from_bullet(transform.getOrigin()) - rigid.orientation * rigid_offsets_[r];
     rigid.velocity = from_bullet(rigids_[r]->getLinearVelocity());
     rigid.angular_velocity = from_bullet(rigids_[r]->getAngularVelocity());
   }

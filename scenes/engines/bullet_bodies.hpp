@@ -33,7 +33,7 @@ class BulletBodies {
   std::vector<btSoftBody*> cloths_;
   std::vector<ClothMesh> steered_;  ///< as cloths_: pins and their velocities, nothing else
   std::vector<btRigidBody*> rigids_;
-  std::vector<double> rigid_offsets_;  ///< [m] see bullet_shape_offset()
+  std::vector<Vector3<double>> rigid_offsets_;  ///< [m] see bullet_shape_offset()
   SceneState state_;
 };
 

@@ -41,7 +41,7 @@ void DeformableSimulator::load(const Scene& scene) {
                                       .distance_field_voxel = distance_field_voxel(scene)});
   for (const Cloth& cloth : scene.cloths) add_cloth(cloth);
   for (const Collider& collider : scene.colliders) {
-    BulletCollider made = make_bullet_collider(collider);
+    BulletCollider made = make_bullet_collider(collider, scene.bullet.concave);
     bodies_.add(collider, world_->add(std::move(made.body), std::move(made.shape)));
   }
   bodies_.read_state(0.0);
@@ -56,6 +56,11 @@ void DeformableSimulator::add_cloth(const Cloth& cloth) {
   if (mesh.pinned_velocities.cols() > 0 && !mesh.pinned_velocities.isZero()) {
     throw InvalidArgument("bullet_deformable: cloth '" + cloth.name +
                           "': a pin moves, expected pins at rest, or the law drive");
+  }
+  if (cloth.self_collision || cloth.soft_collision) {
+    throw InvalidArgument("bullet_deformable: cloth '" + cloth.name +
+                          "': self_collision or soft_collision, expected neither, or one of the "
+                          "engines bullet_soft, bullet_forces");
   }
   const bridge::ClothSettings settings{.collision_margin = cloth.collision_margin,
                                        .friction = cloth.friction};

@@ -1,6 +1,10 @@
 #include <weft/scenes/engines/bullet_shapes.hpp>
 
 #include <algorithm>
+#include <vector>
+
+#include <weft/scenes/engines/bullet_concave.hpp>
+#include <weft/scenes/shape_surface.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -12,12 +16,20 @@ namespace {
 constexpr double kPlaneHalfWidth = 20.0;
 constexpr double kPlaneHalfDepth = 2.5;
 
-/// Bullet rounds a box by its margin (4 cm by default). As a fraction of the smallest half extent.
-constexpr double kBoxMarginRatio = 0.01;
+/// Bullet rounds a box or a cylinder by its margin (4 cm by default). As a fraction of the smallest
+/// half extent.
+constexpr double kRoundingRatio = 0.01;
+/// A cone and a hull grow by their margin instead. Without any, Bullet's search for the depth of a
+/// point fails in places: then the field has no value there. As a fraction of the smallest half
+/// extent.
+constexpr double kGrowthRatio = 0.002;
 
 /// Voxel edge as a fraction of a collider's smallest half extent: 1/20 meets a sphere within R /
 /// 3200.
 constexpr double kVoxelRatio = 0.05;
+/// The same for the edges of a mesh's triangles: their fronts are flat, and only bends between them
+/// are rounded, by about a quarter of a voxel.
+constexpr double kMeshVoxelRatio = 0.15;
 constexpr double kLargestVoxel = 0.25;  ///< [m] Bullet's default
 
 btVector3 to_bullet(const Vector3<double>& v) {
@@ -25,48 +37,145 @@ btVector3 to_bullet(const Vector3<double>& v) {
   return {s[0], s[1], s[2]};
 }
 
-std::unique_ptr<btCollisionShape> make_box(const Vector3<double>& half_extents) {
-  auto box = std::make_unique<btBoxShape>(to_bullet(half_extents));
-  box->setMargin(static_cast<btScalar>(kBoxMarginRatio * half_extents.minCoeff()));
-  return box;
+btQuaternion to_bullet(const Eigen::Quaterniond& orientation) {
+  const Eigen::Quaternion<btScalar> q = orientation.cast<btScalar>();
+  return {q.x(), q.y(), q.z(), q.w()};
+}
+
+double smallest_half_extent(const Matrix3X<double>& points) {
+  return 0.5 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).minCoeff();
+}
+
+struct SmallestHalfExtent {
+  double operator()(const SphereShape& s) const { return s.radius; }
+  double operator()(const BoxShape& s) const { return s.half_extents.minCoeff(); }
+  double operator()(const CapsuleShape& s) const { return s.radius; }
+  double operator()(const CylinderShape& s) const { return std::min(s.radius, 0.5 * s.height); }
+  double operator()(const ConeShape& s) const { return std::min(s.radius, 0.5 * s.height); }
+  double operator()(const ConvexHullShape& s) const { return smallest_half_extent(s.points); }
+};
+
+struct Voxel {
+  double operator()(const PlaneShape&) const { return kLargestVoxel; }
+  double operator()(const MeshShape& s) const { return kMeshVoxelRatio * mean_edge_length(s); }
+  double operator()(const HeightFieldShape& s) const { return (*this)(height_field_surface(s)); }
+  double operator()(const CompoundShape& s) const {
+    double voxel = kLargestVoxel;
+    for (const CompoundPart& part : s.parts) {
+      voxel = std::min(voxel, kVoxelRatio * std::visit(SmallestHalfExtent{}, part.shape));
+    }
+    return voxel;
+  }
+  template <class Convex>
+  double operator()(const Convex& s) const {
+    return kVoxelRatio * SmallestHalfExtent{}(s);
+  }
+};
+
+/// A compound and the children that it does not own itself.
+struct OwnedCompound {
+  std::vector<std::shared_ptr<btCollisionShape>> children;
+  btCompoundShape compound;
+
+  void add(std::shared_ptr<btCollisionShape> child, const btTransform& place) {
+    compound.addChildShape(place, child.get());
+    children.push_back(std::move(child));
+  }
+};
+
+template <class BulletShape>
+std::shared_ptr<btCollisionShape> with_margin(std::shared_ptr<BulletShape> shape, double margin) {
+  shape->setMargin(static_cast<btScalar>(margin));
+  return shape;
 }
 
 struct MakeShape {
-  std::unique_ptr<btCollisionShape> operator()(const SphereShape& sphere) const {
-    return std::make_unique<btSphereShape>(static_cast<btScalar>(sphere.radius));
+  using Made = std::shared_ptr<btCollisionShape>;
+  ConcaveContact concave;
+
+  Made operator()(const SphereShape& s) const {
+    return std::make_shared<btSphereShape>(static_cast<btScalar>(s.radius));
   }
-  std::unique_ptr<btCollisionShape> operator()(const BoxShape& box) const {
-    return make_box(box.half_extents);
+  Made operator()(const BoxShape& s) const {
+    return with_margin(std::make_shared<btBoxShape>(to_bullet(s.half_extents)),
+                       kRoundingRatio * SmallestHalfExtent{}(s));
   }
-  std::unique_ptr<btCollisionShape> operator()(const PlaneShape&) const {
-    return make_box({kPlaneHalfWidth, kPlaneHalfDepth, kPlaneHalfWidth});
+  Made operator()(const PlaneShape&) const {
+    return (*this)(BoxShape{{kPlaneHalfWidth, kPlaneHalfDepth, kPlaneHalfWidth}});
+  }
+  Made operator()(const CapsuleShape& s) const {
+    return std::make_shared<btCapsuleShape>(static_cast<btScalar>(s.radius),
+                                            static_cast<btScalar>(s.height));
+  }
+  Made operator()(const CylinderShape& s) const {
+    const Vector3<double> half(s.radius, 0.5 * s.height, s.radius);
+    return with_margin(std::make_shared<btCylinderShape>(to_bullet(half)),
+                       kRoundingRatio * SmallestHalfExtent{}(s));
+  }
+  Made operator()(const ConeShape& s) const {
+    return with_margin(std::make_shared<btConeShape>(static_cast<btScalar>(s.radius),
+                                                     static_cast<btScalar>(s.height)),
+                       kGrowthRatio * SmallestHalfExtent{}(s));
+  }
+  Made operator()(const ConvexHullShape& s) const {
+    auto hull = std::make_shared<btConvexHullShape>();
+    for (Eigen::Index i = 0; i < s.points.cols(); ++i) {
+      hull->addPoint(to_bullet(s.points.col(i)), false);
+    }
+    hull->recalcLocalAabb();
+    return with_margin(std::move(hull), kGrowthRatio * SmallestHalfExtent{}(s));
+  }
+  Made operator()(const MeshShape& s) const {
+    return concave == ConcaveContact::kPrisms ? make_prisms(s) : make_triangle_mesh(s);
+  }
+  Made operator()(const HeightFieldShape& s) const {
+    return concave == ConcaveContact::kPrisms ? make_prisms(s)
+                                              : make_triangle_mesh(height_field_surface(s));
+  }
+  Made operator()(const CompoundShape& s) const {
+    auto owned = std::make_shared<OwnedCompound>();
+    for (const CompoundPart& part : s.parts) {
+      owned->add(std::visit(*this, part.shape),
+                 btTransform(to_bullet(part.orientation), to_bullet(part.position)));
+    }
+    return {owned, &owned->compound};
   }
 };
 
-struct SmallestHalfExtent {
-  double operator()(const SphereShape& sphere) const { return sphere.radius; }
-  double operator()(const BoxShape& box) const { return box.half_extents.minCoeff(); }
-  double operator()(const PlaneShape&) const { return kLargestVoxel / kVoxelRatio; }
-};
+/// The shape moved in its body's frame.
+std::shared_ptr<btCollisionShape> moved(std::shared_ptr<btCollisionShape> shape,
+                                        const Vector3<double>& by) {
+  auto owned = std::make_shared<OwnedCompound>();
+  owned->add(std::move(shape), btTransform(btQuaternion::getIdentity(), to_bullet(by)));
+  return {owned, &owned->compound};
+}
 
 }  // namespace
 
-double bullet_shape_offset(const Shape& shape) {
-  return std::holds_alternative<PlaneShape>(shape) ? kPlaneHalfDepth : 0.0;
+Vector3<double> bullet_shape_offset(const Collider& collider) {
+  if (std::holds_alternative<PlaneShape>(collider.shape)) return {0, -kPlaneHalfDepth, 0};
+  if (collider.mass) return solid_moments(collider.shape).center;
+  return Vector3<double>::Zero();
 }
 
-BulletCollider make_bullet_collider(const Collider& collider) {
+std::shared_ptr<btCollisionShape> make_bullet_shape(const Shape& shape, ConcaveContact concave) {
+  return std::visit(MakeShape{concave}, shape);
+}
+
+BulletCollider make_bullet_collider(const Collider& collider, ConcaveContact concave) {
   BulletCollider result;
-  result.shape = std::visit(MakeShape{}, collider.shape);
-  const auto mass = static_cast<btScalar>(collider.mass.value_or(0.0));
+  result.shape = make_bullet_shape(collider.shape, concave);
+  const Vector3<double> offset = bullet_shape_offset(collider);
   btVector3 inertia(0, 0, 0);
-  if (collider.mass) result.shape->calculateLocalInertia(mass, inertia);
-  btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, result.shape.get(), inertia);
-  const Eigen::Quaternion<btScalar> q = collider.orientation.cast<btScalar>();
-  const Vector3<double> down =
-      collider.orientation * Vector3<double>(0, -bullet_shape_offset(collider.shape), 0);
+  if (collider.mass) {
+    if (!offset.isZero(0)) result.shape = moved(std::move(result.shape), -offset);
+    inertia = to_bullet(*collider.mass * solid_moments(collider.shape).inertia);
+  }
+  btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(collider.mass.value_or(0.0)),
+                                                nullptr, result.shape.get(), inertia);
   info.m_startWorldTransform =
-      btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()), to_bullet(collider.position + down));
+      btTransform(to_bullet(collider.orientation),
+                  to_bullet(collider.position + collider.orientation * offset));
   info.m_friction = static_cast<btScalar>(collider.friction);
   info.m_restitution = 0;
   info.m_linearDamping = 0;
@@ -89,7 +198,7 @@ BulletCollider make_bullet_collider(const Collider& collider) {
 double distance_field_voxel(const Scene& scene) {
   double voxel = kLargestVoxel;
   for (const Collider& collider : scene.colliders) {
-    voxel = std::min(voxel, kVoxelRatio * std::visit(SmallestHalfExtent{}, collider.shape));
+    voxel = std::min(voxel, std::visit(Voxel{}, collider.shape));
   }
   return voxel;
 }

@@ -46,7 +46,7 @@ void BulletSimulator::load(const Scene& scene) {
       bridge::SoftWorldSettings{scene.world.gravity, distance_field_voxel(scene)});
   for (const Cloth& cloth : scene.cloths) add_cloth(cloth, scene);
   for (const Collider& collider : scene.colliders) {
-    BulletCollider made = make_bullet_collider(collider);
+    BulletCollider made = make_bullet_collider(collider, scene.bullet.concave);
     bodies_.add(collider, world_->add(std::move(made.body), std::move(made.shape)));
   }
   bodies_.read_state(0.0);
@@ -79,6 +79,15 @@ void BulletSimulator::add_cloth(const Cloth& cloth, const Scene& scene) {
     }
   }
   btSoftBody& body = world_->add(bridge::make_cloth_body(world_->info(), mesh, settings));
+  if (cloth.self_collision || cloth.soft_collision) {
+    const double margin = cloth.collision_margin;
+    world_->solver().set_cloth_contact(
+        body, {.with_itself = cloth.self_collision,
+               .with_others = cloth.soft_collision,
+               .self_thickness = cloth.self_thickness.value_or(2.0 * margin),
+               .margin = margin > 0 ? margin : 0.5 * *cloth.self_thickness,
+               .friction = cloth.friction});
+  }
   world_->solver().attach(body, std::move(laws), mesh.masses.cast<btScalar>());
   bodies_.add(cloth, mesh, body);
 }
@@ -110,7 +119,7 @@ StepReport BulletSimulator::step(double time_step) {
   bodies_.end_step(steering, report_.time_step);
   report_.num_contacts = 0;
   for (const btSoftBody* cloth : bodies_.cloths())
-    report_.num_contacts += cloth->m_rcontacts.size();
+    report_.num_contacts += cloth->m_rcontacts.size() + cloth->m_scontacts.size();
   bodies_.read_state(report_.time);
   report_.blow_up = find_blow_up();
   return report_;

@@ -2,9 +2,11 @@
 
 #include <utility>
 
+#include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
 #include <weft/scenes/controllers/director.hpp>
 #include <weft/scenes/engines/blow_up_check.hpp>
+#include <weft/scenes/scene_words.hpp>
 #include <weft/validation/reference/solver.hpp>
 
 namespace weft::scenes {
@@ -31,6 +33,11 @@ class ReferenceSimulator final : public Simulator {
 };
 
 reference::Body make_body(const Cloth& cloth, const LawFilter& filter) {
+  if (cloth.self_collision || cloth.soft_collision) {
+    throw InvalidArgument("reference: cloth '" + cloth.name +
+                          "': self_collision or soft_collision, expected neither, or one of the "
+                          "engines bullet_soft, bullet_forces");
+  }
   reference::Body body;
   body.name = cloth.name;
   body.mesh = make_mesh(cloth);
@@ -48,12 +55,21 @@ struct ToReferenceShape {
   reference::Shape operator()(const SphereShape& s) const { return reference::Sphere{s.radius}; }
   reference::Shape operator()(const BoxShape& b) const { return reference::Box{b.half_extents}; }
   reference::Shape operator()(const PlaneShape&) const { return reference::Plane{}; }
+  template <class Other>
+  reference::Shape operator()(const Other&) const {
+    const std::string_view word = kShapeWords[Shape(Other{}).index()];
+    throw InvalidArgument("reference: collider '" + name + "': shape = \"" + std::string(word) +
+                          "\", expected sphere, box or plane, or one of the engines bullet_soft, "
+                          "bullet_forces, bullet_deformable, bullet_deformable_implicit");
+  }
+
+  const std::string& name;
 };
 
 reference::Collider make_collider(const Collider& collider) {
   reference::Collider result;
   result.name = collider.name;
-  result.shape = std::visit(ToReferenceShape{}, collider.shape);
+  result.shape = std::visit(ToReferenceShape{collider.name}, collider.shape);
   result.position = collider.position;
   result.orientation = collider.orientation;
   result.friction = collider.friction;

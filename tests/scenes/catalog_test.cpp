@@ -94,6 +94,11 @@ TEST(Catalog, EverySceneIsStableForModifiedEuler) {
   constexpr double kLimit = 4.0;
   for (const CatalogEntry& entry : scene_catalog()) {
     const Scene scene = load_scene(std::string(entry.name));
+    // Links that Bullet projects and implicit steps have no such limit.
+    if (!is_for_engine(scene, "reference") && !is_for_engine(scene, "bullet_forces") &&
+        !is_for_engine(scene, "bullet_deformable")) {
+      continue;
+    }
     for (const Cloth& cloth : scene.cloths) {
       EXPECT_LT(stability_number(scene, cloth), kLimit) << entry.name;
     }

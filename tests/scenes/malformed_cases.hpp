@@ -14,7 +14,7 @@ struct MalformedCase {
 };
 
 // clang-format off
-inline constexpr std::array<MalformedCase, 83> kMalformedCases = {{
+inline constexpr auto kMalformedCases = std::to_array<MalformedCase>({
     {"axis_of_a_rope", 11, 1, "cloth.u_axis: unknown key"},
     {"center_has_it_all", 9, 88, "expected a number > 0 and < 1"},
     {"column_of_a_sphere", 11, 39, "expected a whole number from 0 to 41"},
@@ -88,7 +88,7 @@ inline constexpr std::array<MalformedCase, 83> kMalformedCases = {{
     {"unknown_key", 21, 1, "collider.raduis: unknown key, did you mean 'radius'?"},
     {"unknown_law", 15, 7, "unknown law, did you mean 'tension'?"},
     {"unknown_parameter", 17, 1, "did you mean 'stiffness'?"},
-    {"unknown_shape", 19, 9, "unknown shape, expected one of sphere, box, plane"},
+    {"unknown_shape", 19, 9, "unknown shape, expected one of sphere, box, plane, capsule, cylinder"},
     {"unknown_unit", 20, 10, "unknown unit 'mm/foo', expected a length"},
     {"unknown_world_key", 6, 1, "did you mean 'gravity'?"},
     {"wrong_schema", 1, 10, "expected \"weft-scene/1\""},
@@ -97,8 +97,28 @@ inline constexpr std::array<MalformedCase, 83> kMalformedCases = {{
     {"zero_axis", 10, 10, "no direction"},
     {"zero_denominator", 4, 13, "divides by zero"},
     {"zero_nodes", 9, 19, "expected a whole number from 2"},
+    {"engine_twice", 3, 27, "expected each engine once"},
+    {"no_engine", 3, 11, "expected at least one engine"},
+    {"unknown_engine", 3, 12, "unknown engine, did you mean 'bullet_soft'?"},
+    {"no_height", 10, 1, "missing key 'height'"},
+    {"flat_cone", 14, 10, "expected a length > 0"},
+    {"flat_hull", 14, 10, "lie in one plane"},
+    {"few_points", 14, 10, "has 3 points, expected 4 to 128"},
+    {"no_unit", 10, 1, "missing key 'unit'"},
+    {"mesh_outside", 15, 21, "expected a whole number from 0 to 2"},
+    {"mesh_sliver", 15, 14, "has no area"},
+    {"mesh_turned", 15, 25, "opposite directions"},
+    {"ragged_heights", 15, 20, "has 3 heights, expected 2"},
+    {"one_row", 15, 11, "has 1 rows, expected 2 to 257"},
+    {"no_parts", 13, 8, "has 0 parts"},
+    {"part_plane", 13, 19, "unknown shape of a part"},
+    {"part_mass", 13, 45, "unknown key"},
+    {"field_mass", 16, 8, "a height field cannot move"},
+    {"thin_layers", 10, 18, "expected self_collision = true"},
+    {"soft_without_margin", 11, 20, "layers of cloth keep twice of it"},
+    {"flag_as_text", 10, 18, "expected true or false"},
     {"zero_radius", 20, 10, "expected a length > 0"},
-}};
+});
 // clang-format on
 
 }  // namespace weft::scenes

@@ -288,6 +288,89 @@ TEST(SceneFile, WrittenSceneReadsBackToTheSameBits) {
   }
 }
 
+constexpr std::string_view kShapes = R"(
+self_collision = true
+self_thickness = "17 mm"
+soft_collision = true
+[[collider]]
+name = "capsule"
+shape = "capsule"
+radius = "10 cm"
+height = "1/3 m"
+[[collider]]
+name = "cylinder"
+shape = "cylinder"
+radius = "10 cm"
+height = "30 cm"
+mass = "2 kg"
+[[collider]]
+name = "cone"
+shape = "cone"
+radius = "10 cm"
+height = "30 cm"
+[[collider]]
+name = "stone"
+shape = "convex_hull"
+unit = "1 cm"
+points = [[0, 0, 0], [10, 0, 0], [0, 10, 0], [0, 0, 0.1]]
+[[collider]]
+name = "ramp"
+shape = "mesh"
+unit = "1/3 m"
+points = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+triangles = [[0, 1, 2], [0, 2, 3]]
+[[collider]]
+name = "dumbbell"
+shape = "compound"
+part = [
+  { shape = "sphere", radius = "1/7 m", position = ["1/3 m", "0 m", "0 m"] },
+  { shape = "cylinder", radius = "5 cm", height = "30 cm", orientation = { axis = [0, 0, 1], angle = "90 deg" } },
+]
+[[collider]]
+name = "hills"
+shape = "height_field"
+size = ["2 m", "1/3 m"]
+unit = "1 cm"
+heights = [[0, 1, 0], [3, 5, -7.3]]
+[bullet]
+concave = "triangles"
+)";
+
+TEST(SceneFile, ShapesReadAndReadBackToTheSameBits) {
+  const Scene scene = read_scene_text(std::string(kSmallScene) + std::string(kShapes), "shapes");
+  EXPECT_TRUE(scene.cloths[0].self_collision && scene.cloths[0].soft_collision);
+  EXPECT_EQ(scene.cloths[0].self_thickness, 0.017);
+  EXPECT_EQ(scene.bullet.concave, ConcaveContact::kTriangles);
+  ASSERT_EQ(scene.colliders.size(), 7U);
+  EXPECT_EQ(std::get<CapsuleShape>(scene.colliders[0].shape).height, 1.0 / 3.0);
+  EXPECT_EQ(scene.colliders[1].mass, 2.0);
+  EXPECT_EQ(std::get<ConvexHullShape>(scene.colliders[3].shape).points(0, 1), 0.1);
+  EXPECT_EQ(std::get<MeshShape>(scene.colliders[4].shape).triangles.col(1), Vector3<int>(0, 2, 3));
+  const auto& compound = std::get<CompoundShape>(scene.colliders[5].shape);
+  EXPECT_EQ(std::get<SphereShape>(compound.parts[0].shape).radius, 1.0 / 7.0);
+  const auto& field = std::get<HeightFieldShape>(scene.colliders[6].shape);
+  EXPECT_EQ(field.heights(1, 2), -7.3 * 0.01);
+  const std::string written = write_scene(scene);
+  const Scene back = read_scene_text(written, "written");
+  EXPECT_EQ(write_scene(back), written);
+  EXPECT_EQ(std::get<HeightFieldShape>(back.colliders[6].shape).heights, field.heights);
+  EXPECT_EQ(std::get<MeshShape>(back.colliders[4].shape).points,
+            std::get<MeshShape>(scene.colliders[4].shape).points);
+}
+
+TEST(SceneFile, EnginesAreNamedInTheirOrder) {
+  const Scene all = read_scene_text(kSmallScene, "small.toml");
+  EXPECT_TRUE(all.engines.empty());
+  EXPECT_TRUE(is_for_engine(all, "reference"));
+  const std::string text =
+      "engines = [\"bullet_forces\", \"bullet_soft\"]\n" + std::string(kSmallScene);
+  const Scene some = read_scene_text(text, "small.toml");
+  EXPECT_EQ(some.engines, (std::vector<std::string>{"bullet_forces", "bullet_soft"}));
+  EXPECT_TRUE(is_for_engine(some, "bullet_soft"));
+  EXPECT_FALSE(is_for_engine(some, "reference"));
+  EXPECT_EQ(read_scene_text(write_scene(some), "written.toml").engines, some.engines);
+}
+
 TEST(SceneFile, WriterRefusesWhatTheFormatCannotSay) {
   Scene scene = read_scene_text(kSmallScene, "small.toml");
   scene.cloths[0].pins = {CornerPin{.u = 1, .v = 0}};

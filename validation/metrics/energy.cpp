@@ -8,6 +8,7 @@
 
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
+#include <weft/scenes/shape_surface.hpp>
 
 namespace weft::validation {
 namespace {
@@ -24,8 +25,11 @@ Vector3<double> inertia(const scenes::Collider& collider) {
     const Vector3<double> squared = box->half_extents.cwiseAbs2();
     return mass / 3.0 * (squared.sum() - squared.array());
   }
-  throw InvalidArgument(fmt::format("energy: collider '{}' = a plane of {} [kg], expected no mass",
-                                    collider.name, mass));
+  if (std::holds_alternative<scenes::PlaneShape>(collider.shape)) {
+    throw InvalidArgument(fmt::format(
+        "energy: collider '{}' = a plane of {} [kg], expected no mass", collider.name, mass));
+  }
+  return mass * scenes::solid_moments(collider.shape).inertia;
 }
 
 bool all_finite(const scenes::SceneState& state) {

@@ -31,9 +31,10 @@ Penetration penetration(const scenes::Cloth& cloth, const scenes::ClothState& cl
   result.cloth = cloth.name;
   result.collider = collider.name;
   result.closest = std::numeric_limits<double>::infinity();
+  const ShapeDistance shape(collider.shape);
   VectorX<double> distances(cloth_state.positions.cols());
   for (Eigen::Index i = 0; i < distances.size(); ++i) {
-    distances[i] = signed_distance(collider.shape, pose, cloth_state.positions.col(i));
+    distances[i] = signed_distance(shape, pose, cloth_state.positions.col(i));
     if (!std::isfinite(distances[i]) && !result.first_non_finite_node) {
       result.first_non_finite_node = static_cast<int>(i);
     }

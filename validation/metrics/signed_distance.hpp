@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include <weft/scenes/scene.hpp>
+#include <weft/validation/metrics/shape_distance.hpp>
 
 namespace weft::validation {
 
@@ -12,10 +13,13 @@ struct Pose {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 };
 
-/// Distance from a point to the surface of a shape [m], negative inside; for a box the exact
-/// Euclidean distance. NaN if the point or the pose is not finite. Written apart from the engines'
+/// Distance from a point to the surface of a shape [m], negative inside, see ShapeDistance. NaN if the point or the pose is not finite. Written apart from the engines'
 /// own contact code, so that it checks it.
 [[nodiscard]] double signed_distance(const scenes::Shape& shape, const Pose& pose,
+                                     const Vector3<double>& point);
+
+/// The same for many points of one shape.
+[[nodiscard]] double signed_distance(const ShapeDistance& shape, const Pose& pose,
                                      const Vector3<double>& point);
 
 }  // namespace weft::validation

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <weft/bridge/face_grid.hpp>
+#include <weft/bridge/precision.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+/// What a cloth collides with beside rigid bodies.
+struct ClothContactSettings {
+  bool with_itself = false;
+  bool with_others = false;      ///< with every other body that says so too
+  double self_thickness = 0.02;  ///< [m] distance that its layers keep, > 0
+  double margin = 0.01;          ///< [m] its share of the distance to another body, > 0
+  double friction = 0.5;         ///< Coulomb coefficient [-]; with another body: the product, >= 0
+};
+
+/// Contact of cloth with cloth: nodes against faces, found here and solved by Bullet.
+///
+/// Bullet's own (VF_SS) leaves a body's own faces out, takes the side from where the step would end,
+/// so that a node that has passed a face is drawn through, and demands twice the way of the step on
+/// top of the margin, which throws cloths apart. Here the side is that of the start of the step, and
+/// a contact takes away the approach, and what is left of the thickness slowly. It goes into
+/// btSoftBody::m_scontacts, so that Bullet's own iterations solve it together with its links.
+/// Edges against edges are not looked at: let the thickness be half the spacing of the nodes or
+/// more.
+class ClothContact {
+ public:
+  /// body in its rest shape: faces that are closer to a node than the thickness there, and its own,
+  /// are never in contact with it. Throws InvalidArgument for settings out of their domain.
+  ClothContact(const btSoftBody& body, const ClothContactSettings& settings);
+
+  [[nodiscard]] const ClothContactSettings& settings() const { return settings_; }
+  /// Between btSoftBody::predictMotion and solveConstraints. time_step [s].
+  void add_self_contacts(btSoftBody& body, btScalar time_step);
+
+ private:
+  ClothContactSettings settings_;
+  FaceGrid grid_;
+  std::vector<std::vector<int>> near_at_rest_;  ///< per node: faces, sorted
+};
+
+/// Contacts of the nodes of one body with the faces of another one; add both ways.
+void add_contacts(btSoftBody& body, const ClothContactSettings& settings, btSoftBody& other,
+                  const ClothContactSettings& other_settings, btScalar time_step);
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

@@ -1,0 +1,16 @@
+#include <gtest/gtest.h>
+
+#include <weft/scenes/catalog.hpp>
+
+#include "tests/catalog/scene_run.hpp"
+
+namespace weft::scenes {
+namespace {
+
+TEST(StackScene, NoNodeGoesBelowASurface) {
+  const RunNumbers numbers = measure_scene(load_scene("stack"));
+  EXPECT_LT(numbers.deepest, 0.02);
+}
+
+}  // namespace
+}  // namespace weft::scenes

@@ -1,0 +1,130 @@
+#include <weft/scenes/engines/bullet_shapes.hpp>
+
+#include <cmath>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <BulletSoftBody/btSparseSDF.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <weft/custom_forces/core/error.hpp>
+#include <weft/scenes/engines/engine_table.hpp>
+#include <weft/scenes/shape_surface.hpp>
+#include <weft/validation/metrics/shape_distance.hpp>
+
+namespace weft::scenes {
+namespace {
+
+using ::testing::HasSubstr;
+
+ConvexHullShape wedge() {
+  ConvexHullShape hull{Matrix3X<double>(3, 6)};
+  hull.points << -0.4, 0.4, -0.4, 0.4, -0.4, 0.4,  //
+      -0.3, -0.3, -0.3, -0.3, 0.3, 0.3,            //
+      -0.4, -0.4, 0.4, 0.4, 0.0, 0.0;
+  return hull;
+}
+
+std::vector<Shape> convex_shapes() {
+  return {SphereShape{0.4},        BoxShape{{0.3, 0.4, 0.5}}, CapsuleShape{0.3, 0.4},
+          CylinderShape{0.3, 0.8}, ConeShape{0.4, 0.8},       Shape(wedge())};
+}
+
+Scene scene_with(const Collider& collider) {
+  Scene scene;
+  scene.name = "test";
+  Cloth cloth;
+  cloth.name = "cloth";
+  cloth.grid().nodes = {3, 3};
+  cloth.grid().total_mass = 0.1;
+  cloth.grid().center = {0, 5, 0};
+  scene.cloths = {cloth};
+  scene.colliders = {collider};
+  return scene;
+}
+
+TEST(BulletShapes, ConvexShapesHaveTheExactSurface) {
+  // Margins are at most 1 % of the smallest half extent, 0.4 m; single precision costs Bullet's
+  // search on curved surfaces up to 1.6 mm.
+  constexpr double kTolerance = 0.004 + 0.0016;  // [m]
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coordinate(-0.7, 0.7);
+  for (const Shape& shape : convex_shapes()) {
+    const auto made = make_bullet_shape(shape, ConcaveContact::kPrisms);
+    const validation::ShapeDistance exact(shape);
+    for (int i = 0; i < 2000; ++i) {
+      const Vector3<double> x(coordinate(random), coordinate(random), coordinate(random));
+      if (std::abs(exact(x)) > 0.15) continue;
+      const btVector3 point(static_cast<btScalar>(x.x()), static_cast<btScalar>(x.y()),
+                            static_cast<btScalar>(x.z()));
+      const auto measured = static_cast<double>(btSparseSdf<3>::DistanceToShape(point, made.get()));
+      EXPECT_NEAR(measured, exact(x), kTolerance)
+          << "shape " << shape.index() << " at " << x.transpose();
+    }
+  }
+}
+
+TEST(BulletShapes, PrismsAreFlushWithTheirMeshAndSolidBehindIt) {
+  const MeshShape ball = shape_surface(SphereShape{0.5}, 16);
+  const auto made = make_bullet_shape(ball, ConcaveContact::kPrisms);
+  const auto* compound = dynamic_cast<const btCompoundShape*>(made.get());
+  ASSERT_NE(compound, nullptr);
+  ASSERT_EQ(compound->getNumChildShapes(), ball.triangles.cols());
+  const auto distance = [&](const Vector3<double>& x) {
+    double nearest = 1e9;
+    const btVector3 point(static_cast<btScalar>(x.x()), static_cast<btScalar>(x.y()),
+                          static_cast<btScalar>(x.z()));
+    for (int i = 0; i < compound->getNumChildShapes(); ++i) {
+      nearest = std::min(nearest, static_cast<double>(btSparseSdf<3>::DistanceToShape(
+                                      point, compound->getChildShape(i))));
+    }
+    return nearest;
+  };
+  const validation::ShapeDistance exact(ball);
+  for (int i = 0; i < 200; ++i) {
+    const Vector3<double> way =
+        Vector3<double>(std::sin(12.9 * i), std::sin(78.2 * i), std::sin(37.7 * i)).normalized();
+    EXPECT_NEAR(distance(0.55 * way), exact(0.55 * way), 0.002);
+    // A quarter of the extent of 1 m deep: at 0.35 m from the middle all is solid.
+    EXPECT_LT(distance(0.35 * way), 0.0);
+  }
+}
+
+TEST(BulletShapes, ABodyStandsWhereTheSceneSaysAndTurnsAboutItsCentreOfMass) {
+  Collider cone{.name = "cone", .shape = ConeShape{0.3, 0.8}, .position = {1, 2, 3}};
+  cone.orientation = Eigen::AngleAxisd(0.5, Vector3<double>(1, 2, 0).normalized());
+  cone.mass = 2.0;
+  EXPECT_NEAR(bullet_shape_offset(cone).y(), -0.2, 1e-3);  // a quarter of the height over the base
+  const auto engine =
+      find_engine("bullet_soft", bullet_description().find("double") != std::string::npos
+                                     ? StoredPrecision::kFloat64
+                                     : StoredPrecision::kFloat32)
+          ->make();
+  engine->load(scene_with(cone));
+  const double rounding = 1e-6;  // [m] of single precision at 3 m
+  EXPECT_LT((engine->state().rigids[0].position - cone.position).norm(), rounding);
+  const BulletCollider made = make_bullet_collider(cone);
+  const Vector3<double> inertia = 2.0 * solid_moments(cone.shape).inertia;
+  EXPECT_NEAR(static_cast<double>(made.body->getLocalInertia().x()), inertia.x(), 1e-6);
+  EXPECT_NEAR(static_cast<double>(made.body->getLocalInertia().y()), inertia.y(), 1e-6);
+}
+
+TEST(BulletShapes, TheReferenceRefusesWhatItDoesNotKnowByName) {
+  const auto engine = find_engine("reference", StoredPrecision::kFloat64)->make();
+  try {
+    engine->load(scene_with({.name = "pill", .shape = CapsuleShape{0.1, 0.2}}));
+    FAIL() << "loaded";
+  } catch (const InvalidArgument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("collider 'pill': shape = \"capsule\""));
+    EXPECT_THAT(error.what(), HasSubstr("bullet_soft"));
+  }
+  Scene scene = scene_with({.name = "floor", .shape = PlaneShape{}});
+  scene.cloths[0].self_collision = true;
+  EXPECT_THROW(engine->load(scene), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace weft::scenes
