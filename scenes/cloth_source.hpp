@@ -15,13 +15,13 @@
 namespace weft::scenes {
 
 /// A surface of any triangles, most often from a file. Bodies share it: nobody changes it.
-struct MeshShape {
+struct MeshGeometry {
   Surface surface;                             ///< in the body's own frame
   std::vector<import::NodeGroup> groups = {};  ///< for pins and regions
 };
 
 struct MeshBody {
-  std::shared_ptr<const MeshShape> shape;
+  std::shared_ptr<const MeshGeometry> shape;
   Vector3<double> position{0, 0, 0};  ///< [m] of the origin of the surface
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   double total_mass = 1.0;  ///< [kg], > 0

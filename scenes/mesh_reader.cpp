@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 2> kUpWords = {"y", "z"};
 /// A recording keeps the mesh inside the text of its scene, which has a largest size.
 constexpr int kMaxMeshNodes = 50'000;
 
-MeshShape import_shape(const TomlTable& table) {
+MeshGeometry import_shape(const TomlTable& table) {
   table.allow(kFileKeys);
   const TomlValue file = table.require("file", "a mesh file such as \"shirt.obj\"");
   import::ImportOptions options;
@@ -39,7 +39,7 @@ MeshShape import_shape(const TomlTable& table) {
   }
 }
 
-MeshShape stored_shape(const TomlTable& table) {
+MeshGeometry stored_shape(const TomlTable& table) {
   table.allow(kDataKeys);
   const TomlValue data = table.require("data", "a stored mesh");
   try {
@@ -55,7 +55,7 @@ MeshBody read_mesh_body(const TomlTable& cloth) {
   const std::string expected = "a table such as { file = \"shirt.obj\" }";
   const TomlValue value = cloth.require("mesh", expected);
   const TomlTable table = value.table(expected);
-  MeshShape shape = table.has("data") ? stored_shape(table) : import_shape(table);
+  MeshGeometry shape = table.has("data") ? stored_shape(table) : import_shape(table);
   const Eigen::Index num_nodes = shape.surface.positions.cols();
   if (num_nodes > kMaxMeshNodes) {
     table.fail(fmt::format("the mesh has {} nodes, expected at most {}", num_nodes, kMaxMeshNodes));
@@ -63,11 +63,8 @@ MeshBody read_mesh_body(const TomlTable& cloth) {
   MeshBody body;
   body.center_mass_share = read_center_node(table);
   if (const auto place = cloth.find("position")) body.position = place->vector("m");
-  if (const auto turn = cloth.find("orientation")) {
-    body.orientation =
-        read_orientation(turn->table("a table such as { axis = [0, 1, 0], angle = \"30 deg\" }"));
-  }
-  body.shape = std::make_shared<const MeshShape>(std::move(shape));
+  if (const auto turn = cloth.find("orientation")) body.orientation = read_orientation(*turn);
+  body.shape = std::make_shared<const MeshGeometry>(std::move(shape));
   try {
     (void)make_source_mesh(body);
   } catch (const InvalidArgument& error) {
