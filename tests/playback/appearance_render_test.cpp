@@ -23,7 +23,7 @@ struct AppearanceRenderTest : testing::Test {
   Image picture() { return Renderer(scene).render(rest_state(scene), options); }
   /// The pixel that shows the place of the cloth with these texture coordinates.
   Rgb cloth_pixel(const Image& image, double u, double v) const {
-    const ClothGrid& grid = scene.cloths[0].grid;
+    const ClothGrid& grid = scene.cloths[0].grid();
     return pixel_at(image, scene.camera,
                     grid.center + (u - 0.5) * grid.size[0] * grid.u_axis +
                         (v - 0.5) * grid.size[1] * grid.v_axis);
