@@ -29,8 +29,10 @@ struct CommandLine {
 [[nodiscard]] Action add_run_command(CLI::App& parser, const CommandLine& command_line);
 [[nodiscard]] Action add_validate_command(CLI::App& parser, const CommandLine& command_line);
 [[nodiscard]] Action add_render_command(CLI::App& parser);
+[[nodiscard]] Action add_contact_sheet_command(CLI::App& parser);
 [[nodiscard]] Action add_stability_command(CLI::App& parser);
 [[nodiscard]] Action add_check_command(CLI::App& parser);
+[[nodiscard]] Action add_check_mesh_command(CLI::App& parser);
 [[nodiscard]] Action add_contact_table_command(CLI::App& parser);
 
 }  // namespace weft::app

@@ -1,14 +1,18 @@
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
+#include <vector>
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/scenes/playback/montage.hpp>
 #include <weft/scenes/playback/renderer.hpp>
 #include <weft/scenes/quantity.hpp>
 #include <weft/scenes/recording/recording.hpp>
@@ -22,19 +26,21 @@ namespace {
 struct RenderCommandOptions {
   std::string recording;
   std::string output;
-  std::string style = "shaded";
+  std::vector<std::string> styles = {"shaded"};
   std::string time;
+  std::vector<std::string> times;
+  int columns = 0;
+  std::string size;
   bool all = false;
   scenes::RenderOptions render;
 };
 
-int frame_at(const scenes::RecordingReader& reader, const std::string& time) {
-  if (time.empty()) return reader.num_frames() - 1;
+int frame_at(const scenes::RecordingReader& reader, const char* option, const std::string& time) {
   double seconds = 0;
   try {
     seconds = scenes::parse_quantity(time, "s");
   } catch (const scenes::UnitError& error) {
-    throw InvalidArgument(fmt::format("--time \"{}\": {}", time, error.what()));
+    throw InvalidArgument(fmt::format("{} \"{}\": {}", option, time, error.what()));
   }
   int best = 0;
   for (int f = 0; f < reader.num_frames(); ++f) {
@@ -68,40 +74,103 @@ scenes::ScalarField strain_scale(const scenes::RecordingReader& reader) {
   return field;
 }
 
-int render(RenderCommandOptions options) {
-  const scenes::RecordingReader reader(options.recording);
+/// Draws frames of one recording in any style.
+class Film {
+ public:
+  Film(const scenes::RecordingReader& reader, const scenes::RenderOptions& options)
+      : reader_(reader), options_(options), renderer_(reader.scene()) {}
+
+  scenes::Image draw(int frame, const std::string& style) {
+    const scenes::SceneState state = reader_.frame(frame);
+    if (style != "strain") {
+      options_.style =
+          style == "wireframe" ? scenes::SurfaceStyle::kWireframe : scenes::SurfaceStyle::kShaded;
+      return renderer_.render(state, options_);
+    }
+    if (!field_) field_ = strain_scale(reader_);
+    field_->values = strains_percent(reader_.scene(), state);
+    options_.style = scenes::SurfaceStyle::kScalar;
+    return renderer_.render(state, options_, &*field_);
+  }
+
+ private:
+  const scenes::RecordingReader& reader_;
+  scenes::RenderOptions options_;
+  scenes::Renderer renderer_;
+  std::optional<scenes::ScalarField> field_;
+};
+
+void read_size(const std::string& text, scenes::RenderOptions& options) {
+  if (text.empty()) return;
+  const std::size_t cross = text.find('x');
+  const auto number = [&](const std::string& part, int& value) {
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return error == std::errc() && end == part.data() + part.size();
+  };
+  if (cross == std::string::npos || !number(text.substr(0, cross), options.width) ||
+      !number(text.substr(cross + 1), options.height)) {
+    throw InvalidArgument(fmt::format("--size {}: expected pixels such as 960x540", text));
+  }
+}
+
+void check_options(const RenderCommandOptions& options, const scenes::RecordingReader& reader) {
   std::error_code none;
   if (std::filesystem::equivalent(options.recording, options.output, none)) {
     throw InvalidArgument(options.output + ": is the recording itself, expected another --output");
   }
-  if (options.all && !options.time.empty()) {
-    throw InvalidArgument("--time with --all: one frame or every frame, expected one of the two");
+  const int choices = int{options.all} + int{!options.time.empty()} + int{!options.times.empty()};
+  if (choices > 1) {
+    throw InvalidArgument("--time, --times, --all: expected at most one of them");
+  }
+  if (options.all && options.styles.size() > 1) {
+    throw InvalidArgument("--all with several styles: expected one --style");
   }
   if (reader.num_frames() == 0) throw Error(options.recording + ": has no frame to render");
-  const bool strain = options.style == "strain";
-  options.render.style = strain                         ? scenes::SurfaceStyle::kScalar
-                         : options.style == "wireframe" ? scenes::SurfaceStyle::kWireframe
-                                                        : scenes::SurfaceStyle::kShaded;
-  scenes::ScalarField field;
-  if (strain) field = strain_scale(reader);
-  scenes::Renderer renderer(reader.scene());
-  const auto draw = [&](int frame, const std::filesystem::path& path) {
-    const scenes::SceneState state = reader.frame(frame);
-    if (strain) field.values = strains_percent(reader.scene(), state);
-    scenes::write_png(path, renderer.render(state, options.render, strain ? &field : nullptr));
-  };
-  if (!options.all) {
-    const int frame = frame_at(reader, options.time);
-    draw(frame, options.output);
-    fmt::print("{}: t = {:.4g} s\n", options.output, reader.frame_time(frame));
-    return kOk;
+}
+
+/// One picture for every time and style, side by side; columns = 0: a row for each style.
+int render_strip(const RenderCommandOptions& options, const scenes::RecordingReader& reader) {
+  std::vector<int> frames;
+  for (const std::string& time : options.times) frames.push_back(frame_at(reader, "--times", time));
+  if (!options.time.empty()) frames.push_back(frame_at(reader, "--time", options.time));
+  if (frames.empty()) frames.push_back(reader.num_frames() - 1);
+  Film film(reader, options.render);
+  std::vector<scenes::Image> pictures;
+  for (const std::string& style : options.styles) {
+    for (const int frame : frames) {
+      pictures.push_back(film.draw(frame, style));
+      if (frames.size() == 1) continue;
+      scenes::draw_label(pictures.back(), fmt::format("t = {:.4g} s", reader.frame_time(frame)));
+    }
   }
+  const int row = static_cast<int>(frames.size() == 1 ? options.styles.size() : frames.size());
+  const bool is_single = pictures.size() == 1;
+  scenes::write_png(options.output,
+                    is_single
+                        ? pictures.front()
+                        : scenes::filmstrip(pictures, options.columns ? options.columns : row));
+  std::string times;
+  for (const int frame : frames) {
+    times += fmt::format("{}{:.4g} s", times.empty() ? "" : ", ", reader.frame_time(frame));
+  }
+  fmt::print("{}: t = {}\n", options.output, times);
+  return kOk;
+}
+
+int render(RenderCommandOptions options) {
+  const scenes::RecordingReader reader(options.recording);
+  read_size(options.size, options.render);
+  check_options(options, reader);
+  if (!options.all) return render_strip(options, reader);
+  Film film(reader, options.render);
   std::filesystem::create_directories(options.output);
   {
     ProgressBar progress("render");
     for (int frame = 0; frame < reader.num_frames(); ++frame) {
       progress.update(static_cast<double>(frame) / reader.num_frames());
-      draw(frame, std::filesystem::path(options.output) / fmt::format("frame_{:05}.png", frame));
+      scenes::write_png(
+          std::filesystem::path(options.output) / fmt::format("frame_{:05}.png", frame),
+          film.draw(frame, options.styles.front()));
     }
   }
   fmt::print("{}: {} pictures\n", options.output, reader.num_frames());
@@ -117,14 +186,29 @@ Action add_render_command(CLI::App& parser) {
   command->add_option("RECORDING", options->recording, "Recording made by `weft run`")->required();
   command->add_option("-o,--output", options->output, "PNG to write; with --all a folder")
       ->required();
-  command->add_option("--style", options->style, "How cloth looks")
+  command
+      ->add_option("--style", options->styles,
+                   "How cloth looks; several, as in shaded,wireframe, side by side")
+      ->delimiter(',')
       ->check(CLI::IsMember({"shaded", "wireframe", "strain"}))
       ->capture_default_str();
   command->add_option("--time", options->time,
                       "Nearest frame to this time, e.g. \"1.5 s\" (default: last)");
+  command
+      ->add_option("--times", options->times,
+                   "Several frames in one picture, e.g. \"0 s,0.5 s,1 s\", each with its time")
+      ->delimiter(',');
+  command
+      ->add_option("--columns", options->columns, "Of several pictures (default: a row each style)")
+      ->check(CLI::Range(1, 100));
   command->add_flag("--all", options->all, "Every frame, as frame_00000.png ... in a folder");
-  command->add_option("--width", options->render.width, "[pixels]")->capture_default_str();
-  command->add_option("--height", options->render.height, "[pixels]")->capture_default_str();
+  auto* width = command->add_option("--width", options->render.width, "[pixels]");
+  auto* height = command->add_option("--height", options->render.height, "[pixels]");
+  width->capture_default_str();
+  height->capture_default_str();
+  command->add_option("--size", options->size, "Both at once, e.g. 960x540 [pixels]")
+      ->excludes(width)
+      ->excludes(height);
   return [options] { return render(*options); };
 }
 

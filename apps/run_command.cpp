@@ -90,7 +90,8 @@ scenes::Scene requested_scene(const RunOptions& options) {
     scene.reference.integrator = scenes::Integrator::kRungeKutta4;
   }
   // The edited scene must hold to the same rules as a file.
-  scene = scenes::read_scene_text(scenes::write_scene(scene), options.scene);
+  scene =
+      scenes::read_scene_text(scenes::write_scene(scene), options.scene, scenes::files_of(scene));
   if (options.bullet_time_step) scene = scenes::with_bullets_time_step(std::move(scene));
   return scene;
 }

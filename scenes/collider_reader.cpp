@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include <weft/scenes/appearance_reader.hpp>
 #include <weft/scenes/quantity.hpp>
 #include <weft/scenes/scene_reader.hpp>
 
@@ -86,13 +87,17 @@ void read_motion(const TomlTable& table, Collider& collider) {
 
 Collider read_collider(const TomlTable& table) {
   Collider collider;
-  collider.shape = read_shape(table, {"name", "shape", "position", "orientation", "friction",
-                                      "mass", "velocity", "angular_velocity", "path"});
+  std::vector<std::string_view> keys = {"name",     "shape", "position", "orientation",
+                                        "friction", "mass",  "velocity", "angular_velocity",
+                                        "path"};
+  keys.insert(keys.end(), kColliderAppearanceKeys.begin(), kColliderAppearanceKeys.end());
+  collider.shape = read_shape(table, keys);
   collider.name = table.require("name", "a name such as \"ball\"").identifier();
   if (const auto value = table.find("position")) collider.position = value->vector("m");
   if (const auto value = table.find("orientation")) collider.orientation = read_orientation(*value);
   if (const auto value = table.find("friction")) collider.friction = value->non_negative("1");
   read_motion(table, collider);
+  collider.appearance = read_appearance(table);
   return collider;
 }
 

@@ -17,23 +17,37 @@ const forces::LawInfo& find_info(const TomlTable& table) {
   return *forces::all_laws()[law.choice(ids, "law")];
 }
 
-/// Names of the sets that a law of this kind may name: those of a small grid of the same stencil,
-/// and the cloth's own connections and regions.
+/// Names of the sets that a law of this kind may name: those of the source, and the cloth's own
+/// connections and regions.
 std::vector<std::string> set_names(forces::ElementKind elements, const Cloth& cloth) {
-  std::vector<std::string> names;
-  ClothGrid probe;
-  probe.stencil = cloth.grid.stencil;
-  const ClothMesh mesh = make_cloth_grid(probe);
+  std::vector<std::string> names = source_sets(cloth.source, elements);
   if (elements == forces::ElementKind::kEdges) {
-    for (const EdgeSet& set : mesh.edge_sets) names.push_back(set.name);
-  } else if (elements == forces::ElementKind::kLines) {
-    for (const LineSet& set : mesh.line_sets) names.push_back(set.name);
+    for (const Region& region : cloth.regions) {
+      if (region.has_springs) names.push_back(region.name);
+    }
   } else if (elements == forces::ElementKind::kNodeSets) {
     for (const Region& region : cloth.regions) names.push_back(region.name);
-  } else {
+  } else if (elements == forces::ElementKind::kConnections) {
     for (const Connection& connection : cloth.connections) names.push_back(connection.name);
   }
   return names;
+}
+
+/// Refuses a law that can do nothing for a body without triangles, or for one that is open.
+void check_surface(const forces::LawInfo& info, const TomlTable& table, const Cloth& cloth) {
+  const bool is_rope = std::holds_alternative<Rope>(cloth.source);
+  if (info.traits.needs_closed_surface &&
+      (is_rope || std::holds_alternative<ClothGrid>(cloth.source))) {
+    table.require("law", "a law")
+        .fail(fmt::format("needs a closed surface, expected another law for {}, which is open",
+                          source_name(cloth.source)));
+  }
+  const bool needs_triangles = info.traits.elements == forces::ElementKind::kFaces ||
+                               info.traits.elements == forces::ElementKind::kHinges;
+  if (needs_triangles && is_rope) {
+    table.require("law", "a law")
+        .fail("acts on triangles, expected another law for a rope, which has none");
+  }
 }
 
 std::vector<std::string> read_sets(const TomlTable& table, std::string_view key,
@@ -41,11 +55,13 @@ std::vector<std::string> read_sets(const TomlTable& table, std::string_view key,
   const std::vector<std::string> all = set_names(elements, cloth);
   const std::optional<TomlValue> value = table.find(key);
   if (!value) {
+    // The springs of a region are some of the source's once more: only for laws that name them.
+    if (elements == forces::ElementKind::kEdges) return source_sets(cloth.source, elements);
     if (!all.empty()) return all;
     table.fail(fmt::format("{} is empty, expected a cloth with at least one", key));
   }
   const std::string what =
-      elements == forces::ElementKind::kEdges ? "edge set of this stencil" : "set of this cloth";
+      elements == forces::ElementKind::kEdges ? "edge set of this cloth" : "set of this cloth";
   const std::vector<std::string_view> words(all.begin(), all.end());
   std::vector<std::string> names;
   for (const TomlValue& entry : value->items("an array such as [\"stretch\"]")) {
@@ -84,10 +100,7 @@ std::string expected_parameter(const forces::ParameterInfo& parameter) {
 forces::LawSpecification read_law(const TomlTable& table, const Cloth& cloth, const World& world) {
   const forces::LawInfo& info = find_info(table);
   std::vector<std::string_view> keys = {"law"};
-  if (info.traits.needs_closed_surface) {
-    table.require("law", "a law")
-        .fail("needs a closed surface, expected a law for a grid, which is open");
-  }
+  check_surface(info, table, cloth);
   const std::string_view sets_key = set_key(info.traits.elements);
   if (!sets_key.empty()) keys.push_back(sets_key);
   for (const forces::ParameterInfo& parameter : info.parameters) keys.push_back(parameter.name);

@@ -3,52 +3,95 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
+#include <utility>
 
 #include <weft/custom_forces/core/error.hpp>
 
 namespace weft::scenes {
 namespace {
 
-bool holds(const CornerPin& pin, const ClothGrid& grid, const Vector3<double>&, int node) {
-  return node == grid_node(grid, pin.u, pin.v);
+[[noreturn]] void refuse(const Cloth& cloth, const std::string& message) {
+  throw InvalidArgument("cloth '" + cloth.name + "': " + message);
 }
 
-bool holds(const EdgePin& pin, const ClothGrid& grid, const Vector3<double>&, int node) {
-  const int index = pin.axis == 0 ? node % grid.nodes[0] : node / grid.nodes[0];
-  return index == (pin.side == 0 ? 0 : grid.nodes[pin.axis] - 1);
+const ClothGrid& require_grid(const Cloth& cloth, const std::string& what) {
+  const auto* grid = std::get_if<ClothGrid>(&cloth.source);
+  if (grid == nullptr) {
+    refuse(cloth, what + " of " + source_name(cloth.source) +
+                      ", expected a grid; others have boxes, spheres and node numbers");
+  }
+  return *grid;
 }
 
-bool holds(const BoxPin& pin, const ClothGrid&, const Vector3<double>& position, int) {
-  return (position.array() >= pin.minimum.array()).all() &&
-         (position.array() <= pin.maximum.array()).all();
+/// All nodes for which holds(node) is true.
+template <class Holds>
+std::vector<int> nodes_where(const ClothMesh& mesh, const Holds& holds) {
+  std::vector<int> nodes;
+  for (int node = 0; node < mesh.num_nodes(); ++node) {
+    if (holds(node)) nodes.push_back(node);
+  }
+  return nodes;
+}
+
+std::vector<int> held(const CornerPin& pin, const Cloth& cloth, const ClothMesh&) {
+  return {grid_node(require_grid(cloth, "a corner"), pin.u, pin.v)};
+}
+
+std::vector<int> held(const EdgePin& pin, const Cloth& cloth, const ClothMesh& mesh) {
+  const ClothGrid& grid = require_grid(cloth, "an edge");
+  const int wanted = pin.side == 0 ? 0 : grid.nodes[pin.axis] - 1;
+  return nodes_where(mesh, [&](int node) {
+    return (pin.axis == 0 ? node % grid.nodes[0] : node / grid.nodes[0]) == wanted;
+  });
+}
+
+std::vector<int> held(const BoxPin& pin, const Cloth&, const ClothMesh& mesh) {
+  return nodes_where(mesh, [&](int node) {
+    const auto position = mesh.rest_positions.col(node).array();
+    return (position >= pin.minimum.array()).all() && (position <= pin.maximum.array()).all();
+  });
+}
+
+std::vector<int> held(const SpherePin& pin, const Cloth&, const ClothMesh& mesh) {
+  return nodes_where(mesh, [&](int node) {
+    return (mesh.rest_positions.col(node) - pin.center).norm() <= pin.radius;
+  });
+}
+
+std::vector<int> held(const NodePin& pin, const Cloth& cloth, const ClothMesh& mesh) {
+  for (const int node : pin.nodes) {
+    if (node >= 0 && node < mesh.num_nodes()) continue;
+    refuse(cloth, "node " + std::to_string(node) + " is not there, expected 0 to " +
+                      std::to_string(mesh.num_nodes() - 1));
+  }
+  return pin.nodes;
 }
 
 /// The nodes that at least one of the regions holds, sorted. what: "pin".
 std::vector<int> nodes_of_all(const std::vector<Pin>& regions, const Cloth& cloth,
                               const ClothMesh& mesh, const std::string& what) {
-  std::vector<bool> held(static_cast<std::size_t>(mesh.num_nodes()), false);
-  for (const Pin& region : regions) {
-    bool any = false;
-    for (int node = 0; node < mesh.num_nodes(); ++node) {
-      const bool is_in = std::visit(
-          [&](const auto& p) { return holds(p, cloth.grid, mesh.rest_positions.col(node), node); },
-          region);
-      if (is_in) held[static_cast<std::size_t>(node)] = any = true;
-    }
-    if (!any) {
-      throw InvalidArgument("cloth '" + cloth.name + "': a " + what +
-                            " holds no node, expected a region with at least one node");
-    }
-  }
   std::vector<int> nodes;
-  for (int node = 0; node < mesh.num_nodes(); ++node) {
-    if (held[static_cast<std::size_t>(node)]) nodes.push_back(node);
+  for (const Pin& region : regions) {
+    const std::vector<int> more =
+        std::visit([&](const auto& pin) { return held(pin, cloth, mesh); }, region);
+    if (more.empty()) {
+      refuse(cloth, "a " + what + " holds no node, expected a region with at least one node");
+    }
+    nodes.insert(nodes.end(), more.begin(), more.end());
   }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
 
+int node_of(const Connection& connection, const Cloth& cloth) {
+  if (connection.node_number) return *connection.node_number;
+  return grid_node(require_grid(cloth, "column and row"), connection.node[0], connection.node[1]);
+}
+
 void add_connection(const Connection& connection, const Cloth& cloth, ClothMesh& mesh) {
-  const int node = grid_node(cloth.grid, connection.node[0], connection.node[1]);
+  const int node = node_of(connection, cloth);
   std::vector<int> far;
   if (connection.to.empty()) {
     far.resize(static_cast<std::size_t>(mesh.num_nodes()));
@@ -76,15 +119,61 @@ void add_pins(const Cloth& cloth, ClothMesh& mesh) {
 
 }  // namespace
 
+ClothGrid& Cloth::grid() {
+  return const_cast<ClothGrid&>(std::as_const(*this).grid());
+}
+
+const ClothGrid& Cloth::grid() const {
+  return require_grid(*this, "rows and columns");
+}
+
+namespace {
+
+void raise(const Bulge& bulge, const ClothGrid& grid, ClothMesh& mesh) {
+  const Vector3<double> normal = grid.u_axis.cross(grid.v_axis).normalized();
+  for (Eigen::Index i = 0; i < mesh.rest_positions.cols(); ++i) {
+    const double share = (mesh.rest_positions.col(i) - grid.center).norm() / bulge.radius;
+    if (share < 1) {
+      mesh.rest_positions.col(i) += bulge.height * std::pow(1 - share * share, 2) * normal;
+    }
+  }
+}
+
+/// The springs of the source, its first num_sets edge sets, with both ends in the region.
+void add_springs_of(const NodeSet& region, std::size_t num_sets, ClothMesh& mesh) {
+  const auto is_in = [&](int node) {
+    return std::binary_search(region.nodes.begin(), region.nodes.end(), node);
+  };
+  std::vector<std::array<int, 2>> found;
+  for (std::size_t s = 0; s < num_sets; ++s) {
+    const EdgeSet& set = mesh.edge_sets[s];
+    for (Eigen::Index e = 0; e < set.edges.cols(); ++e) {
+      if (is_in(set.edges(0, e)) && is_in(set.edges(1, e))) {
+        found.push_back({set.edges(0, e), set.edges(1, e)});
+      }
+    }
+  }
+  Edges edges(2, static_cast<Eigen::Index>(found.size()));
+  for (std::size_t e = 0; e < found.size(); ++e) {
+    edges.col(static_cast<Eigen::Index>(e)) << found[e][0], found[e][1];
+  }
+  mesh.edge_sets.push_back({region.name, edges});
+}
+
+}  // namespace
+
 std::vector<int> nodes_of(const Pin& pin, const Cloth& cloth, const ClothMesh& mesh) {
   return nodes_of_all({pin}, cloth, mesh, "pin");
 }
 
 ClothMesh make_mesh(const Cloth& cloth) {
-  ClothMesh mesh = make_cloth_grid(cloth.grid);
+  ClothMesh mesh = make_source_mesh(cloth.source);
+  if (cloth.bulge) raise(*cloth.bulge, cloth.grid(), mesh);
   add_pins(cloth, mesh);
+  const std::size_t num_source_sets = mesh.edge_sets.size();
   for (const Region& region : cloth.regions) {
     mesh.node_sets.push_back({region.name, nodes_of_all(region.nodes, cloth, mesh, "region")});
+    if (region.has_springs) add_springs_of(mesh.node_sets.back(), num_source_sets, mesh);
   }
   for (const Connection& connection : cloth.connections) add_connection(connection, cloth, mesh);
   return mesh;

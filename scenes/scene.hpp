@@ -9,9 +9,10 @@
 
 #include <Eigen/Geometry>
 
-#include <weft/custom_forces/core/cloth_grid.hpp>
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
+#include <weft/scenes/appearance.hpp>
+#include <weft/scenes/cloth_source.hpp>
 #include <weft/scenes/motion/path.hpp>
 #include <weft/scenes/shapes.hpp>
 
@@ -27,7 +28,7 @@ struct World {
   double frame_interval = 0.02;  ///< [s] between recorded frames; a whole number of time steps
 };
 
-/// Which grid nodes a pin holds.
+/// Which nodes a pin holds. Corners and edges are those of a grid.
 struct CornerPin {
   int u = 0;  ///< 0 = first column, -1 = last column
   int v = 0;  ///< 0 = first row, -1 = last row
@@ -40,7 +41,14 @@ struct BoxPin {
   Vector3<double> minimum;  ///< [m]
   Vector3<double> maximum;  ///< [m]
 };
-using Pin = std::variant<CornerPin, EdgePin, BoxPin>;
+struct SpherePin {
+  Vector3<double> center;  ///< [m]
+  double radius;           ///< [m]
+};
+struct NodePin {
+  std::vector<int> nodes;  ///< at least one
+};
+using Pin = std::variant<CornerPin, EdgePin, BoxPin, SpherePin, NodePin>;
 
 /// Nodes that are pinned and move: with a constant velocity, or with a frame that follows a path.
 struct MovingPin {
@@ -53,6 +61,16 @@ struct MovingPin {
 struct Region {
   std::string name;
   std::vector<Pin> nodes;  ///< all nodes that one of these holds
+  /// Also makes an edge set of this name: the springs with both ends in the region, for laws that
+  /// shall be stronger there.
+  bool has_springs = false;
+};
+
+/// The rest shape of a grid, raised around its centre along its normal by
+/// height (1 - (r / radius)^2)^2, 0 from the radius on.
+struct Bulge {
+  double height;  ///< [m]
+  double radius;  ///< [m], > 0
 };
 
 /// Ties of one node to far ones, for nonlocal_torsion.
@@ -60,13 +78,16 @@ struct Connection {
   std::string name;
   std::array<int, 2> node{0, 0};  ///< column and row; negative values count from the far side
   std::vector<Pin> to;            ///< regions of far nodes; empty: every other node
+  /// Number of the node, in place of column and row; a source that is no grid needs it.
+  std::optional<int> node_number = std::nullopt;
 };
 
 struct Cloth {
   std::string name;
-  ClothGrid grid;
+  ClothSource source = ClothGrid();
   std::vector<Pin> pins;
-  std::vector<MovingPin> moving_pins = {};  ///< a node of several moves with the last of them
+  std::optional<Bulge> bulge = std::nullopt;  ///< of a grid
+  std::vector<MovingPin> moving_pins = {};    ///< a node of several moves with the last of them
   std::vector<Connection> connections = {};
   std::vector<Region> regions = {};
   Vector3<double> velocity{0, 0, 0};  ///< [m/s] of every free node at the start
@@ -78,6 +99,11 @@ struct Cloth {
   /// [m] distance that layers of the cloth keep, > 0; none: twice collision_margin
   std::optional<double> self_thickness = std::nullopt;
   bool soft_collision = false;  ///< with the other cloths that say so too
+
+  /// The source as a grid. Throws InvalidArgument if it is something else.
+  [[nodiscard]] ClothGrid& grid();
+  [[nodiscard]] const ClothGrid& grid() const;
+  Appearance appearance = {};
 };
 
 /// A rigid obstacle; with a mass it is a dynamic rigid body that the cloth pushes back.
@@ -90,6 +116,7 @@ struct Collider {
   std::optional<double> mass = std::nullopt;  ///< [kg]; none: fixed
   Vector3<double> velocity{0, 0, 0};          ///< [m/s], dynamic bodies only
   Vector3<double> angular_velocity{0, 0, 0};  ///< [rad/s], dynamic bodies only
+  Appearance appearance = {};
   /// Leads the centre, absolute [m]; turns beyond orientation. The collider has no mass then and
   /// position is the path's at time 0.
   std::optional<Path> path = std::nullopt;
@@ -149,6 +176,9 @@ struct Camera {
   Vector3<double> position{8, 6, 10};  ///< [m]
   Vector3<double> target{0, 1, 0};     ///< [m]
   double field_of_view = 0.6;          ///< vertical [rad]
+  std::string follow = {};             ///< name of a body that it keeps in view; empty: none
+  /// [s] of the most telling picture; none: the last one.
+  std::optional<double> poster_time = std::nullopt;
 };
 
 struct Scene {
@@ -163,10 +193,12 @@ struct Scene {
   BulletSettings bullet;
   ReferenceSettings reference;
   Camera camera;
+  std::vector<SceneFile> files = {};  ///< those that appearances name, each once
 };
 
 /// Mesh of a cloth with its pins, connections and regions resolved to node indices.
-/// Throws InvalidArgument if a pin, a region or the far end of a connection holds no node.
+/// Throws InvalidArgument if a pin, a region or the far end of a connection holds no node, if one of
+/// them names a node that is not there, and for corners and edges of what is no grid.
 [[nodiscard]] ClothMesh make_mesh(const Cloth& cloth);
 
 /// The nodes of its mesh that a pin or region of the cloth holds, sorted.

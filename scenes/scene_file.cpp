@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -37,6 +38,17 @@ std::string read_bytes(const std::filesystem::path& path) {
   return text;
 }
 
+std::optional<std::string> read_beside(const std::filesystem::path& scene,
+                                       const std::string& name) {
+  const std::filesystem::path path = scene.parent_path() / name;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
+  std::ifstream stream(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) return std::nullopt;
+  return bytes;
+}
+
 }  // namespace
 
 SceneError::SceneError(std::string file, int line, int column, const std::string& message)
@@ -47,10 +59,20 @@ SceneError::SceneError(std::string file, int line, int column, const std::string
       column_(column) {}
 
 Scene read_scene_file(const std::filesystem::path& path) {
-  return read_scene_text(read_bytes(path), path.string());
+  return read_scene_text(read_bytes(path), path.string(),
+                         [&](const std::string& name) { return read_beside(path, name); });
 }
 
-Scene read_scene_text(std::string_view text, const std::string& name) {
+FileSource files_of(const Scene& scene) {
+  return [files = scene.files](const std::string& name) -> std::optional<std::string> {
+    for (const SceneFile& file : files) {
+      if (file.name == name) return file.bytes;
+    }
+    return std::nullopt;
+  };
+}
+
+Scene read_scene_text(std::string_view text, const std::string& name, const FileSource& files) {
   if (const std::optional<TextDefect> defect = find_text_defect(text)) {
     throw SceneError(name, defect->line, defect->column, defect->message);
   }
@@ -62,7 +84,7 @@ Scene read_scene_text(std::string_view text, const std::string& name) {
     throw SceneError(name, std::max(1, static_cast<int>(place.line)),
                      std::max(1, static_cast<int>(place.column)), std::string(error.description()));
   }
-  return read_scene(TomlTable(name, "", root));
+  return read_scene(TomlTable(name, "", root), files);
 }
 
 }  // namespace weft::scenes

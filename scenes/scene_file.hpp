@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,10 +25,16 @@ class SceneError : public InvalidArgument {
   int column_;
 };
 
-/// Reads and checks a scene file. Throws SceneError.
+/// Gives the whole content of a file that a scene names; none if there is no such file.
+using FileSource = std::function<std::optional<std::string>(const std::string& name)>;
+/// The files that a scene has taken along.
+[[nodiscard]] FileSource files_of(const Scene& scene);
+
+/// Reads and checks a scene file, and the files that it names, relative to its folder. Throws SceneError.
 [[nodiscard]] Scene read_scene_file(const std::filesystem::path& path);
-/// The same for a text; name stands for the file in messages.
-[[nodiscard]] Scene read_scene_text(std::string_view text, const std::string& name);
+/// The same for a text; name stands for the file in messages. Without files no file may be named.
+[[nodiscard]] Scene read_scene_text(std::string_view text, const std::string& name,
+                                    const FileSource& files = {});
 
 /// The resolved scene: TOML with every default written out, which reads back to the same scene, bit
 /// for bit.

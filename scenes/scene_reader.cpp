@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <weft/scenes/appearance_reader.hpp>
 #include <weft/scenes/quantity.hpp>
 #include <weft/scenes/scene_words.hpp>
 
@@ -27,7 +28,8 @@ constexpr std::array<std::string_view, 4> kWorldKeys = {"gravity", "time_step", 
                                                         "frame_interval"};
 constexpr std::array<std::string_view, 2> kBulletKeys = {"position_iterations", "concave"};
 constexpr std::array<std::string_view, 3> kReferenceKeys = {"integrator", "contact", "step_guard"};
-constexpr std::array<std::string_view, 3> kCameraKeys = {"position", "target", "field_of_view"};
+constexpr std::array<std::string_view, 5> kCameraKeys = {"position", "target", "field_of_view",
+                                                         "follow", "poster_time"};
 
 void check_schema(const TomlTable& root) {
   const std::string expected = fmt::format("schema = \"{}\"", kSchema);
@@ -112,7 +114,14 @@ ReferenceSettings read_reference(const TomlTable& table) {
   return settings;
 }
 
-Camera read_camera(const TomlTable& table) {
+void check_follow(const TomlValue& value, const std::string& name, const Scene& scene) {
+  const auto has_name = [&](const auto& body) { return body.name == name; };
+  if (std::any_of(scene.cloths.begin(), scene.cloths.end(), has_name)) return;
+  if (std::any_of(scene.colliders.begin(), scene.colliders.end(), has_name)) return;
+  value.fail("no body has this name, expected a cloth or a collider");
+}
+
+Camera read_camera(const TomlTable& table, const Scene& scene) {
   table.allow(kCameraKeys);
   Camera camera;
   if (const auto value = table.find("position")) camera.position = value->vector("m");
@@ -120,6 +129,13 @@ Camera read_camera(const TomlTable& table) {
   if (const auto value = table.find("field_of_view")) {
     camera.field_of_view = value->positive("rad");
     if (camera.field_of_view >= std::numbers::pi) value->fail("expected an angle < 180 deg");
+  }
+  if (const auto value = table.find("follow")) {
+    camera.follow = value->identifier();
+    check_follow(*value, camera.follow, scene);
+  }
+  if (const auto value = table.find("poster_time")) {
+    camera.poster_time = value->non_negative("s");
   }
   if (camera.position == camera.target) table.fail("position = target, expected two points");
   return camera;
@@ -136,7 +152,7 @@ void read_bodies(const TomlTable& root, Scene& scene) {
   for (const TomlTable& table : root.tables("cloth")) {
     const Cloth& cloth = scene.cloths.emplace_back(read_cloth(table, scene.world));
     claim(table, cloth.name);
-    num_nodes += static_cast<long long>(cloth.grid.nodes[0]) * cloth.grid.nodes[1];
+    num_nodes += scenes::num_nodes(cloth.source);
     if (num_nodes > kMaxNodes) {
       table.fail(fmt::format("the cloths have {} nodes in all, expected at most {}", num_nodes,
                              kMaxNodes));
@@ -165,7 +181,7 @@ World read_world(const TomlTable& table) {
   return world;
 }
 
-Scene read_scene(const TomlTable& root) {
+Scene read_scene(const TomlTable& root, const FileSource& files) {
   check_schema(root);
   root.allow(kRootKeys);
   Scene scene;
@@ -175,11 +191,13 @@ Scene read_scene(const TomlTable& root) {
   const std::string world = "a table [world] with time_step and duration";
   scene.world = read_world(root.require("world", world).table(world));
   read_bodies(root, scene);
+  load_appearance_files(root, files, scene);
   if (const auto value = root.find("bullet")) scene.bullet = read_bullet(value->table("a table"));
   if (const auto value = root.find("reference")) {
     scene.reference = read_reference(value->table("a table"));
   }
-  if (const auto value = root.find("camera")) scene.camera = read_camera(value->table("a table"));
+  if (const auto value = root.find("camera"))
+    scene.camera = read_camera(value->table("a table"), scene);
   return scene;
 }
 

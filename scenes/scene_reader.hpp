@@ -1,6 +1,7 @@
 #pragma once
 
 #include <weft/scenes/scene.hpp>
+#include <weft/scenes/scene_file.hpp>
 #include <weft/scenes/toml_reader.hpp>
 
 namespace weft::scenes {
@@ -10,14 +11,24 @@ namespace weft::scenes {
 inline constexpr int kMaxSteps = 10'000'000;  ///< of a whole run
 inline constexpr int kMaxNodes = 1'000'000;   ///< of all cloths together
 
-[[nodiscard]] Scene read_scene(const TomlTable& root);
+/// files: for the pictures that bodies are drawn with.
+[[nodiscard]] Scene read_scene(const TomlTable& root, const FileSource& files);
 [[nodiscard]] World read_world(const TomlTable& table);
 [[nodiscard]] Cloth read_cloth(const TomlTable& table, const World& world);
 [[nodiscard]] Collider read_collider(const TomlTable& table);
+/// Keys of a cloth that say where its nodes come from and what they weigh: those of the source that
+/// the table names.
+[[nodiscard]] std::vector<std::string_view> cloth_source_keys(const TomlTable& table);
+[[nodiscard]] ClothSource read_cloth_source(const TomlTable& table);
+/// The body of a cloth with the key mesh, without its mass.
+[[nodiscard]] MeshBody read_mesh_body(const TomlTable& cloth);
+/// center_mass_share if center_node is true.
+[[nodiscard]] std::optional<double> read_center_node(const TomlTable& table);
+/// A table { axis, angle } or { quaternion }; of unit length.
 [[nodiscard]] Eigen::Quaterniond read_orientation(const TomlValue& value);
 /// The shape of a collider; other_keys: what its table may hold beside.
 [[nodiscard]] Shape read_shape(const TomlTable& table, std::vector<std::string_view> other_keys);
-/// cloth: the grid says which edge sets there are; world: gravity, if the law names no
+/// cloth: the source says which edge sets there are; world: gravity, if the law names no
 /// acceleration.
 [[nodiscard]] forces::LawSpecification read_law(const TomlTable& table, const Cloth& cloth,
                                                 const World& world);
@@ -25,5 +36,7 @@ inline constexpr int kMaxNodes = 1'000'000;   ///< of all cloths together
 /// scene: its cloths say which there are.
 [[nodiscard]] ControllerSettings read_controller(const TomlTable& table, const Scene& scene);
 [[nodiscard]] std::vector<Pin> read_pins(const TomlValue& value, const Cloth& cloth);
+/// The pins of a cloth, which may move.
+void read_cloth_pins(const TomlValue& value, Cloth& cloth);
 
 }  // namespace weft::scenes

@@ -18,6 +18,8 @@ inline constexpr std::array<std::string_view, 2> kLumpingWords = {"area", "unifo
 inline constexpr std::array<std::string_view, 10> kShapeWords = {
     "sphere", "box",         "plane", "capsule",  "cylinder",
     "cone",   "convex_hull", "mesh",  "compound", "height_field"};
+inline constexpr std::array<std::string_view, 7> kPatternWords = {
+    "plain", "checks", "stripes", "dots", "tartan", "carpet", "eyeball"};
 inline constexpr std::array<std::string_view, 4> kIntegratorWords = {
     "explicit_euler", "modified_euler", "velocity_verlet", "runge_kutta_4"};
 inline constexpr std::array<std::string_view, 2> kContactWords = {"projection", "impulse"};

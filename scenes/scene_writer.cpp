@@ -1,59 +1,18 @@
-#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
 
 #include <weft/custom_forces/registry.hpp>
-#include <weft/scenes/quantity.hpp>
+#include <weft/scenes/appearance_reader.hpp>
 #include <weft/scenes/scene_file.hpp>
+#include <weft/scenes/scene_text.hpp>
 #include <weft/scenes/scene_words.hpp>
 #include <weft/scenes/shape_writer.hpp>
+#include <weft/scenes/text_guard.hpp>
+#include <weft/scenes/toml_text.hpp>
 
 namespace weft::scenes {
 namespace {
-
-/// TOML number that reads back to the same bits: a decimal point or exponent keeps it a float.
-std::string number_text(double value) {
-  std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
-  return text;
-}
-
-std::string value_text(double value, std::string_view unit) {
-  if (!std::isfinite(value)) {
-    throw InvalidArgument(
-        fmt::format("write_scene: a value = {} [{}], expected finite", value, unit));
-  }
-  return unit == "1" ? number_text(value) : "\"" + format_quantity(value, unit) + "\"";
-}
-
-std::string vector_text(const Vector3<double>& vector, std::string_view unit) {
-  return fmt::format("[{}, {}, {}]", value_text(vector.x(), unit), value_text(vector.y(), unit),
-                     value_text(vector.z(), unit));
-}
-
-std::string toml_string(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20U || byte == 0x7FU) {
-      result += fmt::format("\\u{:04X}", byte);
-    } else {
-      if (c == '"' || c == '\\') result += '\\';
-      result += c;
-    }
-  }
-  return result + "\"";
-}
-
-void line(std::string& out, std::string_view key, const std::string& value) {
-  out += fmt::format("{} = {}\n", key, value);
-}
-
-template <class Words, class Enum>
-std::string word(const Words& words, Enum value) {
-  return toml_string(words.at(static_cast<std::size_t>(value)));
-}
 
 /// 0 for the first, 1 for the last row or column.
 int side_index(int side) {
@@ -76,6 +35,25 @@ std::string pin_text(const EdgePin& pin) {
 std::string pin_text(const BoxPin& pin) {
   return fmt::format("{{ box = {{ min = {}, max = {} }} }}", vector_text(pin.minimum, "m"),
                      vector_text(pin.maximum, "m"));
+}
+
+std::string pin_text(const SpherePin& pin) {
+  return fmt::format("{{ sphere = {{ center = {}, radius = {} }} }}", vector_text(pin.center, "m"),
+                     value_text(pin.radius, "m"));
+}
+
+/// Runs of nodes as "first-last".
+std::string pin_text(const NodePin& pin) {
+  std::string text;
+  for (std::size_t first = 0; first < pin.nodes.size();) {
+    std::size_t last = first;
+    while (last + 1 < pin.nodes.size() && pin.nodes[last + 1] == pin.nodes[last] + 1) ++last;
+    text += text.empty() ? "" : ", ";
+    text += first == last ? std::to_string(pin.nodes[first])
+                          : fmt::format("\"{}-{}\"", pin.nodes[first], pin.nodes[last]);
+    first = last + 1;
+  }
+  return "{ nodes = [" + text + "] }";
 }
 
 std::string pins_text(const std::vector<Pin>& pins) {
@@ -124,8 +102,10 @@ std::string all_pins_text(const Cloth& cloth) {
 }
 
 std::string connection_text(const Connection& connection) {
-  return fmt::format("{{ name = {}, node = [{}, {}]{} }}", toml_string(connection.name),
-                     connection.node[0], connection.node[1],
+  const std::string node = connection.node_number
+                               ? std::to_string(*connection.node_number)
+                               : fmt::format("[{}, {}]", connection.node[0], connection.node[1]);
+  return fmt::format("{{ name = {}, node = {}{} }}", toml_string(connection.name), node,
                      connection.to.empty() ? "" : ", to = " + pins_text(connection.to));
 }
 
@@ -153,18 +133,14 @@ void write_law(std::string& out, const forces::LawSpecification& law) {
 }
 
 void write_cloth(std::string& out, const Cloth& cloth) {
-  const ClothGrid& grid = cloth.grid;
   out += "\n[[cloth]]\n";
   line(out, "name", toml_string(cloth.name));
-  line(out, "grid",
-       fmt::format("{{ nodes = [{}, {}], size = [{}, {}], stencil = {} }}", grid.nodes[0],
-                   grid.nodes[1], value_text(grid.size[0], "m"), value_text(grid.size[1], "m"),
-                   word(kStencilWords, grid.stencil)));
-  line(out, "center", vector_text(grid.center, "m"));
-  line(out, "u_axis", vector_text(grid.u_axis, "1"));
-  line(out, "v_axis", vector_text(grid.v_axis, "1"));
-  line(out, "mass", value_text(grid.total_mass, "kg"));
-  line(out, "mass_lumping", word(kLumpingWords, grid.lumping));
+  write_source(out, cloth.source);
+  if (cloth.bulge) {
+    line(out, "bulge",
+         fmt::format("{{ height = {}, radius = {} }}", value_text(cloth.bulge->height, "m"),
+                     value_text(cloth.bulge->radius, "m")));
+  }
   line(out, "velocity", vector_text(cloth.velocity, "m/s"));
   line(out, "collision_margin", value_text(cloth.collision_margin, "m"));
   line(out, "friction", value_text(cloth.friction, "1"));
@@ -182,11 +158,13 @@ void write_cloth(std::string& out, const Cloth& cloth) {
   if (!cloth.regions.empty()) {
     std::string regions;
     for (const Region& region : cloth.regions) {
-      regions += fmt::format("{}{{ name = {}, nodes = {} }}", regions.empty() ? "" : ", ",
-                             toml_string(region.name), pins_text(region.nodes));
+      regions +=
+          fmt::format("{}{{ name = {}, nodes = {}, springs = {} }}", regions.empty() ? "" : ", ",
+                      toml_string(region.name), pins_text(region.nodes), region.has_springs);
     }
     line(out, "region", "[" + regions + "]");
   }
+  out += write_appearance(cloth.appearance);
   for (const forces::LawSpecification& law : cloth.laws) write_law(out, law);
 }
 
@@ -199,12 +177,9 @@ void write_collider(std::string& out, const Collider& collider) {
   } else {
     line(out, "position", vector_text(collider.position, "m"));
   }
-  const Eigen::Quaterniond& q = collider.orientation;
-  // As a quaternion: axis and angle would not read back to the same bits.
-  line(out, "orientation",
-       fmt::format("{{ quaternion = [{}, {}, {}, {}] }}", value_text(q.w(), "1"),
-                   value_text(q.x(), "1"), value_text(q.y(), "1"), value_text(q.z(), "1")));
+  line(out, "orientation", orientation_text(collider.orientation));
   line(out, "friction", value_text(collider.friction, "1"));
+  out += write_appearance(collider.appearance);
   if (!collider.mass) return;
   line(out, "mass", value_text(*collider.mass, "kg"));
   line(out, "velocity", vector_text(collider.velocity, "m/s"));
@@ -245,6 +220,10 @@ void write_settings(std::string& out, const Scene& scene) {
   line(out, "position", vector_text(scene.camera.position, "m"));
   line(out, "target", vector_text(scene.camera.target, "m"));
   line(out, "field_of_view", value_text(scene.camera.field_of_view, "rad"));
+  if (!scene.camera.follow.empty()) line(out, "follow", toml_string(scene.camera.follow));
+  if (scene.camera.poster_time) {
+    line(out, "poster_time", value_text(*scene.camera.poster_time, "s"));
+  }
 }
 
 }  // namespace
@@ -273,6 +252,12 @@ std::string write_scene(const Scene& scene) {
     std::visit([&](const auto& controller) { write_controller(out, controller); }, settings);
   }
   write_settings(out, scene);
+  if (out.size() > kMaxTextSize) {
+    throw InvalidArgument(
+        fmt::format("write_scene: the resolved scene has {} bytes, expected at most {}: its meshes "
+                    "are too large",
+                    out.size(), kMaxTextSize));
+  }
   return out;
 }
 

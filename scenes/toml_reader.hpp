@@ -25,6 +25,8 @@ class TomlValue {
       : file_(&file), path_(std::move(path)), node_(&node) {}
 
   [[noreturn]] void fail(const std::string& message) const;
+  /// Name of the text that this is in: the path of the scene file.
+  [[nodiscard]] const std::string& file() const { return *file_; }
 
   /// SI value of a quantity string with the dimension of unit; a bare number for unit "1".
   [[nodiscard]] double quantity(std::string_view unit) const;
@@ -32,7 +34,9 @@ class TomlValue {
   [[nodiscard]] double non_negative(std::string_view unit) const;
   [[nodiscard]] int integer(int minimum, int maximum) const;
   [[nodiscard]] bool boolean() const;
+  [[nodiscard]] bool is_integer() const { return node_->is_integer(); }
   [[nodiscard]] bool is_table() const { return node_->is_table(); }
+  [[nodiscard]] bool is_text() const { return node_->is_string(); }
   [[nodiscard]] std::string text() const;
   /// Letters, digits, '_' and '-', at most 64 of them.
   [[nodiscard]] std::string identifier() const;

@@ -50,6 +50,8 @@ std::span<const CaseInfo> all_cases() {
                &evaluate_hover},
       CaseInfo{"balloon", "Pressure curve of a balloon of springs, and where it bursts", nullptr,
                &evaluate_balloon},
+      CaseInfo{"materials", "Four materials that differ by their damping alone", &plan_materials,
+               &evaluate_materials},
       CaseInfo{"sliding_cloth", "A sliding cloth stops where Coulomb's law says",
                &plan_sliding_cloth, &evaluate_sliding_cloth},
       CaseInfo{"explosion", "Explicit Euler explodes, and is reported as data", &plan_explosion,

@@ -111,10 +111,12 @@ ClothMesh make_cloth_grid(const ClothGrid& grid) {
   const Vector3<double> v = grid.v_axis.normalized() * grid.size[1];
   ClothMesh mesh;
   mesh.rest_positions.resize(3, static_cast<Eigen::Index>(columns) * rows);
+  mesh.texture_coordinates.resize(2, mesh.rest_positions.cols());
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
       mesh.rest_positions.col(j * columns + i) =
           grid.center + (i / (columns - 1.0) - 0.5) * u + (j / (rows - 1.0) - 0.5) * v;
+      mesh.texture_coordinates.col(j * columns + i) << i / (columns - 1.0), j / (rows - 1.0);
     }
   }
   mesh.triangles = union_jack(grid, 0);

@@ -13,12 +13,6 @@ enum class GridStencil {
   k8Neighbour,   ///< 4 structural, 4 diagonal springs; no "bend" set
 };
 
-/// How the total mass is shared out.
-enum class MassLumping {
-  kArea,  ///< by rest area: an edge node has half of an inner node's mass, a corner node a quarter
-  kUniform,  ///< the same mass for every node
-};
-
 /// A rectangular cloth, nodes[0] x nodes[1] nodes, lying in the plane of u_axis and v_axis around
 /// center. Node (i, j) has index j * nodes[0] + i and stands at
 ///   center + (i / (nodes[0] - 1) - 1/2) size[0] u + (j / (nodes[1] - 1) - 1/2) size[1] v.
@@ -36,8 +30,9 @@ struct ClothGrid {
 
 /// Builds the mesh: edge sets "stretch" (distance 1), "shear" (diagonals) and "bend" (ring 2), line
 /// sets "lines_u" and "lines_v" (three next neighbours along an axis), and union-jack triangles (the
-/// diagonal alternates, so that no direction is preferred) with their crossed ones. Throws
-/// InvalidArgument for sizes out of their domain and for axes that are not perpendicular.
+/// diagonal alternates, so that no direction is preferred) with their crossed ones. The texture
+/// coordinates of node (i, j) are (i / (nodes[0] - 1), j / (nodes[1] - 1)). Throws InvalidArgument for
+/// sizes out of their domain and for axes that are not perpendicular.
 [[nodiscard]] ClothMesh make_cloth_grid(const ClothGrid& grid);
 
 /// Index of node (i, j); negative values count from the far side, so (-1, -1) is the last node.

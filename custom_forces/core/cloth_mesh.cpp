@@ -69,6 +69,24 @@ void connect(ClothMesh& mesh, const std::string& name, int node,
   mesh.connection_sets.push_back(std::move(set));
 }
 
+Matrix2X<double> corner_coordinates(const ClothMesh& mesh) {
+  const Eigen::Index num_corners = mesh.triangles.size();
+  const Matrix2X<double>& corners = mesh.corner_texture_coordinates;
+  const Matrix2X<double>& nodes = mesh.texture_coordinates;
+  const auto check = [](Eigen::Index number, Eigen::Index expected, const std::string& what) {
+    if (number == expected) return;
+    throw InvalidArgument("cloth mesh: " + std::to_string(number) + " texture coordinates of " +
+                          what + ", expected " + std::to_string(expected));
+  };
+  if (corners.cols() > 0) {
+    check(corners.cols(), num_corners, "corners");
+    return corners;
+  }
+  if (nodes.cols() == 0) return nodes;
+  check(nodes.cols(), mesh.num_nodes(), "nodes");
+  return nodes(Eigen::all, mesh.triangles.reshaped());
+}
+
 VectorX<double> node_areas(const ClothMesh& mesh) {
   VectorX<double> areas = VectorX<double>::Zero(mesh.num_nodes());
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {

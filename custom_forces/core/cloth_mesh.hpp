@@ -33,6 +33,13 @@ struct NodeSet {
   std::vector<int> nodes;  ///< sorted
 };
 
+/// How the total mass is shared out.
+enum class MassLumping {
+  kArea,  ///< by rest area (a rope: by length): an edge node of a grid has half of an inner node's
+          ///< mass, a corner node a quarter
+  kUniform,  ///< the same mass for every node
+};
+
 /// One piece of cloth as every engine receives it: rest shape, topology and mass. Knows no engine.
 struct ClothMesh {
   Matrix3X<double> rest_positions;  ///< 3 x n [m]; rest lengths and angles come from here
@@ -49,6 +56,12 @@ struct ClothMesh {
   std::vector<int> pinned;  ///< sorted node indices that no force moves
   /// Of the pinned nodes, 3 x pinned.size() [m/s]: they keep moving so. Empty: they stand still.
   Matrix3X<double> pinned_velocities = {};
+  /// Place of each node in a picture, 2 x n [-]: (0, 0) is its lower left, (1, 1) its upper right
+  /// corner, and the picture repeats beyond. Empty: none.
+  Matrix2X<double> texture_coordinates = {};
+  /// The same for each corner of each triangle, 2 x 3t, corner c of triangle t in column 3t + c: for
+  /// surfaces with a seam, where one node has several places. If there, it takes precedence.
+  Matrix2X<double> corner_texture_coordinates = {};
 
   [[nodiscard]] int num_nodes() const { return static_cast<int>(rest_positions.cols()); }
   [[nodiscard]] int num_edges() const;
@@ -63,6 +76,10 @@ struct ClothMesh {
 /// InvalidArgument for a node outside the mesh, a far node that is the node itself, and a name that
 /// is taken.
 void connect(ClothMesh& mesh, const std::string& name, int node, const std::vector<int>& far_nodes);
+
+/// Place of each corner of each triangle in a picture, 2 x 3t, from whichever of the two the mesh
+/// has; empty if it has none. Throws InvalidArgument if their numbers do not fit the mesh.
+[[nodiscard]] Matrix2X<double> corner_coordinates(const ClothMesh& mesh);
 
 /// Rest area that belongs to each node: a third of each triangle around it. n [m^2].
 [[nodiscard]] VectorX<double> node_areas(const ClothMesh& mesh);

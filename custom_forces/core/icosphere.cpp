@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <weft/custom_forces/core/error.hpp>
-#include <weft/custom_forces/core/hinges.hpp>
 
 namespace weft {
 namespace {
@@ -24,8 +24,9 @@ void check(const Icosphere& sphere) {
   require(sphere.frequency >= 1 && sphere.frequency <= 512,
           "frequency = " + std::to_string(sphere.frequency) + " [1], expected 1 to 512");
   require(sphere.center.allFinite(), "center is not finite, expected three lengths [m]");
-  require(std::isfinite(sphere.total_mass) && sphere.total_mass > 0,
-          "total_mass = " + std::to_string(sphere.total_mass) + " [kg], expected > 0 and finite");
+  // 1e-6: far above the rounding of a unit quaternion, far below anything visible.
+  require(std::abs(sphere.orientation.norm() - 1) < 1e-6,
+          "orientation is no unit quaternion, expected one");
 }
 
 // Corners of an icosahedron: the four (0, +-1, +-golden ratio) and their cyclic permutations.
@@ -85,29 +86,72 @@ void add_face(const std::array<int, 3>& corners, int frequency, NodeTable& nodes
   }
 }
 
-}  // namespace
+/// Longitude as a part of a turn, in [0, 1), and latitude from pole to pole, 0 to 1.
+Eigen::Vector2d place_on_map(const Vector3<double>& direction) {
+  const double turn = std::atan2(-direction.z(), direction.x()) / (2 * std::numbers::pi);
+  const double latitude = std::asin(std::clamp(direction.y(), -1.0, 1.0)) / std::numbers::pi;
+  return {turn < 0 ? turn + 1 : turn, latitude + 0.5};
+}
 
-ClothMesh make_icosphere(const Icosphere& sphere) {
+bool is_pole(const Vector3<double>& direction) {
+  constexpr double kRoundoff = 1e-12;  // far below the distance of any two nodes
+  return std::hypot(direction.x(), direction.z()) < kRoundoff;
+}
+
+/// Places of a triangle's corners side by side: beyond the seam longitude goes on above 1, and a
+/// pole, which has none, gets that of the middle of the other two.
+void place_corners(const std::array<Vector3<double>, 3>& directions,
+                   Eigen::Ref<Matrix2X<double>> corners) {
+  double largest = 0;
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    const Vector3<double>& direction = directions[static_cast<std::size_t>(c)];
+    corners.col(c) = place_on_map(direction);
+    if (!is_pole(direction)) largest = std::max(largest, corners(0, c));
+  }
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    if (largest - corners(0, c) > 0.5) corners(0, c) += 1;
+  }
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    if (!is_pole(directions[static_cast<std::size_t>(c)])) continue;
+    corners(0, c) = 0.5 * (corners(0, (c + 1) % 3) + corners(0, (c + 2) % 3));
+  }
+}
+
+Surface make_surface(const Icosphere& sphere) {
   check(sphere);
   NodeTable nodes;
   std::vector<Eigen::Vector3i> triangles;
   for (const auto& face : kFaces) add_face(face, sphere.frequency, nodes, triangles);
+  const std::vector<Vector3<double>>& directions = nodes.directions();
 
-  ClothMesh mesh;
-  const auto num_nodes = static_cast<Eigen::Index>(nodes.directions().size());
-  mesh.rest_positions.resize(3, num_nodes);
-  for (Eigen::Index n = 0; n < num_nodes; ++n) {
-    mesh.rest_positions.col(n) =
-        sphere.center + sphere.radius * nodes.directions()[static_cast<std::size_t>(n)];
+  Surface surface;
+  surface.positions.resize(3, static_cast<Eigen::Index>(directions.size()));
+  for (std::size_t n = 0; n < directions.size(); ++n) {
+    surface.positions.col(static_cast<Eigen::Index>(n)) =
+        sphere.center + sphere.orientation * (sphere.radius * directions[n]);
   }
-  mesh.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    mesh.triangles.col(static_cast<Eigen::Index>(t)) = triangles[t];
+  const auto num_triangles = static_cast<Eigen::Index>(triangles.size());
+  surface.triangles.resize(3, num_triangles);
+  surface.corner_texture_coordinates.resize(2, 3 * num_triangles);
+  for (Eigen::Index t = 0; t < num_triangles; ++t) {
+    const Eigen::Vector3i& corners = triangles[static_cast<std::size_t>(t)];
+    surface.triangles.col(t) = corners;
+    const auto direction = [&](int c) { return directions[static_cast<std::size_t>(corners[c])]; };
+    place_corners({direction(0), direction(1), direction(2)},
+                  surface.corner_texture_coordinates.middleCols(3 * t, 3));
   }
-  mesh.edge_sets.push_back({"stretch", edges_of_triangles(mesh.triangles)});
-  mesh.masses = node_areas(mesh);
-  mesh.masses *= sphere.total_mass / mesh.masses.sum();
-  return mesh;
+  return surface;
+}
+
+}  // namespace
+
+ClothMesh make_icosphere(const Icosphere& sphere) {
+  return make_surface_body(make_surface(sphere),
+                           {sphere.total_mass, sphere.lumping, sphere.center_mass_share});
+}
+
+double surface_area(const Icosphere& sphere) {
+  return surface_area(make_surface(sphere));
 }
 
 }  // namespace weft

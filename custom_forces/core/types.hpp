@@ -10,6 +10,8 @@ using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
 template <class Scalar>
 using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
 template <class Scalar>
+using Matrix2X = Eigen::Matrix<Scalar, 2, Eigen::Dynamic>;
+template <class Scalar>
 using Matrix3X = Eigen::Matrix<Scalar, 3, Eigen::Dynamic>;
 template <class Scalar>
 using VectorX = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;

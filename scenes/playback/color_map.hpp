@@ -1,14 +1,10 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-
 #include <Eigen/Core>
 
-namespace weft::scenes {
+#include <weft/scenes/appearance.hpp>
 
-/// 8-bit sRGB.
-using Rgb = std::array<std::uint8_t, 3>;
+namespace weft::scenes {
 
 /// Light of an sRGB colour, 0 to 1 per channel, where averages are physical.
 [[nodiscard]] Eigen::Vector3f linear_light(const Rgb& color);

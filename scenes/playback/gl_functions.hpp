@@ -31,6 +31,7 @@ namespace weft::scenes {
   X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) \
   X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)       \
   X(PFNGLFRAMEBUFFERTEXTURELAYERPROC, FramebufferTextureLayer) \
+  X(PFNGLGENERATEMIPMAPPROC, GenerateMipmap)                   \
   X(PFNGLGENBUFFERSPROC, GenBuffers)                           \
   X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                 \
   X(PFNGLGENTEXTURESPROC, GenTextures)                         \
@@ -48,6 +49,7 @@ namespace weft::scenes {
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                       \
   X(PFNGLTEXIMAGE2DPROC, TexImage2D)                           \
   X(PFNGLTEXIMAGE3DPROC, TexImage3D)                           \
+  X(PFNGLTEXPARAMETERFPROC, TexParameterf)                     \
   X(PFNGLTEXPARAMETERIPROC, TexParameteri)                     \
   X(PFNGLUNIFORM1FPROC, Uniform1f)                             \
   X(PFNGLUNIFORM1IPROC, Uniform1i)                             \

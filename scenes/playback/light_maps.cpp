@@ -82,11 +82,12 @@ LightMaps::LightMaps(const GlFunctions& gl)
   set_comparing(gl, GL_TEXTURE_2D_ARRAY);
 }
 
-void LightMaps::update(const Eigen::Vector3f& key_direction, double radius,
+void LightMaps::update(const Eigen::Vector3f& key_direction, const Eigen::Vector3f& center,
+                       double radius,
                        const std::function<void(const ShaderProgram&)>& draw_casters) {
   radius_ = radius;
   key_direction_ = key_direction;
-  key_matrix_ = light_matrix(key_direction, radius);
+  key_matrix_ = light_matrix(key_direction, center, radius);
   sky_matrices_.clear();
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   gl_.DrawBuffer(GL_NONE);
@@ -101,7 +102,8 @@ void LightMaps::update(const Eigen::Vector3f& key_direction, double radius,
   draw_casters(depth_program_);
   gl_.Viewport(0, 0, kSkySize, kSkySize);
   for (int i = 0; i < kNumSkyLights; ++i) {
-    sky_matrices_.push_back(light_matrix(sky_directions_[static_cast<std::size_t>(i)], radius));
+    sky_matrices_.push_back(
+        light_matrix(sky_directions_[static_cast<std::size_t>(i)], center, radius));
     gl_.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, sky_maps_, 0, i);
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
     depth_program_.set("u_clip_from_world", sky_matrices_.back());

@@ -13,9 +13,9 @@ class LightMaps {
  public:
   explicit LightMaps(const GlFunctions& gl);
 
-  /// Draws the maps again for casters within the radius [m] around the origin. draw_casters gets
+  /// Draws the maps again for casters within the radius [m] around the centre. draw_casters gets
   /// the program of the depth pass to set "u_world_from_body" of each body.
-  void update(const Eigen::Vector3f& key_direction, double radius,
+  void update(const Eigen::Vector3f& key_direction, const Eigen::Vector3f& center, double radius,
               const std::function<void(const ShaderProgram&)>& draw_casters);
 
   enum class Receiver { kGround, kBody };

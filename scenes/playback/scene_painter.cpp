@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include <weft/scenes/playback/palette.hpp>
+#include <weft/scenes/playback/collider_mesh.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -14,6 +14,7 @@ enum class SurfaceMode { kCloth, kScalar, kWireframe, kSolid, kTwoTone };
 
 constexpr int kScaleSize = 256;
 constexpr GLint kScaleUnit = 2;
+constexpr GLint kTextureUnit = 3;
 
 /// Obstacles are drawn 0.2 % smaller. Between its nodes a cloth is flat: over a ball of radius r,
 /// an edge of length h dips by h^2 / (8 r) below the nodes, 0.1 % of r for h = r / 11. Without this
@@ -27,12 +28,8 @@ constexpr double kGroundExtent = 7.0;
 constexpr double kLargestDistance = 1e6;
 /// Thickness of a line of the wireframe in a picture of 540 pixel rows. [pixel]
 constexpr double kLineWidth = 1.1;
-
-SurfaceMesh body_surface(const Shape& shape) {
-  if (const auto* sphere = std::get_if<SphereShape>(&shape)) return sphere_surface(sphere->radius);
-  if (const auto* box = std::get_if<BoxShape>(&shape)) return box_surface(box->half_extents);
-  return {};  // planes are the ground
-}
+/// Radius of a rope that is thinner, in radii of the scene: it must be seen.
+constexpr double kThinnestRope = 0.004;
 
 Eigen::Matrix4f pose(const Vector3<double>& position, const Eigen::Quaterniond& orientation,
                      double scale) {
@@ -67,6 +64,7 @@ Eigen::Matrix4f tile_matrix(const Tile& tile, const RenderOptions& options) {
 struct ScenePainter::Picture {
   const SceneState& state;
   const RenderOptions& options;
+  Vector3<double> shift;  ///< [m] of the camera that follows a body
   View view;
   StudioLights lights;
   Eigen::Matrix4f clip_from_world;  ///< of the tile
@@ -84,13 +82,16 @@ ScenePainter::ScenePainter(const Scene& scene)
       target_(gl_),
       ground_(gl_) {
   ground_.upload(ground_surface(kGroundExtent * stage_.radius));
-  for (const Cloth& cloth : scene_.cloths) {
-    meshes_.push_back(make_mesh(cloth));
+  for (std::size_t i = 0; i < scene_.cloths.size(); ++i) {
+    const ClothMesh& mesh = meshes_.emplace_back(make_mesh(scene_.cloths[i]));
+    layouts_.push_back(make_layout(mesh));
+    cloth_paints_.push_back(cloth_paint(gl_, scene_, i, layouts_.back().has_coordinates));
     cloths_.emplace_back(gl_);
   }
   for (const Collider& collider : scene_.colliders) {
     bodies_.emplace_back(gl_);
-    bodies_.back().upload(body_surface(collider.shape));
+    bodies_.back().upload(collider_surface(collider.shape));
+    body_paints_.push_back(collider_paint(gl_, scene_, collider));
   }
   gl_.GenVertexArrays(1, &screen_);
   gl_.GenTextures(1, &scale_);
@@ -103,11 +104,14 @@ Image ScenePainter::paint(const SceneState& state, const RenderOptions& options,
   gl_.Enable(GL_DEPTH_CLAMP);
   upload_cloths(state, options, scalar, map);
   if (map != nullptr) upload_scale(*map);
-  Picture picture{state, options, {}, studio_lights(scene_.camera), Eigen::Matrix4f::Identity()};
-  picture.view =
-      make_view(scene_.camera, stage_,
-                static_cast<double>(options.width) / static_cast<double>(options.height));
-  light_maps_.update(picture.lights.key, state_radius(stage_, state),
+  const Vector3<double> shift = camera_shift(scene_, meshes_, state);
+  Camera camera = scene_.camera;
+  camera.position += shift;
+  camera.target += shift;
+  Picture picture{state, options, shift, {}, studio_lights(camera), Eigen::Matrix4f::Identity()};
+  picture.view = make_view(
+      camera, stage_, static_cast<double>(options.width) / static_cast<double>(options.height));
+  light_maps_.update(picture.lights.key, shift.cast<float>(), state_radius(stage_, shift, state),
                      [&](const ShaderProgram& program) {
                        if (options.show_shadow) draw_casters(program, state);
                      });
@@ -131,18 +135,23 @@ void ScenePainter::upload_cloths(const SceneState& state, const RenderOptions& o
                                  const ScalarField* scalar, const ColorMap* map) {
   const DrawLimits limits{stage_.center, kLargestDistance * stage_.radius};
   for (std::size_t i = 0; i < meshes_.size(); ++i) {
-    SurfaceMesh mesh = cloth_surface(meshes_[i].triangles, state.cloths[i].positions, limits);
-    if (scalar != nullptr) {
-      const double span = map->maximum() - map->minimum();
-      for (std::size_t node = 0; node < mesh.vertices.size(); ++node) {
-        const double value = scalar->values[i][static_cast<Eigen::Index>(node)];
-        if (!std::isfinite(value)) continue;
-        const double place = span > 0.0 ? (value - map->minimum()) / span : 0.0;
-        mesh.vertices[node].value = {static_cast<float>(std::clamp(place, 0.0, 1.0)), 1.0f};
-      }
-    }
+    const double rope = std::max(scene_.cloths[i].collision_margin, kThinnestRope * stage_.radius);
+    SurfaceMesh mesh = cloth_surface(layouts_[i], state.cloths[i].positions, rope, limits);
+    if (scalar != nullptr) set_scalar(*scalar, i, *map, mesh);
     const bool is_wireframe = options.style == SurfaceStyle::kWireframe;
     cloths_[i].upload(is_wireframe ? with_barycentrics(mesh) : mesh);
+  }
+}
+
+void ScenePainter::set_scalar(const ScalarField& scalar, std::size_t cloth, const ColorMap& map,
+                              SurfaceMesh& mesh) const {
+  const double span = map.maximum() - map.minimum();
+  for (std::size_t vertex = 0; vertex < mesh.vertices.size(); ++vertex) {
+    const double value = scalar.values[cloth][mesh.nodes[vertex]];
+    const double place = span > 0.0 ? (value - map.minimum()) / span : 0.0;
+    mesh.vertices[vertex].value = {0.0f, 0.0f};
+    if (!std::isfinite(value)) continue;
+    mesh.vertices[vertex].value = {static_cast<float>(std::clamp(place, 0.0, 1.0)), 1.0f};
   }
 }
 
@@ -165,14 +174,20 @@ void ScenePainter::upload_scale(const ColorMap& map) {
 
 void ScenePainter::draw_casters(const ShaderProgram& program, const SceneState& state) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!is_drawn(i, state)) continue;
     const RigidState& rigid = state.rigids[i];
-    if (!is_drawable(rigid, stage_)) continue;
     program.set("u_world_from_body",
                 pose(rigid.position - stage_.center, rigid.orientation, kBodyScale));
     bodies_[i].draw();
   }
   program.set("u_world_from_body", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
-  for (const GpuMesh& cloth : cloths_) cloth.draw();
+  for (std::size_t i = 0; i < cloths_.size(); ++i) {
+    if (cloth_paints_[i].is_visible) cloths_[i].draw();
+  }
+}
+
+bool ScenePainter::is_drawn(std::size_t collider, const SceneState& state) const {
+  return body_paints_[collider].is_visible && is_drawable(state.rigids[collider], stage_);
 }
 
 void ScenePainter::draw_tile(const Picture& picture, const Tile& tile) {
@@ -181,6 +196,9 @@ void ScenePainter::draw_tile(const Picture& picture, const Tile& tile) {
   surface_program_.use();
   set_common(surface_program_, picture, tile);
   light_maps_.bind(surface_program_, LightMaps::Receiver::kBody);
+  // Samplers of another kind than those of the lights: they must never name the same unit.
+  surface_program_.set("u_scale", kScaleUnit);
+  surface_program_.set("u_texture", kTextureUnit);
   draw_colliders(picture);
   draw_cloths(picture);
 }
@@ -211,16 +229,23 @@ void ScenePainter::draw_backdrop(const Picture& picture, const Tile& tile) {
 
 void ScenePainter::draw_ground(const Picture& picture, const Tile& tile) {
   const Vector3<double> normal = stage_.ground_orientation * Vector3<double>::UnitY();
-  const double height = normal.dot(scene_.camera.position - stage_.ground_position);
-  if (!stage_.ground_is_collider && height <= 0.0) return;
+  const double height = normal.dot(scene_.camera.position + picture.shift - stage_.ground_position);
+  if (!stage_.ground_is_visible || (!stage_.ground_is_collider && height <= 0.0)) return;
   // A ground that is only decoration writes no depth: what falls through it stays visible.
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthMask(stage_.ground_is_collider ? GL_TRUE : GL_FALSE);
   ground_program_.use();
   set_common(ground_program_, picture, tile);
   light_maps_.bind(ground_program_, LightMaps::Receiver::kGround);
-  ground_program_.set("u_world_from_body",
-                      pose(stage_.ground_position - stage_.center, stage_.ground_orientation, 1.0));
+  const Vector3<double> along = picture.shift - normal.dot(picture.shift) * normal;
+  const Vector3<double> on_ground = stage_.ground_orientation.conjugate() * along;
+  ground_program_.set("u_world_from_body", pose(stage_.ground_position + along - stage_.center,
+                                                stage_.ground_orientation, 1.0));
+  ground_program_.set("u_shift", Eigen::Vector2f(static_cast<float>(on_ground.x()),
+                                                 static_cast<float>(on_ground.z())));
+  ground_program_.set("u_tint", stage_.ground_color
+                                    ? Eigen::Vector3f(1.25f * linear_light(*stage_.ground_color))
+                                    : Eigen::Vector3f(Eigen::Vector3f::Ones()));
   ground_program_.set("u_cell", static_cast<float>(grid_cell(stage_.radius)));
   ground_program_.set("u_extent", static_cast<float>(kGroundExtent * stage_.radius));
   ground_.draw();
@@ -229,16 +254,14 @@ void ScenePainter::draw_ground(const Picture& picture, const Tile& tile) {
 void ScenePainter::draw_colliders(const Picture& picture) const {
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthMask(GL_TRUE);
+  surface_program_.set("u_is_thin", 0);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!is_drawn(i, picture.state)) continue;
     const RigidState& rigid = picture.state.rigids[i];
-    if (!is_drawable(rigid, stage_)) continue;
-    const bool is_moving = scene_.colliders[i].mass.has_value();
-    const bool is_sphere = std::holds_alternative<SphereShape>(scene_.colliders[i].shape);
-    const Rgb& first = is_moving ? kMovingBodyColors.front : kFixedBodyColor;
-    const SurfaceMode mode = is_moving && is_sphere ? SurfaceMode::kTwoTone : SurfaceMode::kSolid;
+    const BodyPaint& paint = body_paints_[i];
+    const SurfaceMode mode = paint.is_two_tone ? SurfaceMode::kTwoTone : SurfaceMode::kSolid;
     surface_program_.set("u_mode", static_cast<int>(mode));
-    surface_program_.set("u_front_color", linear_light(first));
-    surface_program_.set("u_back_color", linear_light(is_moving ? kMovingBodyColors.back : first));
+    paint.set(gl_, surface_program_, kTextureUnit);
     surface_program_.set("u_world_from_body",
                          pose(rigid.position - stage_.center, rigid.orientation, kBodyScale));
     bodies_[i].draw();
@@ -254,16 +277,19 @@ void ScenePainter::draw_cloths(const Picture& picture) const {
   gl_.ActiveTexture(GL_TEXTURE0 + kScaleUnit);
   gl_.BindTexture(GL_TEXTURE_2D, scale_);
   surface_program_.set("u_mode", static_cast<int>(mode));
-  surface_program_.set("u_scale", kScaleUnit);
   surface_program_.set("u_line_width", static_cast<float>(line));
   surface_program_.set("u_no_value_color", linear_light(kNoValueColor));
   surface_program_.set("u_world_from_body", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
   for (std::size_t i = 0; i < cloths_.size(); ++i) {
-    const ClothColors& colors = kClothPalette[i % kClothPalette.size()];
-    surface_program_.set("u_front_color", linear_light(colors.front));
-    // Thin light lines on white paper would hardly be seen.
-    const float strength = mode == SurfaceMode::kWireframe ? 0.6f : 1.0f;
-    surface_program_.set("u_back_color", Eigen::Vector3f(strength * linear_light(colors.back)));
+    if (!cloth_paints_[i].is_visible) continue;
+    BodyPaint paint = cloth_paints_[i];
+    if (mode == SurfaceMode::kWireframe) {
+      // Thin light lines on white paper would hardly be seen.
+      paint.back *= 0.6f;
+    }
+    const bool has_inside = layouts_[i].is_closed || layouts_[i].rope.cols() > 0;
+    surface_program_.set("u_is_thin", has_inside || mode == SurfaceMode::kWireframe ? 0 : 1);
+    paint.set(gl_, surface_program_, kTextureUnit);
     cloths_[i].draw();
   }
 }

@@ -3,6 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include <weft/scenes/playback/body_paint.hpp>
+#include <weft/scenes/playback/cloth_layout.hpp>
 #include <weft/scenes/playback/color_map.hpp>
 #include <weft/scenes/playback/gpu_mesh.hpp>
 #include <weft/scenes/playback/light_maps.hpp>
@@ -31,12 +33,15 @@ class ScenePainter {
   void upload_cloths(const SceneState& state, const RenderOptions& options,
                      const ScalarField* scalar, const ColorMap* map);
   void upload_scale(const ColorMap& map);
+  void set_scalar(const ScalarField& scalar, std::size_t cloth, const ColorMap& map,
+                  SurfaceMesh& mesh) const;
   void draw_casters(const ShaderProgram& program, const SceneState& state) const;
   void draw_tile(const Picture& picture, const Tile& tile);
   void draw_backdrop(const Picture& picture, const Tile& tile);
   void draw_ground(const Picture& picture, const Tile& tile);
   void draw_colliders(const Picture& picture) const;
   void draw_cloths(const Picture& picture) const;
+  [[nodiscard]] bool is_drawn(std::size_t collider, const SceneState& state) const;
   void set_common(const ShaderProgram& program, const Picture& picture, const Tile& tile) const;
 
   Scene scene_;
@@ -52,6 +57,9 @@ class ScenePainter {
   GpuMesh ground_;
   std::vector<GpuMesh> bodies_;
   std::vector<GpuMesh> cloths_;
+  std::vector<BodyPaint> body_paints_;
+  std::vector<ClothLayout> layouts_;
+  std::vector<BodyPaint> cloth_paints_;
   GLuint screen_ = 0;
   GLuint scale_ = 0;
 };

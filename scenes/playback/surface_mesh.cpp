@@ -1,49 +1,28 @@
 #include <weft/scenes/playback/surface_mesh.hpp>
 
 #include <cmath>
-#include <numbers>
+#include <numeric>
 
 #include <Eigen/Geometry>
 
 namespace weft::scenes {
-namespace {
-
-/// Adds a grid of (columns + 1) x (rows + 1) vertices; make(u, v) with u, v from 0 to 1, and u x v
-/// is the outside.
-template <class Make>
-void append_patch(SurfaceMesh& mesh, int columns, int rows, Make make) {
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  const auto stride = static_cast<std::uint32_t>(columns + 1);
-  for (int j = 0; j <= rows; ++j) {
-    for (int i = 0; i <= columns; ++i) {
-      mesh.vertices.push_back(
-          make(static_cast<double>(i) / columns, static_cast<double>(j) / rows));
-    }
-  }
-  for (std::uint32_t j = 0; j < static_cast<std::uint32_t>(rows); ++j) {
-    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(columns); ++i) {
-      const std::uint32_t a = first + j * stride + i;
-      mesh.indices.insert(mesh.indices.end(),
-                          {a, a + 1, a + stride, a + 1, a + stride + 1, a + stride});
-    }
-  }
-}
-
-SurfaceVertex body_vertex(const Vector3<double>& position, const Vector3<double>& normal) {
+SurfaceVertex body_vertex(const Vector3<double>& position, const Vector3<double>& normal,
+                          const Eigen::Vector2d& texture_coordinates) {
   SurfaceVertex vertex;
   vertex.position = position.cast<float>();
   vertex.normal = normal.cast<float>();
+  vertex.value = texture_coordinates.cast<float>();
   vertex.extra = vertex.position;
   return vertex;
 }
-
-}  // namespace
 
 SurfaceMesh cloth_surface(const Triangles& triangles, ConstMatrix3XRef<double> positions,
                           const DrawLimits& limits) {
   const auto num_nodes = static_cast<std::size_t>(positions.cols());
   SurfaceMesh mesh;
   mesh.vertices.resize(num_nodes);
+  mesh.nodes.resize(num_nodes);
+  std::iota(mesh.nodes.begin(), mesh.nodes.end(), 0);
   std::vector<bool> is_drawable(num_nodes);
   for (std::size_t i = 0; i < num_nodes; ++i) {
     const Vector3<double> x = positions.col(static_cast<Eigen::Index>(i)) - limits.origin;
@@ -84,40 +63,10 @@ SurfaceMesh with_barycentrics(const SurfaceMesh& mesh) {
     SurfaceVertex vertex = mesh.vertices[mesh.indices[k]];
     vertex.extra = Eigen::Vector3f::Unit(static_cast<Eigen::Index>(k % 3));
     split.vertices.push_back(vertex);
+    if (!mesh.nodes.empty()) split.nodes.push_back(mesh.nodes[mesh.indices[k]]);
     split.indices.push_back(static_cast<std::uint32_t>(k));
   }
   return split;
-}
-
-SurfaceMesh sphere_surface(double radius) {
-  constexpr int kColumns = 96;
-  constexpr int kRows = 48;
-  SurfaceMesh mesh;
-  append_patch(mesh, kColumns, kRows, [&](double u, double v) {
-    const double longitude = -2.0 * std::numbers::pi * u;
-    const double latitude = std::numbers::pi * (v - 0.5);
-    const Vector3<double> normal(std::cos(latitude) * std::cos(longitude), std::sin(latitude),
-                                 std::cos(latitude) * std::sin(longitude));
-    return body_vertex(radius * normal, normal);
-  });
-  return mesh;
-}
-
-SurfaceMesh box_surface(const Vector3<double>& half_extents) {
-  constexpr int kDivisions = 16;
-  SurfaceMesh mesh;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double side : {-1.0, 1.0}) {
-      const Vector3<double> normal = side * Vector3<double>::Unit(axis);
-      const Vector3<double> across = Vector3<double>::Unit((axis + 1) % 3);
-      const Vector3<double> along = normal.cross(across);
-      append_patch(mesh, kDivisions, kDivisions, [&](double u, double v) {
-        const Vector3<double> corner = normal + (2.0 * u - 1.0) * across + (2.0 * v - 1.0) * along;
-        return body_vertex(corner.cwiseProduct(half_extents), normal);
-      });
-    }
-  }
-  return mesh;
 }
 
 SurfaceMesh ground_surface(double extent) {
@@ -128,7 +77,7 @@ SurfaceMesh ground_surface(double extent) {
     return extent * t * (0.15 + 0.85 * t * t);
   };
   append_patch(mesh, kDivisions, kDivisions, [&](double u, double v) {
-    return body_vertex({spread(u), 0.0, -spread(v)}, Vector3<double>::UnitY());
+    return body_vertex({spread(u), 0.0, -spread(v)}, Vector3<double>::UnitY(), {u, v});
   });
   return mesh;
 }

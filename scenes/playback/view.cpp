@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <weft/scenes/playback/collider_mesh.hpp>
+
 namespace weft::scenes {
 namespace {
 
@@ -11,30 +13,45 @@ using Box = Eigen::AlignedBox3d;
 
 Box collider_box(const Collider& collider) {
   Box box;
-  if (const auto* sphere = std::get_if<SphereShape>(&collider.shape)) {
-    box.extend(collider.position + Vector3<double>::Constant(sphere->radius));
-    box.extend(collider.position - Vector3<double>::Constant(sphere->radius));
-  } else if (const auto* shape = std::get_if<BoxShape>(&collider.shape)) {
-    const Vector3<double> half =
-        collider.orientation.toRotationMatrix().cwiseAbs() * shape->half_extents;
-    box.extend(collider.position + half);
-    box.extend(collider.position - half);
+  for (const SurfaceVertex& vertex : collider_surface(collider.shape).vertices) {
+    box.extend(collider.position + collider.orientation * vertex.position.cast<double>());
   }
   return box;
 }
 
-/// Height that a cloth will hardly fall below: it hangs from its lowest pin, or, if free, from its
-/// own height.
-double lowest_reach(const ClothMesh& mesh) {
-  double hold = mesh.rest_positions.row(1).minCoeff();
-  for (const int node : mesh.pinned) {
-    hold = std::max(hold, mesh.rest_positions(1, node));
+/// Largest distance of a node to the pin that is nearest at rest: what hangs below the pins. [m]
+double hanging_length(const ClothMesh& mesh) {
+  // Enough of each to know it to some per cent, however large the cloth is.
+  constexpr std::size_t kMaxPins = 64;
+  constexpr int kMaxNodes = 4096;
+  const std::size_t pin_step = mesh.pinned.size() / kMaxPins + 1;
+  const int node_step = mesh.num_nodes() / kMaxNodes + 1;
+  double longest = 0.0;
+  for (int node = 0; node < mesh.num_nodes(); node += node_step) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < mesh.pinned.size(); i += pin_step) {
+      const Vector3<double> way =
+          mesh.rest_positions.col(node) - mesh.rest_positions.col(mesh.pinned[i]);
+      nearest = std::min(nearest, way.norm());
+    }
+    longest = std::max(longest, nearest);
   }
-  const Vector3<double> low = mesh.rest_positions.rowwise().minCoeff();
-  const Vector3<double> high = mesh.rest_positions.rowwise().maxCoeff();
-  const double diagonal = (high - low).norm();
-  // A pinned cloth can stretch below its own length; a free one bends over what it falls on.
-  return hold - (mesh.pinned.empty() ? 0.6 : 1.1) * diagonal;
+  return longest;
+}
+
+/// Height that a cloth will hardly fall below: it hangs from its lowest pin, or, if free, bends over
+/// what it falls on.
+double lowest_reach(const ClothMesh& mesh) {
+  const double low = mesh.rest_positions.row(1).minCoeff();
+  if (mesh.pinned.empty()) {
+    const Vector3<double> size =
+        mesh.rest_positions.rowwise().maxCoeff() - mesh.rest_positions.rowwise().minCoeff();
+    return low - 0.6 * size.norm();
+  }
+  double hold = std::numeric_limits<double>::infinity();
+  for (const int node : mesh.pinned) hold = std::min(hold, mesh.rest_positions(1, node));
+  // A pinned cloth can stretch below its own length.
+  return std::min(low, hold - 1.1 * hanging_length(mesh));
 }
 
 const Collider* find_plane(const Scene& scene) {
@@ -81,6 +98,8 @@ Stage make_stage(const Scene& scene) {
   stage.ground_is_collider = plane != nullptr;
   stage.ground_position = {stage.center.x(), lowest, stage.center.z()};
   if (plane != nullptr) {
+    stage.ground_is_visible = plane->appearance.visible;
+    stage.ground_color = plane->appearance.color;
     // The foot of the centre on the plane: the ground's mesh is fine only around its middle.
     const Vector3<double> normal = plane->orientation * Vector3<double>::UnitY();
     const double height = normal.dot(stage.center - plane->position);
@@ -90,12 +109,28 @@ Stage make_stage(const Scene& scene) {
   return stage;
 }
 
-double state_radius(const Stage& stage, const SceneState& state) {
+Vector3<double> camera_shift(const Scene& scene, const std::vector<ClothMesh>& meshes,
+                             const SceneState& state) {
+  Vector3<double> shift(0, 0, 0);
+  const std::string& name = scene.camera.follow;
+  if (name.empty()) return shift;
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+    if (scene.cloths[i].name != name) continue;
+    shift = state.cloths[i].positions.rowwise().mean() - meshes[i].rest_positions.rowwise().mean();
+  }
+  for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
+    if (scene.colliders[i].name == name)
+      shift = state.rigids[i].position - scene.colliders[i].position;
+  }
+  return shift.allFinite() ? shift : Vector3<double>(0, 0, 0);
+}
+
+double state_radius(const Stage& stage, const Vector3<double>& shift, const SceneState& state) {
   constexpr double kStep = 1.25;
   const double largest = 8.0 * stage.radius;
   double needed = stage.radius;
   const auto include = [&](const Vector3<double>& x) {
-    const double distance = (x - stage.center).norm();
+    const double distance = (x - stage.center - shift).norm();
     if (std::isfinite(distance) && distance <= largest) needed = std::max(needed, distance);
   };
   for (const ClothState& cloth : state.cloths) {
@@ -113,7 +148,7 @@ StudioLights studio_lights(const Camera& camera) {
   const Vector3<double> up = Vector3<double>::UnitY();
   const Vector3<double> ahead = up.cross(right).normalized();
   StudioLights lights;
-  lights.key = (-0.25 * ahead - 1.00 * right + 0.95 * up).normalized().cast<float>();
+  lights.key = (-0.25 * ahead - 0.80 * right + 1.00 * up).normalized().cast<float>();
   lights.fill = (-0.80 * ahead + 0.80 * right + 0.25 * up).normalized().cast<float>();
   lights.rim = (0.90 * ahead + 0.60 * right + 0.35 * up).normalized().cast<float>();
   return lights;
@@ -145,7 +180,8 @@ View make_view(const Camera& camera, const Stage& stage, double aspect_ratio) {
   return {(clip_from_eye * eye_from_world).cast<float>(), eye.cast<float>()};
 }
 
-Eigen::Matrix4f light_matrix(const Eigen::Vector3f& towards_light, double radius) {
+Eigen::Matrix4f light_matrix(const Eigen::Vector3f& towards_light, const Eigen::Vector3f& center,
+                             double radius) {
   const Eigen::Vector3f back = towards_light.normalized();
   const Eigen::Vector3f helper =
       std::abs(back.y()) < 0.9f ? Eigen::Vector3f::UnitY() : Eigen::Vector3f::UnitX();
@@ -155,6 +191,7 @@ Eigen::Matrix4f light_matrix(const Eigen::Vector3f& towards_light, double radius
   matrix.block<1, 3>(0, 0) = scale * right.transpose();
   matrix.block<1, 3>(1, 0) = scale * back.cross(right).transpose();
   matrix.block<1, 3>(2, 0) = -scale * back.transpose();
+  matrix.block<3, 1>(0, 3) = -matrix.block<3, 3>(0, 0) * center;
   return matrix;
 }
 

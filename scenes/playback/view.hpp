@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include <Eigen/Geometry>
 
 #include <weft/scenes/scene.hpp>
@@ -9,19 +12,26 @@ namespace weft::scenes {
 
 /// What stays the same for every picture of a scene, so that a film does not jump.
 struct Stage {
-  Vector3<double> center{0, 0, 0};           ///< [m] origin of everything that is drawn
-  double radius = 1.0;                       ///< [m] of the scene at rest around it
-  bool ground_is_collider = false;           ///< else the ground is decoration and hides nothing
+  Vector3<double> center{0, 0, 0};  ///< [m] origin of everything that is drawn
+  double radius = 1.0;              ///< [m] of the scene at rest around it
+  bool ground_is_collider = false;  ///< else the ground is decoration and hides nothing
+  bool ground_is_visible = true;
+  std::optional<Rgb> ground_color = {};      ///< none: that of the backdrop
   Vector3<double> ground_position{0, 0, 0};  ///< [m]
   Eigen::Quaterniond ground_orientation = Eigen::Quaterniond::Identity();  ///< y axis is the normal
 };
 
 [[nodiscard]] Stage make_stage(const Scene& scene);
 
-/// Radius around the stage's centre that holds the state too, in coarse steps so that shadows keep
-/// still, and at most eight times the scene's own: one run-away node must not cost all others their
-/// shadow. [m]
-[[nodiscard]] double state_radius(const Stage& stage, const SceneState& state);
+/// How far the body that the camera follows has moved; zero if it follows none. [m]
+[[nodiscard]] Vector3<double> camera_shift(const Scene& scene, const std::vector<ClothMesh>& meshes,
+                                           const SceneState& state);
+
+/// Radius around the stage's centre, shifted, that holds the state too, in coarse steps so that
+/// shadows keep still, and at most eight times the scene's own: one run-away node must not cost all
+/// others their shadow. [m]
+[[nodiscard]] double state_radius(const Stage& stage, const Vector3<double>& shift,
+                                  const SceneState& state);
 
 /// Directions towards the lights of a photo studio, chosen from the camera so that folds show from
 /// every side.
@@ -39,8 +49,9 @@ struct View {
 };
 [[nodiscard]] View make_view(const Camera& camera, const Stage& stage, double aspect_ratio);
 
-/// Parallel light: maps the ball of the given radius around the origin to the clip cube.
-[[nodiscard]] Eigen::Matrix4f light_matrix(const Eigen::Vector3f& towards_light, double radius);
+/// Parallel light: maps the ball of the given radius around the centre to the clip cube.
+[[nodiscard]] Eigen::Matrix4f light_matrix(const Eigen::Vector3f& towards_light,
+                                           const Eigen::Vector3f& center, double radius);
 
 /// Width of the ground's grid cells: 1, 2 or 5 times a power of ten, about a fifth of the radius.
 /// [m]

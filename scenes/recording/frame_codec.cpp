@@ -96,7 +96,7 @@ void check_cloth(const ClothState& cloth, const RecordedBody& body) {
 std::vector<RecordedBody> recorded_bodies(const Scene& scene) {
   std::vector<RecordedBody> bodies;
   for (const Cloth& cloth : scene.cloths) {
-    bodies.push_back({cloth.name, true, cloth.grid.nodes[0] * cloth.grid.nodes[1]});
+    bodies.push_back({cloth.name, true, num_nodes(cloth.source)});
   }
   for (const Collider& collider : scene.colliders) {
     bodies.push_back({collider.name, false, 1});

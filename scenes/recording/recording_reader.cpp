@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/scenes/recording/asset_table.hpp>
 #include <weft/scenes/recording/chunk_codec.hpp>
 #include <weft/scenes/recording/open_recording.hpp>
 #include <weft/scenes/recording/recording.hpp>
@@ -53,6 +54,7 @@ struct RecordingReader::Impl {
   std::span<const std::byte> frame_bytes(int frame) const;
   const std::vector<MetricRow>& metric_rows() const;
   std::string compute_content_hash() const;
+  Scene read_scene() const;
 
   std::filesystem::path path;
   std::string file;
@@ -164,13 +166,20 @@ std::string RecordingReader::Impl::compute_content_hash() const {
   return found;
 }
 
+Scene RecordingReader::Impl::read_scene() const {
+  Scene assets;
+  assets.files =
+      with_database([&](const Database& database) { return read_assets(database, header, file); });
+  return read_scene_text(header.scene_text, file, files_of(assets));
+}
+
 RecordingReader::RecordingReader(const std::filesystem::path& path)
     : impl_(std::make_unique<Impl>(path)) {}
 RecordingReader::~RecordingReader() = default;
 
 const Scene& RecordingReader::scene() const {
   if (!impl_->scene) {
-    impl_->scene = read_scene_text(impl_->header.scene_text, impl_->file);
+    impl_->scene = impl_->read_scene();
   }
   return *impl_->scene;
 }

@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/scenes/recording/asset_table.hpp>
 #include <weft/scenes/recording/chunk_codec.hpp>
 #include <weft/scenes/recording/database.hpp>
 #include <weft/scenes/recording/format.hpp>
@@ -64,6 +65,7 @@ Header make_header(const Scene& scene, const Provenance& provenance, StoredPreci
   header.bodies = recorded_bodies(scene);
   header.meta["precision"] = precision == StoredPrecision::kFloat64 ? "float64" : "float32";
   header.meta["byte_order"] = "little";
+  if (!scene.files.empty()) header.meta[kAssetHashKey] = asset_hash(scene.files);
   for (const auto& [key, value] : provenance) {
     header.meta[std::string(kProvenancePrefix) + key] = value;
   }
@@ -73,10 +75,10 @@ Header make_header(const Scene& scene, const Provenance& provenance, StoredPreci
 }  // namespace
 
 struct RecordingWriter::Impl {
-  Impl(const std::filesystem::path& path, Header header, StoredPrecision precision,
-       const ChunkLimits& limits);
+  Impl(const std::filesystem::path& path, Header header, const std::vector<SceneFile>& assets,
+       StoredPrecision precision, const ChunkLimits& limits);
 
-  void create_tables();
+  void create_tables(const std::vector<SceneFile>& assets);
   void require_usable() const;
   /// One transaction with everything that is pending.
   void commit();
@@ -110,17 +112,18 @@ struct RecordingWriter::Impl {
 };
 
 RecordingWriter::Impl::Impl(const std::filesystem::path& path, Header the_header,
-                            StoredPrecision precision, const ChunkLimits& the_limits)
+                            const std::vector<SceneFile>& assets, StoredPrecision precision,
+                            const ChunkLimits& the_limits)
     : file(path.string()),
       limits(the_limits),
       header(std::move(the_header)),
       codec(header.bodies, precision),
       content_hash(header.scene_text, precision) {
   database.emplace(path, Database::Access::kReadWrite);
-  create_tables();
+  create_tables(assets);
 }
 
-void RecordingWriter::Impl::create_tables() {
+void RecordingWriter::Impl::create_tables(const std::vector<SceneFile>& assets) {
   // Made in one piece before the log is switched on: who sees the tables sees a valid recording.
   database->execute(fmt::format("PRAGMA application_id={}; PRAGMA user_version={}; BEGIN IMMEDIATE",
                                 kApplicationId, kFormatVersion));
@@ -137,6 +140,7 @@ void RecordingWriter::Impl::create_tables() {
         .bind(4, std::int64_t{body.num_nodes})
         .run();
   }
+  if (!assets.empty()) write_assets(*database, assets);
   update_meta();
   database->execute("COMMIT; PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL");
 }
@@ -263,7 +267,7 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& path, const Scene&
   Header header = make_header(scene, provenance, precision);
   reserve(path);
   try {
-    impl_ = std::make_unique<Impl>(path, std::move(header), precision, limits);
+    impl_ = std::make_unique<Impl>(path, std::move(header), scene.files, precision, limits);
   } catch (...) {
     remove_files(path);
     throw;

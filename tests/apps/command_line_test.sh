@@ -88,6 +88,16 @@ check "a failed run leaves the old recording" exits 2 run hang --time-step "1 kg
 check "it is still readable" exits 0 render a.weftrec -o a.png --width 80 --height 50
 check "render spares its recording" exits 2 render a.weftrec -o a.weftrec
 check "render: --all or --time" exits 2 render a.weftrec -o frames --all --time "1 s"
+check "render: several times and styles" exits 0 render a.weftrec -o strip.png --size 96x54 --style shaded,wireframe \
+  --times "0 s,0.3 s,0.6 s"
+check "it says which frames" grep -q "t = 0 s, 0.3 s, 0.6 s" out
+check "render: --size or --width" exits 2 render a.weftrec -o b.png --size 96x54 --width 100
+check "render: a size that is none" exits 2 render a.weftrec -o b.png --size 96
+check "render: a time without its unit" exits 2 render a.weftrec -o b.png --times 0,1
+check "contact sheet" exits 0 contact-sheet a.weftrec b.weftrec -o sheet.png --page pages/scenes.md --width 96
+check "a row for each scene" test "$(grep -c "^| !\[drape_sphere\]" pages/scenes.md)" -eq 2
+check "a picture for each scene" test -s pages/img/scenes/drape_sphere.png
+check "contact sheet of nothing" exits 2 contact-sheet no_such_scene -o sheet.png
 check "integrator of the reference only" exits 2 run hang -e bullet_soft --integrator runge_kutta_4 -o x.weftrec
 check "impossible output" exits 2 "${short[@]}" -o /no/such/folder/a.weftrec
 

@@ -13,7 +13,7 @@ TEST(Icosphere, HasItsCountsItsRadiusAndItsFront) {
   for (const int f : {1, 2, 5}) {
     const ClothMesh mesh = make_icosphere({.radius = 2.0, .frequency = f, .center = {1, 2, 3}});
     EXPECT_EQ(mesh.num_nodes(), 10 * f * f + 2);
-    EXPECT_EQ(mesh.num_edges(), 30 * f * f);
+    EXPECT_EQ(mesh.edges_of({"stretch"}).cols(), 30 * f * f);
     EXPECT_EQ(mesh.triangles.cols(), 20 * f * f);
     EXPECT_TRUE(is_closed_surface(mesh.triangles));
     EXPECT_NEAR(mesh.masses.sum(), 1.0, 1e-12);

@@ -25,9 +25,9 @@ scenes::Scene cloth_scene(std::vector<LawSpecification> laws) {
   scenes::Scene scene;
   scenes::Cloth cloth;
   cloth.name = "cloth";
-  cloth.grid.nodes = {3, 3};
-  cloth.grid.size = {2.0, 2.0};
-  cloth.grid.total_mass = 4.0;
+  cloth.grid().nodes = {3, 3};
+  cloth.grid().size = {2.0, 2.0};
+  cloth.grid().total_mass = 4.0;
   cloth.laws = std::move(laws);
   scene.cloths = {cloth};
   return scene;

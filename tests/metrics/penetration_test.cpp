@@ -22,8 +22,8 @@ struct Fixture {
   Fixture(std::vector<scenes::Collider> colliders, double height) {
     scenes::Cloth cloth;
     cloth.name = "cloth";
-    cloth.grid.nodes = {5, 5};
-    cloth.grid.size = {2.0, 2.0};
+    cloth.grid().nodes = {5, 5};
+    cloth.grid().size = {2.0, 2.0};
     cloth.collision_margin = 0.05;
     scene.cloths = {cloth};
     scene.colliders = std::move(colliders);

@@ -64,7 +64,7 @@ TEST_F(RendererTest, SphereIsDrawnWhereTheCameraFormulaPutsIt) {
 
 TEST_F(RendererTest, TwoSidesOfClothHaveDifferentColours) {
   Renderer renderer(scene);
-  const Vector3<double> middle = scene.cloths[0].grid.center + Vector3<double>(0.1, 0, 0.1);
+  const Vector3<double> middle = scene.cloths[0].grid().center + Vector3<double>(0.1, 0, 0.1);
   const Rgb front = pixel_at(renderer.render(state, options), scene.camera, middle);
   state.cloths[0].positions.row(0) *= -1.0;  // mirrored: the camera sees the other side
   const Rgb back = pixel_at(renderer.render(state, options), scene.camera, middle);
@@ -122,7 +122,7 @@ TEST_F(RendererTest, ScalarColoursFollowTheColourMap) {
   const ColorMap map(2.0, 6.0);
   const ColorBarPlace bar = color_bar_place(640, 360);
   ASSERT_GT(bar.width, 0);
-  const Vector3<double> middle = scene.cloths[0].grid.center + Vector3<double>(0.1, 0, 0.1);
+  const Vector3<double> middle = scene.cloths[0].grid().center + Vector3<double>(0.1, 0, 0.1);
   for (const double value : {2.0, 6.0}) {
     const ScalarField field{{Eigen::VectorXd::Constant(81, value)}, 2.0, 6.0, "strain [%]"};
     const Image image = renderer.render(state, options, &field);
@@ -141,7 +141,7 @@ TEST_F(RendererTest, ValuesThatAreNotFiniteAreGrey) {
   const ScalarField field{
       {Eigen::VectorXd::Constant(81, std::numeric_limits<double>::quiet_NaN())}, 0.0, 0.0, ""};
   const Image image = Renderer(scene).render(state, options, &field);
-  const Vector3<double> middle = scene.cloths[0].grid.center + Vector3<double>(0.1, 0, 0.1);
+  const Vector3<double> middle = scene.cloths[0].grid().center + Vector3<double>(0.1, 0, 0.1);
   const Rgb seen = pixel_at(image, scene.camera, middle);
   EXPECT_LT(std::abs(seen[0] - seen[1]) + std::abs(seen[1] - seen[2]), 2 * kOtherThing);
 }
@@ -192,7 +192,7 @@ TEST_F(RendererTest, SurvivesStatesThatAreNotFinite) {
   state.cloths[0].positions(0, 80) = std::numeric_limits<double>::infinity();
   state.cloths[0].positions(2, 8) = 1e300;
   const Image partly = renderer.render(state, options);
-  const Vector3<double> middle = scene.cloths[0].grid.center + Vector3<double>(0.1, 0, 0.1);
+  const Vector3<double> middle = scene.cloths[0].grid().center + Vector3<double>(0.1, 0, 0.1);
   EXPECT_LE(
       difference(pixel_at(partly, scene.camera, middle), pixel_at(good, scene.camera, middle)),
       kOtherThing);

@@ -16,9 +16,9 @@ inline Scene small_scene() {
   scene.name = "small";
   Cloth cloth;
   cloth.name = "cloth";
-  cloth.grid.nodes = {9, 9};
-  cloth.grid.size = {2.0, 2.0};
-  cloth.grid.center = {0, 2.5, 0};
+  cloth.grid().nodes = {9, 9};
+  cloth.grid().size = {2.0, 2.0};
+  cloth.grid().center = {0, 2.5, 0};
   scene.cloths.push_back(cloth);
   Collider ball;
   ball.name = "ball";

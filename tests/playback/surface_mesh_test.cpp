@@ -2,39 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-
 #include <limits>
 
 namespace weft::scenes {
 namespace {
-
-/// Signed volume [m^3]: positive only if all triangles face outwards.
-double volume(const SurfaceMesh& mesh) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < mesh.indices.size(); k += 3) {
-    const Eigen::Vector3d a = mesh.vertices[mesh.indices[k]].position.cast<double>();
-    const Eigen::Vector3d b = mesh.vertices[mesh.indices[k + 1]].position.cast<double>();
-    const Eigen::Vector3d c = mesh.vertices[mesh.indices[k + 2]].position.cast<double>();
-    sum += a.dot(b.cross(c)) / 6.0;
-  }
-  return sum;
-}
-
-/// Vertices are stored in single precision.
-constexpr double kRoundOff = 64 * std::numeric_limits<float>::epsilon();
-
-TEST(SurfaceMesh, BoxHasItsVolumeAndFacesOutwards) {
-  EXPECT_NEAR(volume(box_surface({0.5, 1.0, 2.0})), 8.0, 8.0 * kRoundOff);
-}
-
-TEST(SurfaceMesh, SphereHasItsVolumeUpToItsFacets) {
-  const double exact = 4.0 / 3.0 * 3.14159265358979 * 8.0;
-  // An inscribed polyhedron of angle steps h = 2 pi / 96 loses about h^2 / 4 of the volume.
-  constexpr double kFacets = (2.0 * 3.14159265 / 96.0) * (2.0 * 3.14159265 / 96.0) / 2.0;
-  EXPECT_LT(volume(sphere_surface(2.0)), exact);
-  EXPECT_GT(volume(sphere_surface(2.0)), exact * (1.0 - kFacets));
-}
 
 TEST(SurfaceMesh, LeavesOutTrianglesWithNodesThatAreNotFinite) {
   Matrix3X<double> positions(3, 4);

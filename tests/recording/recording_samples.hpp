@@ -48,7 +48,7 @@ inline Scene make_scene(int nodes = 5) {
   for (const char* name : {"towel", "flag"}) {
     Cloth cloth;
     cloth.name = name;
-    cloth.grid.nodes = {nodes, nodes};
+    cloth.grid().nodes = {nodes, nodes};
     scene.cloths.push_back(cloth);
   }
   Collider ball;
@@ -69,7 +69,7 @@ inline SceneState make_state(const Scene& scene, int frame, StoredPrecision prec
   SceneState state;
   state.time = frame / 60.0;
   for (const Cloth& cloth : scene.cloths) {
-    const int nodes = cloth.grid.nodes[0] * cloth.grid.nodes[1];
+    const int nodes = cloth.grid().nodes[0] * cloth.grid().nodes[1];
     const double speed = cloth.name == "flag" ? 1.5 : 1.0;
     ClothState values{cloth.name, Matrix3X<double>(3, nodes), Matrix3X<double>(3, nodes)};
     for (int i = 0; i < 3 * nodes; ++i) {

@@ -16,8 +16,8 @@ Scene small_scene() {
   scene.name = "small";
   Cloth& cloth = scene.cloths.emplace_back();
   cloth.name = "cloth";
-  cloth.grid.nodes = {4, 5};
-  cloth.grid.size = {0.6, 0.8};
+  cloth.grid().nodes = {4, 5};
+  cloth.grid().size = {0.6, 0.8};
   cloth.regions = {{"core", {BoxPin{{-0.2, -1, -0.3}, {0.2, 1, 0.3}}}}};
   return scene;
 }

@@ -14,7 +14,25 @@ struct MalformedCase {
 };
 
 // clang-format off
-inline constexpr std::array<MalformedCase, 85> kMalformedCases = {{
+inline constexpr auto kMalformedCases = std::to_array<MalformedCase>({
+    {"axis_of_a_rope", 11, 1, "cloth.u_axis: unknown key"},
+    {"center_has_it_all", 9, 88, "expected a number > 0 and < 1"},
+    {"column_of_a_sphere", 11, 39, "expected a whole number from 0 to 41"},
+    {"corner_of_a_sphere", 11, 19, "an icosphere has no corners and edges, expected one of box, sphere, nodes"},
+    {"edge_of_a_rope", 11, 45, "a rope has no corners and edges, expected one of box, sphere, nodes"},
+    {"empty_sphere", 11, 8, "holds no node, expected a sphere with at least one node"},
+    {"gas_in_a_rope", 12, 7, "needs a closed surface"},
+    {"huge_sphere", 9, 45, "expected a whole number from 1 to 316"},
+    {"lines_of_a_sphere", 11, 1, "line_sets is empty"},
+    {"no_source", 7, 1, "missing key 'grid', expected exactly one of grid, icosphere, rope, mesh"},
+    {"no_such_source", 9, 1, "cloth.gird: unknown key, did you mean 'grid'?"},
+    {"node_not_there", 11, 22, "expected a range within 0 to 41"},
+    {"nodes_backwards", 11, 19, "the smaller number first"},
+    {"share_without_center", 9, 68, "there is no centre node"},
+    {"short_rope", 9, 59, "makes a rope without length"},
+    {"taken_connection", 11, 15, "has the name of another connection"},
+    {"two_sources", 10, 13, "grid is given too, expected exactly one of grid, icosphere, rope, mesh"},
+    {"wind_on_a_rope", 12, 7, "acts on triangles, expected another law for a rope"},
     {"ambiguous_unit", 16, 13, "ambiguous unit 'N/m*rad'"},
     {"bad_name", 2, 8, "expected a name"},
     {"bare_number", 20, 10, "missing unit, expected a length such as \"2 m\""},
@@ -61,11 +79,11 @@ inline constexpr std::array<MalformedCase, 85> kMalformedCases = {{
     {"too_many_steps", 5, 12, "expected at most 10000000"},
     {"too_short", 5, 12, "expected at least one time step"},
     {"two_masses", 12, 17, "exactly one of the two"},
-    {"two_pins_in_one", 13, 8, "expected exactly one of corner, edge, box"},
+    {"two_pins_in_one", 13, 8, "expected exactly one of corner, edge, box, sphere, nodes, part, vertex_group"},
     {"unclosed_string", 2, 14, "string"},
     {"uneven_frames", 6, 18, "expected a whole number of them"},
     {"unknown_corner", 13, 19, "unknown corner, expected one of -u-v"},
-    {"unknown_edge_set", 16, 25, "unknown edge set of this stencil, expected one of stretch, shear, bend"},
+    {"unknown_edge_set", 16, 25, "unknown edge set of this cloth, expected one of stretch, shear, bend"},
     {"unknown_integrator", 18, 14, "did you mean 'modified_euler'?"},
     {"unknown_key", 21, 1, "collider.raduis: unknown key, did you mean 'radius'?"},
     {"unknown_law", 15, 7, "unknown law, did you mean 'tension'?"},
@@ -100,7 +118,7 @@ inline constexpr std::array<MalformedCase, 85> kMalformedCases = {{
     {"soft_without_margin", 11, 20, "layers of cloth keep twice of it"},
     {"flag_as_text", 10, 18, "expected true or false"},
     {"zero_radius", 20, 10, "expected a length > 0"},
-}};
+});
 // clang-format on
 
 }  // namespace weft::scenes

@@ -187,8 +187,8 @@ TEST(SceneFile, DefaultsAreThoseOfTheStructs) {
   EXPECT_EQ(scene.world.gravity, World{}.gravity);
   EXPECT_EQ(scene.world.frame_interval, World{}.frame_interval);
   const Cloth& cloth = scene.cloths.at(0);
-  EXPECT_EQ(cloth.grid.stencil, GridStencil::k24Neighbour);
-  EXPECT_EQ(cloth.grid.lumping, MassLumping::kArea);
+  EXPECT_EQ(cloth.grid().stencil, GridStencil::k24Neighbour);
+  EXPECT_EQ(cloth.grid().lumping, MassLumping::kArea);
   EXPECT_EQ(cloth.collision_margin, Cloth{}.collision_margin);
   EXPECT_EQ(cloth.friction, Cloth{}.friction);
   EXPECT_TRUE(cloth.pins.empty());
@@ -203,12 +203,12 @@ TEST(SceneFile, EveryKeyReachesTheScene) {
   EXPECT_EQ(scene.world.gravity, Vector3<double>(0.1, -1.0 / 3.0, 0));
   EXPECT_EQ(scene.world.time_step, 1.0 / 300.0);
   const Cloth& cloth = scene.cloths.at(0);
-  EXPECT_EQ(cloth.grid.nodes, (std::array<int, 2>{5, 4}));
-  EXPECT_EQ(cloth.grid.size, (std::array<double, 2>{0.7, 1.0 / 3.0}));
-  EXPECT_EQ(cloth.grid.center, Vector3<double>(0.001, 0.02, 0.3));
-  EXPECT_EQ(cloth.grid.stencil, GridStencil::k12Neighbour);
-  EXPECT_EQ(cloth.grid.lumping, MassLumping::kUniform);
-  EXPECT_DOUBLE_EQ(cloth.grid.total_mass, 0.12 * 0.7 / 3.0);
+  EXPECT_EQ(cloth.grid().nodes, (std::array<int, 2>{5, 4}));
+  EXPECT_EQ(cloth.grid().size, (std::array<double, 2>{0.7, 1.0 / 3.0}));
+  EXPECT_EQ(cloth.grid().center, Vector3<double>(0.001, 0.02, 0.3));
+  EXPECT_EQ(cloth.grid().stencil, GridStencil::k12Neighbour);
+  EXPECT_EQ(cloth.grid().lumping, MassLumping::kUniform);
+  EXPECT_DOUBLE_EQ(cloth.grid().total_mass, 0.12 * 0.7 / 3.0);
   EXPECT_EQ(cloth.velocity, Vector3<double>(1, 2, 3));
   EXPECT_EQ(cloth.pins.size(), 9U);
   EXPECT_EQ(make_mesh(cloth).pinned.size(), 20U);  // the box pin holds all nodes
@@ -278,8 +278,8 @@ TEST(SceneFile, WrittenSceneReadsBackToTheSameBits) {
   EXPECT_EQ(first.world.time_step, second.world.time_step);
   EXPECT_EQ(first.camera.field_of_view, second.camera.field_of_view);
   for (std::size_t i = 0; i < first.cloths.size(); ++i) {
-    EXPECT_EQ(first.cloths[i].grid.total_mass, second.cloths[i].grid.total_mass);
-    EXPECT_EQ(first.cloths[i].grid.u_axis, second.cloths[i].grid.u_axis);
+    EXPECT_EQ(first.cloths[i].grid().total_mass, second.cloths[i].grid().total_mass);
+    EXPECT_EQ(first.cloths[i].grid().u_axis, second.cloths[i].grid().u_axis);
     EXPECT_EQ(first.cloths[i].laws.at(0).parameters, second.cloths[i].laws.at(0).parameters);
   }
   for (std::size_t i = 0; i < first.colliders.size(); ++i) {

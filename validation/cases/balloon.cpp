@@ -70,6 +70,7 @@ class Balloon {
   static ClothMesh mesh() {
     ClothMesh mesh = make_icosphere({.radius = kRadius, .frequency = kFrequency});
     mesh.masses.setConstant(kNodeMass);
+    mesh.edge_sets.resize(1);  // the theory's lattice has springs along the edges only
     return mesh;
   }
   static forces::LawSpecification gas_law(const Setup& setup) {

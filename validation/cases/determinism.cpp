@@ -56,7 +56,7 @@ void plan_determinism(const CaseInfo&, const CaseOptions& options, EngineRuns& r
   scenes::Scene scene = scenes::load_scene("drape_sphere");
   scene.world.duration = kDuration;
   scenes::Scene moved = scene;
-  moved.cloths[0].grid.center.y() += 1e-6;
+  moved.cloths[0].grid().center.y() += 1e-6;
   for (const EngineChoice& engine : engines(options.bullet)) {
     for (const Variant& variant : kVariants) {
       runs.add(

@@ -41,7 +41,7 @@ scenes::Scene scene_for(const EngineChoice& engine) {
 
 /// H / W of the strip's free end.
 double drop_over_reach(const scenes::SceneState& state, const scenes::Scene& scene) {
-  const ClothGrid& grid = scene.cloths[0].grid;
+  const ClothGrid& grid = scene.cloths[0].grid();
   double drop = 0;
   double reach = 0;
   for (int row = 0; row < grid.nodes[1]; ++row) {

@@ -12,4 +12,8 @@ void evaluate_engine_cantilever(const CaseInfo&, const CaseOptions&, const Engin
 void plan_momentum(const CaseInfo&, const CaseOptions&, EngineRuns&);
 void evaluate_momentum(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
+/// The four materials of de Joya 2011: in which order they come down, and what weak damping leaves.
+void plan_materials(const CaseInfo&, const CaseOptions&, EngineRuns&);
+void evaluate_materials(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+
 }  // namespace weft::validation

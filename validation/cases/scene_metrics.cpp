@@ -27,7 +27,7 @@ SceneMetrics::SceneMetrics(const scenes::Scene& scene) : scene_(scene), energy_(
   for (const scenes::Cloth& cloth : scene.cloths) {
     meshes_.push_back(scenes::make_mesh(cloth));
     weights_.push_back(node_weights(meshes_.back()));
-    cloth_size_ = std::max({cloth_size_, cloth.grid.size[0], cloth.grid.size[1]});
+    cloth_size_ = std::max(cloth_size_, scenes::body_size(cloth.source));
   }
 }
 

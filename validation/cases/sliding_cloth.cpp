@@ -23,8 +23,8 @@ scenes::Scene sliding_scene() {
   scene.summary = "Shows a flat cloth that slides over the ground and stops";
   scene.world.duration = kDuration;
   scenes::Cloth& cloth = scene.cloths[0];
-  cloth.grid.u_axis = {1, 0, 0};
-  cloth.grid.center.y() = scene.colliders[0].position.y() + cloth.collision_margin;
+  cloth.grid().u_axis = {1, 0, 0};
+  cloth.grid().center.y() = scene.colliders[0].position.y() + cloth.collision_margin;
   cloth.velocity = {kSpeed, 0, 0};
   std::erase_if(cloth.laws, [](const forces::LawSpecification& law) {
     return law.law == "velocity_damping" || law.law == "spring_damping";

@@ -63,8 +63,7 @@ std::vector<Penetration> penetrations(const scenes::Scene& scene, const scenes::
   }
   std::vector<Penetration> rows;
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
-    const auto& nodes = scene.cloths[i].grid.nodes;
-    const Eigen::Index num_nodes = static_cast<Eigen::Index>(nodes[0]) * nodes[1];
+    const Eigen::Index num_nodes = scenes::num_nodes(scene.cloths[i].source);
     if (state.cloths[i].positions.cols() != num_nodes) {
       throw InvalidArgument(fmt::format("penetration: cloth '{}' = {} positions, expected {}",
                                         scene.cloths[i].name, state.cloths[i].positions.cols(),

@@ -7,6 +7,8 @@ in vec2 v_sky;
 uniform vec2 u_tile_origin;   // [sample]
 uniform vec2 u_picture_size;  // [sample]
 uniform float u_cell;         // width of a grid cell [m]
+uniform vec2 u_shift;         // of the ground's mesh on the ground [m]
+uniform vec3 u_tint;          // 1 where the ground has the colour of the backdrop
 uniform float u_extent;       // the grid ends here [m]
 
 out vec4 o_color;
@@ -24,8 +26,9 @@ void main() {
   vec3 color = backdrop((gl_FragCoord.xy + u_tile_origin) / u_picture_size);
   float far = length(v_extra.xz) / u_extent;
   float near_weight = 1.0 - smoothstep(0.25, 1.0, far);
+  color *= mix(vec3(1.0), u_tint, near_weight);
   color *= 1.0 + 0.10 * near_weight;
-  color *= 1.0 - 0.10 * near_weight * grid(v_extra.xz, 2.0);
+  color *= 1.0 - 0.10 * near_weight * grid(v_extra.xz + u_shift, 2.0);
   float light = 0.48 * clamp(v_sky.x, 0.0, 1.0) + 0.52 * key_light(v_position, normalize(v_normal));
   // Shadows keep some of the sky's blue, as they do outdoors.
   o_color = vec4(color * mix(vec3(0.16, 0.18, 0.22), vec3(1.0), light), 1.0);

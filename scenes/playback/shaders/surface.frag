@@ -11,6 +11,12 @@ const int kWireframe = 2;
 const int kSolid = 3;
 const int kTwoTone = 4;
 
+// As BodyPaint::Mapping.
+const int kNoTexture = 0;
+const int kByCoordinates = 1;
+const int kByDirection = 2;
+const int kFromFront = 3;
+
 uniform int u_mode;
 uniform vec3 u_eye;
 uniform vec3 u_front_color;
@@ -20,8 +26,36 @@ uniform vec3 u_fill_direction;
 uniform vec3 u_rim_direction;
 uniform float u_line_width;  // [sample]
 uniform sampler2D u_scale;
+uniform sampler2D u_texture;
+uniform int u_mapping;
+uniform vec2 u_repeat;
+uniform int u_texture_on_back;
+uniform int u_is_thin;  // light comes through from the other side
+uniform int u_is_flat;  // triangles without smooth normals
 
 out vec4 o_color;
+
+const float kPi = 3.14159265;
+
+// The picture of the body at this place. On balls it is taken from the direction at rest, so that the surface needs
+// no seam.
+vec3 texture_color() {
+  if (u_mapping == kByCoordinates) return texture(u_texture, v_value * u_repeat).rgb;
+  vec3 direction = normalize(v_extra);
+  if (u_mapping == kFromFront) {
+    float across = length(direction.xy);
+    vec2 place = direction.xy / max(across, 1e-6) * acos(clamp(direction.z, -1.0, 1.0)) / kPi;
+    // The far side is one point spread over the picture's rim: the slope of the place means nothing there.
+    return textureGrad(u_texture, 0.5 + 0.5 * place, 0.5 * dFdx(place), 0.5 * dFdy(place)).rgb;
+  }
+  vec2 place = vec2(atan(direction.x, direction.z) / (2.0 * kPi) + 0.5, asin(clamp(direction.y, -1.0, 1.0)) / kPi + 0.5);
+  // Where the angle jumps by a whole turn, its slope does not.
+  vec2 along_x = dFdx(place);
+  vec2 along_y = dFdy(place);
+  along_x.x -= round(along_x.x);
+  along_y.x -= round(along_y.x);
+  return textureGrad(u_texture, place * u_repeat, along_x * u_repeat, along_y * u_repeat).rgb;
+}
 
 vec3 albedo(bool front) {
   if (u_mode == kScalar) {
@@ -35,6 +69,11 @@ vec3 albedo(bool front) {
     return mix(u_front_color, u_back_color, 0.5 + 0.5 * side.x * side.y * side.z);
   }
   if (u_mode == kWireframe) return vec3(0.88);
+  if (u_mapping != kNoTexture && (front || u_texture_on_back != 0)) {
+    vec3 color = texture_color();
+    // Dye does not go through all the way.
+    return front ? color : mix(color, vec3(dot(color, vec3(0.33))) + 0.12, 0.35);
+  }
   return front ? u_front_color : u_back_color;
 }
 
@@ -46,7 +85,8 @@ float wire() {
 
 void main() {
   bool front = gl_FrontFacing;
-  vec3 normal = normalize(front ? v_normal : -v_normal);
+  vec3 normal = u_is_flat != 0 ? normalize(cross(dFdx(v_position), dFdy(v_position)))
+                               : normalize(front ? v_normal : -v_normal);
   vec3 view = normalize(u_eye - v_position);
   float sky = front ? v_sky.x : v_sky.y;
   vec3 color = albedo(front);
@@ -55,8 +95,7 @@ void main() {
   float reached = key_light(v_position, key_facing < 0.0 ? -normal : normal);
   float key = max(key_facing, 0.0) * reached * smoothstep(0.0, 0.12, key_facing);
   // Cloth is thin: some light comes through from the other side.
-  bool is_thin = u_mode == kCloth || u_mode == kScalar;
-  float through = is_thin ? 0.38 * max(-key_facing, 0.0) * reached : 0.0;
+  float through = u_is_thin != 0 ? 0.38 * max(-key_facing, 0.0) * reached : 0.0;
   float fill = max(0.35 + 0.65 * dot(normal, u_fill_direction), 0.0);
   // Light from the floor reaches what looks down, less where the sky is hidden too.
   float bounce = (0.5 - 0.5 * normal.y) * 0.6 + 0.1 * sky;

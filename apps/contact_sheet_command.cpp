@@ -1,0 +1,184 @@
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <weft/custom_forces/core/error.hpp>
+#include <weft/scenes/catalog.hpp>
+#include <weft/scenes/engines/engine_table.hpp>
+#include <weft/scenes/playback/montage.hpp>
+#include <weft/scenes/playback/renderer.hpp>
+#include <weft/scenes/recording/recording.hpp>
+
+#include "apps/app.hpp"
+#include "apps/progress_bar.hpp"
+
+namespace weft::app {
+namespace {
+
+/// The engine for scenes that are made for all.
+constexpr const char* kUsualEngine = "bullet_forces";
+
+struct SheetOptions {
+  std::vector<std::string> names;
+  std::string output;
+  std::string page;
+  int columns = 4;
+  int width = 384;  // of one picture [pixel]
+};
+
+/// A scene at its most telling time.
+struct Exhibit {
+  scenes::Scene scene;
+  std::string engine;
+  scenes::SceneState state;
+  scenes::Image picture;
+};
+
+const scenes::EngineInfo& find_any_precision(const std::string& name) {
+  for (const auto precision :
+       {scenes::StoredPrecision::kFloat32, scenes::StoredPrecision::kFloat64}) {
+    if (const scenes::EngineInfo* engine = scenes::find_engine(name, precision)) return *engine;
+  }
+  throw Error("contact-sheet: engine '" + name + "' is not in this program");
+}
+
+double poster_time(const scenes::Scene& scene) {
+  return scene.camera.poster_time.value_or(scene.world.duration);
+}
+
+Exhibit simulate(const scenes::Scene& scene) {
+  const std::string name = scene.engines.empty() ? kUsualEngine : scene.engines.front();
+  const std::unique_ptr<scenes::Simulator> simulator = find_any_precision(name).make();
+  simulator->load(scene);
+  const double end = poster_time(scene);
+  ProgressBar progress(scene.name);
+  // Half a step early: whether rounding adds a step must not decide about the picture.
+  while (simulator->state().time < end - 0.5 * scene.world.time_step) {
+    const scenes::StepReport report = simulator->step(scene.world.time_step);
+    progress.update(report.time / end);
+    if (report.blow_up) {
+      throw Error(fmt::format("contact-sheet: {} blew up at t = {:.4g} s: {}", scene.name,
+                              report.blow_up->time, report.blow_up->reason));
+    }
+  }
+  return {scene, name, simulator->state(), {}};
+}
+
+Exhibit from_recording(const std::string& path) {
+  const scenes::RecordingReader reader(path);
+  if (reader.num_frames() == 0) throw Error(path + ": has no frame to render");
+  const double time = poster_time(reader.scene());
+  int frame = 0;
+  while (frame + 1 < reader.num_frames() && reader.frame_time(frame) < time) ++frame;
+  const auto engine = reader.provenance().find("engine");
+  return {reader.scene(),
+          engine == reader.provenance().end() ? "" : engine->second,
+          reader.frame(frame),
+          {}};
+}
+
+Exhibit make_exhibit(const std::string& name, int width) {
+  Exhibit exhibit =
+      name.ends_with(".weftrec") ? from_recording(name) : simulate(scenes::load_scene(name));
+  scenes::RenderOptions options;
+  options.width = width;
+  options.height = width * 9 / 16;
+  options.samples = 4;
+  exhibit.picture = scenes::Renderer(exhibit.scene).render(exhibit.state, options);
+  return exhibit;
+}
+
+/// "Shows a cloth" is "a cloth" where a column says so.
+std::string what_it_shows(const std::string& summary) {
+  constexpr std::string_view kShows = "Shows ";
+  return summary.starts_with(kShows) ? summary.substr(kShows.size()) : summary;
+}
+
+std::string engines_of(const scenes::Scene& scene) {
+  if (scene.engines.empty()) return "all";
+  std::string names;
+  for (const std::string& name : scene.engines) names += (names.empty() ? "`" : ", `") + name + "`";
+  return names;
+}
+
+std::string scene_page(const std::vector<Exhibit>& exhibits, const std::string& command) {
+  std::string page = fmt::format(
+      "# What scenes are there, and what do they look like?\n\n"
+      "Made by `{}`: change a scene, then run it again.\n"
+      "`weft run NAME` simulates a scene, `weft render` draws it; each is a TOML file to copy.\n\n"
+      "![All scenes](img/contact_sheet.png)\n\n"
+      "| | Scene | Shows | Engines | Picture |\n|---|---|---|---|---|\n",
+      command);
+  for (const Exhibit& exhibit : exhibits) {
+    const std::string& name = exhibit.scene.name;
+    page += fmt::format(
+        "| ![{0}](img/scenes/{0}.png) | [`{0}`](../scenes/catalog/{0}.toml) | {1} | {2} "
+        "| {3}, t = {4:.3g} s |\n",
+        name, what_it_shows(exhibit.scene.summary), engines_of(exhibit.scene), exhibit.engine,
+        exhibit.state.time);
+  }
+  return page;
+}
+
+void write_page(const std::filesystem::path& path, const std::vector<Exhibit>& exhibits,
+                const std::string& command) {
+  const std::filesystem::path pictures = path.parent_path() / "img" / "scenes";
+  std::filesystem::create_directories(pictures);
+  for (const Exhibit& exhibit : exhibits) {
+    scenes::write_png(pictures / (exhibit.scene.name + ".png"), exhibit.picture);
+  }
+  std::ofstream file(path);
+  file << scene_page(exhibits, command);
+  file.close();
+  if (!file) throw Error(path.string() + ": cannot be written");
+}
+
+int make_sheet(SheetOptions options) {
+  if (options.names.empty()) {
+    for (const scenes::CatalogEntry& entry : scenes::scene_catalog()) {
+      options.names.emplace_back(entry.name);
+    }
+  }
+  std::vector<Exhibit> exhibits;
+  std::vector<scenes::SheetEntry> entries;
+  for (const std::string& name : options.names) {
+    const Exhibit& exhibit = exhibits.emplace_back(make_exhibit(name, options.width));
+    entries.push_back({exhibit.picture, exhibit.scene.name, what_it_shows(exhibit.scene.summary)});
+  }
+  scenes::write_png(options.output, scenes::contact_sheet(entries, options.columns));
+  if (!options.page.empty()) {
+    write_page(options.page, exhibits,
+               fmt::format("weft contact-sheet -o {} --page {}", options.output, options.page));
+  }
+  fmt::print("{}: {} scenes\n", options.output, exhibits.size());
+  return kOk;
+}
+
+}  // namespace
+
+Action add_contact_sheet_command(CLI::App& parser) {
+  CLI::App* command = parser.add_subcommand(
+      "contact-sheet", "One picture of many scenes, each at the time its camera names");
+  auto options = std::make_shared<SheetOptions>();
+  command->add_option("SCENE", options->names,
+                      "Catalog names, scene files, recordings (default: the whole catalog)");
+  command->add_option("-o,--output", options->output, "PNG to write")->required();
+  command->add_option("--page", options->page,
+                      "Markdown table of the scenes to write, with its pictures in img/scenes "
+                      "beside it");
+  command->add_option("--columns", options->columns, "Pictures in a row")
+      ->check(CLI::Range(1, 20))
+      ->capture_default_str();
+  command->add_option("--width", options->width, "Of one picture [pixels]")
+      ->check(CLI::Range(64, 1920))
+      ->capture_default_str();
+  return [options] { return make_sheet(*options); };
+}
+
+}  // namespace weft::app

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace weft::scenes {
+
+/// 8-bit sRGB picture, rows from top to bottom.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgb;  ///< 3 * width * height
+};
+
+inline constexpr int kMaxImageSize = 8192;  ///< of an image file, per axis [pixel]
+
+/// Whether a name ends as those of files that decode_image() reads: .png, .jpg, .jpeg.
+[[nodiscard]] bool has_image_extension(std::string_view name);
+
+/// Decodes a PNG or JPEG; what is transparent becomes white. Throws Error without the file's name.
+[[nodiscard]] Image decode_image(std::string_view bytes);
+
+}  // namespace weft::scenes

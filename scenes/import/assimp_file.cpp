@@ -1,0 +1,121 @@
+#include <weft/scenes/import/assimp_file.hpp>
+
+#include <assimp/scene.h>
+#include <assimp/Importer.hpp>
+#include <string>
+
+#include <weft/custom_forces/core/error.hpp>
+
+namespace weft::import {
+namespace {
+
+constexpr std::size_t kMaxCorners = 10'000'000;
+constexpr int kMaxDepth = 1000;  // of nodes within nodes: deeper is a circle
+
+void require(bool ok, const std::string& message) {
+  if (!ok) throw Error(message);
+}
+
+class PartCollector {
+ public:
+  explicit PartCollector(const aiScene& scene) : scene_(scene) {}
+
+  void add(const aiNode& node, const aiMatrix4x4& parent, int depth) {
+    require(depth < kMaxDepth, "nodes are nested more than " + std::to_string(kMaxDepth) +
+                                   " deep, expected no circle");
+    const aiMatrix4x4 place = parent * node.mTransformation;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+      require(node.mMeshes[i] < scene_.mNumMeshes,
+              "node '" + std::string(node.mName.C_Str()) + "' names mesh " +
+                  std::to_string(node.mMeshes[i]) + ", which is not there");
+      add(node, *scene_.mMeshes[node.mMeshes[i]], place);
+    }
+    for (unsigned i = 0; i < node.mNumChildren; ++i) add(*node.mChildren[i], place, depth + 1);
+  }
+  [[nodiscard]] std::vector<FilePart>& parts() { return parts_; }
+
+ private:
+  void add(const aiNode& node, const aiMesh& mesh, const aiMatrix4x4& place) {
+    num_corners_ += mesh.mNumVertices;
+    require(num_corners_ <= kMaxCorners,
+            "more than " + std::to_string(kMaxCorners) + " vertices, expected fewer");
+    FilePart part;
+    part.node = node.mName.C_Str();
+    part.mesh = mesh.mName.C_Str();
+    if (mesh.mMaterialIndex < scene_.mNumMaterials) {
+      part.material = scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
+    }
+    const bool has_texture = mesh.HasTextureCoords(0);
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+      const aiVector3D position = place * mesh.mVertices[v];
+      for (const ai_real x : {position.x, position.y, position.z}) part.positions.push_back(x);
+      if (!has_texture) continue;
+      part.texture_coordinates.push_back(mesh.mTextureCoords[0][v].x);
+      part.texture_coordinates.push_back(mesh.mTextureCoords[0][v].y);
+    }
+    add_faces(mesh, place.Determinant() < 0, part);
+    add_groups(mesh, part);
+    parts_.push_back(std::move(part));
+  }
+
+  void add_faces(const aiMesh& mesh, bool is_mirrored, FilePart& part) {
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      num_corners_ += face.mNumIndices;
+      require(num_corners_ <= kMaxCorners,
+              "more than " + std::to_string(kMaxCorners) + " corners, expected fewer");
+      std::vector<int> corners;
+      for (unsigned c = 0; c < face.mNumIndices; ++c) {
+        require(face.mIndices[c] < mesh.mNumVertices,
+                "face " + std::to_string(f) + " of '" + part.mesh + "' names vertex " +
+                    std::to_string(face.mIndices[c]) + ", expected 0 to " +
+                    std::to_string(mesh.mNumVertices) + " - 1");
+        corners.push_back(static_cast<int>(face.mIndices[c]));
+      }
+      // A mirror turns the front to the back.
+      if (is_mirrored) corners = {corners.rbegin(), corners.rend()};
+      part.faces.push_back(std::move(corners));
+    }
+  }
+
+  static void add_groups(const aiMesh& mesh, FilePart& part) {
+    for (unsigned b = 0; b < mesh.mNumBones; ++b) {
+      const aiBone& bone = *mesh.mBones[b];
+      FileGroup group{bone.mName.C_Str(), {}};
+      for (unsigned w = 0; w < bone.mNumWeights; ++w) {
+        const aiVertexWeight& weight = bone.mWeights[w];
+        require(weight.mVertexId < mesh.mNumVertices,
+                "bone '" + group.name + "' names a vertex that is not there");
+        group.weights.emplace_back(static_cast<int>(weight.mVertexId), weight.mWeight);
+      }
+      part.groups.push_back(std::move(group));
+    }
+  }
+
+  const aiScene& scene_;
+  std::vector<FilePart> parts_;
+  std::size_t num_corners_ = 0;
+};
+
+}  // namespace
+
+AssimpFile::AssimpFile(const std::filesystem::path& path)
+    : importer_(std::make_unique<Assimp::Importer>()) {
+  scene_ = importer_->ReadFile(path.string(), 0);
+  if (scene_ == nullptr) throw Error(importer_->GetErrorString());
+  require(scene_->mRootNode != nullptr, "holds no scene");
+}
+
+AssimpFile::~AssimpFile() = default;
+
+AssimpFile load_assimp(const std::filesystem::path& path) {
+  return AssimpFile(path);
+}
+
+std::vector<FilePart> parts_of(const aiScene& scene) {
+  PartCollector collector(scene);
+  collector.add(*scene.mRootNode, aiMatrix4x4(), 0);
+  return std::move(collector.parts());
+}
+
+}  // namespace weft::import

@@ -1,0 +1,117 @@
+#include <weft/scenes/import/isolated_run.hpp>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <new>
+
+#include <weft/custom_forces/core/error.hpp>
+
+namespace weft::import {
+namespace {
+
+constexpr rlim_t kMaxSeconds = 60;
+constexpr rlim_t kMaxBytes = rlim_t{4} << 30U;
+constexpr char kDone = 'd';
+constexpr char kFailed = 'f';
+
+/// Address space is no measure of memory for a sanitizer, which reserves terabytes.
+constexpr bool has_address_sanitizer() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return true;
+#elif defined(__has_feature)
+  return __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) ||
+         __has_feature(memory_sanitizer);
+#else
+  return false;
+#endif
+}
+
+void limit(decltype(RLIMIT_CPU) resource, rlim_t value) {
+  const rlimit wanted{value, value};
+  (void)setrlimit(resource, &wanted);
+}
+
+void write_all(int file, const std::string& text) {
+  for (std::size_t done = 0; done < text.size();) {
+    const ssize_t count = write(file, text.data() + done, text.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return;  // the parent is gone
+    done += static_cast<std::size_t>(count);
+  }
+}
+
+[[noreturn]] void run_child(int file, const std::function<std::string()>& work) {
+  limit(RLIMIT_CPU, kMaxSeconds);
+  limit(RLIMIT_CORE, 0);
+  if (!has_address_sanitizer()) limit(RLIMIT_AS, kMaxBytes);
+  std::string answer;
+  try {
+    answer = kDone + work();
+  } catch (const std::bad_alloc&) {
+    answer = std::string(1, kFailed) + "needs more than 4 GiB of memory";
+  } catch (const std::exception& error) {
+    answer = kFailed + std::string(error.what());
+  } catch (...) {
+    answer = std::string(1, kFailed) + "fails for an unknown reason";
+  }
+  write_all(file, answer);
+  // Without destructors and exit handlers: they belong to the parent.
+  _exit(0);
+}
+
+std::string read_all(int file) {
+  std::string text;
+  std::array<char, 1U << 16U> buffer{};
+  while (true) {
+    const ssize_t count = read(file, buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return text;
+    text.append(buffer.data(), static_cast<std::size_t>(count));
+  }
+}
+
+/// Why the child has ended without an answer.
+std::string describe(int status) {
+  if (!WIFSIGNALED(status)) return "ends without an answer";
+  if (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL) {
+    return "takes more than a minute";
+  }
+  return "crashes (" + std::string(strsignal(WTERMSIG(status))) + ")";
+}
+
+}  // namespace
+
+std::string run_isolated(const std::function<std::string()>& work) {
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) throw Error("cannot make a pipe: " + std::string(strerror(errno)));
+  const pid_t child = fork();
+  if (child < 0) {
+    const std::string reason = strerror(errno);
+    close(ends[0]);
+    close(ends[1]);
+    throw Error("cannot start a process: " + reason);
+  }
+  if (child == 0) {
+    close(ends[0]);
+    run_child(ends[1], work);
+  }
+  close(ends[1]);
+  const std::string answer = read_all(ends[0]);
+  close(ends[0]);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  const bool has_ended = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  if (!has_ended || answer.empty()) throw Error(describe(status));
+  if (answer[0] != kDone) throw Error(answer.substr(1));
+  return answer.substr(1);
+}
+
+}  // namespace weft::import

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <weft/scenes/appearance.hpp>
+#include <weft/scenes/recording/database.hpp>
+#include <weft/scenes/recording/format.hpp>
+
+namespace weft::scenes {
+
+/// Key of meta with the hash of table asset. Recordings without assets have neither.
+inline constexpr const char* kAssetHashKey = "asset_hash";
+
+[[nodiscard]] std::string asset_hash(const std::vector<SceneFile>& files);
+
+/// Makes and fills table asset.
+void write_assets(Database& database, const std::vector<SceneFile>& files);
+
+/// The assets of a recording, none if it has no asset_hash. Throws Error that names the file if
+/// they do not have their hash.
+[[nodiscard]] std::vector<SceneFile> read_assets(const Database& database, const Header& header,
+                                                 const std::string& file);
+
+}  // namespace weft::scenes
