@@ -114,6 +114,7 @@ TEST(ShapeDistance, GroundIsSolidBelowItsHeights) {
   const ShapeDistance distance(ridge());
   EXPECT_NEAR(distance({1.5, 0.2, 0.1}), 0.2, 1e-12);
   EXPECT_NEAR(distance({1.5, -0.2, 0.1}), -0.2, 1e-12);
+  EXPECT_GT(distance({2.5, -3.0, 0.1}), 0.0);  // beside it
   EXPECT_GT(distance({0, 0.6, 0.1}), 0.0);
   EXPECT_LT(distance({0, 0.4, 0.1}), 0.0);
   // Beside the ridge: 45 degrees steep, so the distance is that to its side.
