@@ -28,19 +28,7 @@ Edges rope_edges(const ClothMesh& mesh) {
 
 }  // namespace
 
-CornerCoordinates grid_coordinates(const ClothGrid& grid, const Triangles& triangles) {
-  CornerCoordinates coordinates(2, 3 * triangles.cols());
-  for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const int node = triangles(k, t);
-      coordinates.col(3 * t + k) << (node % grid.nodes[0]) / (grid.nodes[0] - 1.0),
-          (node / grid.nodes[0]) / (grid.nodes[1] - 1.0);
-    }
-  }
-  return coordinates;
-}
-
-ClothLayout make_layout(const ClothMesh& mesh, const CornerCoordinates& coordinates) {
+ClothLayout make_layout(const ClothMesh& mesh) {
   ClothLayout layout;
   layout.triangles = mesh.triangles;
   if (mesh.triangles.cols() == 0) {
@@ -49,6 +37,7 @@ ClothLayout make_layout(const ClothMesh& mesh, const CornerCoordinates& coordina
     return layout;
   }
   layout.is_closed = is_closed(mesh.triangles);
+  const Matrix2X<double> coordinates = corner_coordinates(mesh);
   layout.has_coordinates = coordinates.cols() > 0;
   const Vector3<double> center = mesh.rest_positions.rowwise().mean();
   // One vertex per node and place in the texture: corners of a seam share the node only.

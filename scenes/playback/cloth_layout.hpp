@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <weft/custom_forces/core/cloth_grid.hpp>
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/scenes/playback/surface_mesh.hpp>
 
@@ -21,13 +20,7 @@ struct ClothLayout {
   Edges rope;                                ///< edges of a body without triangles; else empty
 };
 
-/// Place of each corner of each triangle in a texture, 2 x 3t [-]; no columns: none.
-using CornerCoordinates = Eigen::Matrix<double, 2, Eigen::Dynamic>;
-
-/// (i / (columns - 1), j / (rows - 1)) of node (i, j).
-[[nodiscard]] CornerCoordinates grid_coordinates(const ClothGrid& grid, const Triangles& triangles);
-
-[[nodiscard]] ClothLayout make_layout(const ClothMesh& mesh, const CornerCoordinates& coordinates);
+[[nodiscard]] ClothLayout make_layout(const ClothMesh& mesh);
 
 /// The cloth as it is now. rope_radius [m] is that of the tubes of a rope.
 [[nodiscard]] SurfaceMesh cloth_surface(const ClothLayout& layout,

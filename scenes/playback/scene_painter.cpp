@@ -31,16 +31,6 @@ constexpr double kLineWidth = 1.1;
 /// Radius of a rope that is thinner, in radii of the scene: it must be seen.
 constexpr double kThinnestRope = 0.004;
 
-/// Those of the mesh where meshes have them, else those of its grid.
-template <class ClothType, class MeshType>
-CornerCoordinates coordinates_of(const ClothType& cloth, const MeshType& mesh) {
-  if constexpr (requires { mesh.texture_coordinates; }) {
-    return corner_coordinates(mesh);
-  } else {
-    return grid_coordinates(cloth.grid, mesh.triangles);
-  }
-}
-
 Eigen::Matrix4f pose(const Vector3<double>& position, const Eigen::Quaterniond& orientation,
                      double scale) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
@@ -93,9 +83,8 @@ ScenePainter::ScenePainter(const Scene& scene)
       ground_(gl_) {
   ground_.upload(ground_surface(kGroundExtent * stage_.radius));
   for (std::size_t i = 0; i < scene_.cloths.size(); ++i) {
-    const Cloth& cloth = scene_.cloths[i];
-    const ClothMesh& mesh = meshes_.emplace_back(make_mesh(cloth));
-    layouts_.push_back(make_layout(mesh, coordinates_of(cloth, mesh)));
+    const ClothMesh& mesh = meshes_.emplace_back(make_mesh(scene_.cloths[i]));
+    layouts_.push_back(make_layout(mesh));
     cloth_paints_.push_back(cloth_paint(gl_, scene_, i, layouts_.back().has_coordinates));
     cloths_.emplace_back(gl_);
   }
