@@ -32,6 +32,7 @@ struct CommandLine {
 [[nodiscard]] Action add_contact_sheet_command(CLI::App& parser);
 [[nodiscard]] Action add_stability_command(CLI::App& parser);
 [[nodiscard]] Action add_check_command(CLI::App& parser);
+[[nodiscard]] Action add_check_mesh_command(CLI::App& parser);
 [[nodiscard]] Action add_contact_table_command(CLI::App& parser);
 
 }  // namespace weft::app

@@ -18,6 +18,7 @@ constexpr const char* kFooter = R"(Examples:
   weft run drape_sphere --engine bullet_forces --precision float64 -o drape.weftrec
   weft render drape.weftrec -o drape.png     a picture of the last frame
   weft check my_scene.toml                   is this scene file right?
+  weft check-mesh shirt.obj                  can a body be made of this mesh?
   weft stability hang                        the largest stable step, over stiffness and inertia
   weft validate -o report                    every case in every engine, as report/index.html
 
@@ -43,6 +44,7 @@ int run(int argc, char** argv) {
   actions["render"] = add_render_command(parser);
   actions["contact-sheet"] = add_contact_sheet_command(parser);
   actions["check"] = add_check_command(parser);
+  actions["check-mesh"] = add_check_mesh_command(parser);
   actions["contact-table"] = add_contact_table_command(parser);
   actions["stability"] = add_stability_command(parser);
   actions["validate"] = add_validate_command(parser, command_line);

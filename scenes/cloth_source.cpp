@@ -17,6 +17,10 @@ int count_nodes(const Rope& rope) {
   return rope.nodes;
 }
 
+int count_nodes(const MeshBody& body) {
+  return static_cast<int>(body.shape->surface.positions.cols()) + (body.center_mass_share ? 1 : 0);
+}
+
 ClothMesh build(const ClothGrid& grid) {
   return make_cloth_grid(grid);
 }
@@ -29,6 +33,15 @@ ClothMesh build(const Rope& rope) {
   return make_rope(rope);
 }
 
+ClothMesh build(const MeshBody& body) {
+  Surface placed = body.shape->surface;
+  for (Eigen::Index n = 0; n < placed.positions.cols(); ++n) {
+    const Vector3<double> local = placed.positions.col(n);
+    placed.positions.col(n) = body.position + body.orientation * local;
+  }
+  return make_surface_body(placed, {body.total_mass, body.lumping, body.center_mass_share});
+}
+
 double size_of(const ClothGrid& grid) {
   return std::max(grid.size[0], grid.size[1]);
 }
@@ -39,6 +52,11 @@ double size_of(const Icosphere& sphere) {
 
 double size_of(const Rope& rope) {
   return (rope.end - rope.start).norm();
+}
+
+double size_of(const MeshBody& body) {
+  const Matrix3X<double>& positions = body.shape->surface.positions;
+  return (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).norm();
 }
 
 /// The smallest body of the same kind, which has the same sets.
@@ -56,6 +74,10 @@ Rope smallest(const Rope&) {
   return {};
 }
 
+Icosphere smallest(const MeshBody& body) {
+  return {.frequency = 1, .center_mass_share = body.center_mass_share};
+}
+
 std::string name_of(const ClothGrid&) {
   return "a grid";
 }
@@ -66,6 +88,10 @@ std::string name_of(const Icosphere&) {
 
 std::string name_of(const Rope&) {
   return "a rope";
+}
+
+std::string name_of(const MeshBody&) {
+  return "a mesh";
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -7,12 +8,29 @@
 #include <weft/custom_forces/core/cloth_grid.hpp>
 #include <weft/custom_forces/core/icosphere.hpp>
 #include <weft/custom_forces/core/rope.hpp>
+#include <weft/custom_forces/core/surface_body.hpp>
 #include <weft/custom_forces/law_info.hpp>
+#include <weft/scenes/import/import_mesh.hpp>
 
 namespace weft::scenes {
 
+/// A surface of any triangles, most often from a file. Bodies share it: nobody changes it.
+struct MeshGeometry {
+  Surface surface;                             ///< in the body's own frame
+  std::vector<import::NodeGroup> groups = {};  ///< for pins and regions
+};
+
+struct MeshBody {
+  std::shared_ptr<const MeshGeometry> shape;
+  Vector3<double> position{0, 0, 0};  ///< [m] of the origin of the surface
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  double total_mass = 1.0;  ///< [kg], > 0
+  MassLumping lumping = MassLumping::kArea;
+  std::optional<double> center_mass_share = std::nullopt;  ///< as in BodyMass
+};
+
 /// Where the nodes and triangles of a body come from. Each has total_mass and lumping.
-using ClothSource = std::variant<ClothGrid, Icosphere, Rope>;
+using ClothSource = std::variant<ClothGrid, Icosphere, Rope, MeshBody>;
 
 /// Number of nodes of the mesh that make_source_mesh() builds, without building it.
 [[nodiscard]] int num_nodes(const ClothSource& source);
@@ -22,7 +40,7 @@ using ClothSource = std::variant<ClothGrid, Icosphere, Rope>;
 [[nodiscard]] ClothMesh make_source_mesh(const ClothSource& source);
 
 /// Length that errors are compared with [m]: of the longer side of a grid, the diameter of a sphere,
-/// from end to end of a rope.
+/// from end to end of a rope, the diagonal of the box around a mesh.
 [[nodiscard]] double body_size(const ClothSource& source);
 
 /// Names of the sets that the mesh of this source has for a law of this kind; empty for laws that
@@ -30,7 +48,8 @@ using ClothSource = std::variant<ClothGrid, Icosphere, Rope>;
 [[nodiscard]] std::vector<std::string> source_sets(const ClothSource& source,
                                                    forces::ElementKind elements);
 
-/// What the source is in a message: "a grid", "an icosphere", "a rope".
+/// What the source is in a message: "a grid", "an icosphere", "a rope",
+/// "a mesh".
 [[nodiscard]] std::string source_name(const ClothSource& source);
 
 }  // namespace weft::scenes

@@ -12,8 +12,8 @@
 namespace weft::scenes {
 namespace {
 
-constexpr std::array<std::string_view, 3> kSourceWords = {"grid", "icosphere", "rope"};
-enum class SourceKind { kGrid, kIcosphere, kRope };
+constexpr std::array<std::string_view, 4> kSourceWords = {"grid", "icosphere", "rope", "mesh"};
+enum class SourceKind { kGrid, kIcosphere, kRope, kMesh };
 
 constexpr std::array<std::string_view, 3> kGridKeys = {"nodes", "size", "stencil"};
 constexpr std::array<std::string_view, 4> kIcosphereKeys = {"radius", "frequency", "center_node",
@@ -88,6 +88,8 @@ ClothGrid read_grid(const TomlTable& cloth) {
   return grid;
 }
 
+}  // namespace
+
 std::optional<double> read_center_node(const TomlTable& table) {
   const std::optional<TomlValue> share = table.find("center_mass_share");
   const std::optional<TomlValue> center = table.find("center_node");
@@ -100,6 +102,8 @@ std::optional<double> read_center_node(const TomlTable& table) {
   if (value >= 1) share->fail("expected a number > 0 and < 1");
   return value;
 }
+
+namespace {
 
 Icosphere read_icosphere(const TomlTable& cloth) {
   const std::string expected = "a table such as { radius = \"20 cm\", frequency = 4 }";
@@ -141,6 +145,7 @@ ClothSource read_geometry(const TomlTable& table) {
   }
   if (kind == SourceKind::kIcosphere) return read_icosphere(table);
   if (kind == SourceKind::kRope) return read_rope(table);
+  if (kind == SourceKind::kMesh) return read_mesh_body(table);
   return read_grid(table);
 }
 
@@ -153,6 +158,10 @@ double measure(const Icosphere& sphere) {
 }
 double measure(const Rope& rope) {
   return (rope.end - rope.start).norm();
+}
+
+double measure(const MeshBody& body) {
+  return surface_area(body.shape->surface);
 }
 
 double read_mass(const TomlTable& table, const ClothSource& source) {
@@ -188,6 +197,7 @@ std::vector<std::string_view> cloth_source_keys(const TomlTable& table) {
   if (may_be(SourceKind::kGrid)) add({"grid", "areal_density", "center", "u_axis", "v_axis"});
   if (may_be(SourceKind::kIcosphere)) add({"icosphere", "areal_density", "center", "orientation"});
   if (may_be(SourceKind::kRope)) add({"rope", "linear_density"});
+  if (may_be(SourceKind::kMesh)) add({"mesh", "areal_density", "position", "orientation"});
   return keys;
 }
 

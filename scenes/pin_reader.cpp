@@ -11,9 +11,10 @@
 namespace weft::scenes {
 namespace {
 
-constexpr std::array<std::string_view, 7> kMovingPinKeys = {"corner", "edge",     "box", "sphere",
-                                                            "nodes",  "velocity", "path"};
-constexpr Keys kPinKeys = Keys(kMovingPinKeys).first(5);
+constexpr std::array<std::string_view, 10> kMovingPinKeys = {
+    "corner", "edge", "box", "sphere", "nodes", "part", "vertex_group", "above", "velocity", "path"};
+constexpr Keys kPinKinds = Keys(kMovingPinKeys).first(7);
+constexpr Keys kPinKeys = Keys(kMovingPinKeys).first(8);
 constexpr std::array<std::string_view, 2> kBoxKeys = {"min", "max"};
 constexpr std::array<std::string_view, 2> kSphereKeys = {"center", "radius"};
 
@@ -78,6 +79,31 @@ NodePin read_node_list(const TomlValue& value, const Cloth& cloth) {
   return pin;
 }
 
+/// The nodes of a part of a mesh file, or of one of its vertex groups.
+NodePin read_group(const TomlTable& table, const TomlValue& value, bool is_part,
+                   const Cloth& cloth) {
+  const auto* body = std::get_if<MeshBody>(&cloth.source);
+  if (body == nullptr) {
+    value.fail(fmt::format("{} has no parts and groups, expected a mesh", source_name(cloth.source)));
+  }
+  const auto limit = table.find("above");
+  const double above = limit ? limit->quantity("1") : 0.5;
+  std::vector<std::string_view> names;
+  for (const import::NodeGroup& group : body->shape->groups) {
+    if (group.is_part == is_part) names.push_back(group.name);
+  }
+  const std::string_view name = names[value.choice(names, is_part ? "part" : "vertex group")];
+  NodePin pin;
+  for (const import::NodeGroup& group : body->shape->groups) {
+    if (group.is_part != is_part || group.name != name) continue;
+    for (std::size_t i = 0; i < group.nodes.size(); ++i) {
+      if (is_part || group.weights[i] > above) pin.nodes.push_back(group.nodes[i]);
+    }
+  }
+  if (pin.nodes.empty()) value.fail(fmt::format("has no weight above {}", above));
+  return pin;
+}
+
 void require_grid(const TomlValue& value, const Cloth& cloth) {
   if (std::holds_alternative<ClothGrid>(cloth.source)) return;
   value.fail(fmt::format("{} has no corners and edges, expected one of box, sphere, nodes",
@@ -86,11 +112,11 @@ void require_grid(const TomlValue& value, const Cloth& cloth) {
 
 Pin read_pin(const TomlTable& table, const Cloth& cloth) {
   std::vector<std::string_view> given;
-  for (const std::string_view key : kPinKeys) {
+  for (const std::string_view key : kPinKinds) {
     if (table.has(key)) given.push_back(key);
   }
   if (given.size() != 1) {
-    table.fail(fmt::format("expected exactly one of {}", fmt::join(kPinKeys, ", ")));
+    table.fail(fmt::format("expected exactly one of {}", fmt::join(kPinKinds, ", ")));
   }
   const TomlValue value = table.require(given[0], "");
   if (given[0] == "box")
@@ -99,6 +125,11 @@ Pin read_pin(const TomlTable& table, const Cloth& cloth) {
     return read_sphere(value.table("a table such as { center = [...], radius = \"1 cm\" }"));
   }
   if (given[0] == "nodes") return read_node_list(value, cloth);
+  if (table.has("above") && given[0] != "vertex_group") {
+    table.fail("above goes with vertex_group only");
+  }
+  if (given[0] == "part") return read_group(table, value, true, cloth);
+  if (given[0] == "vertex_group") return read_group(table, value, false, cloth);
   require_grid(value, cloth);
   if (given[0] == "corner") {
     const auto index = static_cast<int>(value.choice(kCornerWords, "corner"));

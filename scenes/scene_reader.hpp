@@ -20,6 +20,10 @@ inline constexpr int kMaxNodes = 1'000'000;   ///< of all cloths together
 /// the table names.
 [[nodiscard]] std::vector<std::string_view> cloth_source_keys(const TomlTable& table);
 [[nodiscard]] ClothSource read_cloth_source(const TomlTable& table);
+/// The body of a cloth with the key mesh, without its mass.
+[[nodiscard]] MeshBody read_mesh_body(const TomlTable& cloth);
+/// center_mass_share if center_node is true.
+[[nodiscard]] std::optional<double> read_center_node(const TomlTable& table);
 /// A table { axis, angle } or { quaternion }; of unit length.
 [[nodiscard]] Eigen::Quaterniond read_orientation(const TomlValue& value);
 /// The shape of a collider; other_keys: what its table may hold beside.

@@ -8,6 +8,7 @@
 #include <weft/scenes/scene_text.hpp>
 #include <weft/scenes/scene_words.hpp>
 #include <weft/scenes/shape_writer.hpp>
+#include <weft/scenes/text_guard.hpp>
 #include <weft/scenes/toml_text.hpp>
 
 namespace weft::scenes {
@@ -245,6 +246,12 @@ std::string write_scene(const Scene& scene) {
     std::visit([&](const auto& controller) { write_controller(out, controller); }, settings);
   }
   write_settings(out, scene);
+  if (out.size() > kMaxTextSize) {
+    throw InvalidArgument(
+        fmt::format("write_scene: the resolved scene has {} bytes, expected at most {}: its meshes "
+                    "are too large",
+                    out.size(), kMaxTextSize));
+  }
   return out;
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <weft/scenes/mesh_text.hpp>
 #include <weft/scenes/scene_text.hpp>
 #include <weft/scenes/scene_words.hpp>
 
@@ -16,15 +17,15 @@ void write_geometry(std::string& out, const ClothGrid& grid) {
   line(out, "v_axis", vector_text(grid.v_axis, "1"));
 }
 
+std::string center_text(const std::optional<double>& mass_share) {
+  if (!mass_share) return "center_node = false";
+  return fmt::format("center_node = true, center_mass_share = {}", value_text(*mass_share, "1"));
+}
+
 void write_geometry(std::string& out, const Icosphere& sphere) {
-  std::string center_node = "center_node = false";
-  if (sphere.center_mass_share) {
-    center_node = fmt::format("center_node = true, center_mass_share = {}",
-                              value_text(*sphere.center_mass_share, "1"));
-  }
   line(out, "icosphere",
        fmt::format("{{ radius = {}, frequency = {}, {} }}", value_text(sphere.radius, "m"),
-                   sphere.frequency, center_node));
+                   sphere.frequency, center_text(sphere.center_mass_share)));
   line(out, "center", vector_text(sphere.center, "m"));
   line(out, "orientation", orientation_text(sphere.orientation));
 }
@@ -33,6 +34,14 @@ void write_geometry(std::string& out, const Rope& rope) {
   line(out, "rope",
        fmt::format("{{ nodes = {}, start = {}, end = {} }}", rope.nodes,
                    vector_text(rope.start, "m"), vector_text(rope.end, "m")));
+}
+
+void write_geometry(std::string& out, const MeshBody& body) {
+  line(out, "mesh",
+       fmt::format("{{ data = \"{}\", {} }}", mesh_text(body.shape->surface),
+                   center_text(body.center_mass_share)));
+  line(out, "position", vector_text(body.position, "m"));
+  line(out, "orientation", orientation_text(body.orientation));
 }
 
 }  // namespace

@@ -25,6 +25,8 @@ class TomlValue {
       : file_(&file), path_(std::move(path)), node_(&node) {}
 
   [[noreturn]] void fail(const std::string& message) const;
+  /// Name of the text that this is in: the path of the scene file.
+  [[nodiscard]] const std::string& file() const { return *file_; }
 
   /// SI value of a quantity string with the dimension of unit; a bare number for unit "1".
   [[nodiscard]] double quantity(std::string_view unit) const;

@@ -38,9 +38,9 @@ Scene scene_with(const Collider& collider) {
   scene.name = "test";
   Cloth cloth;
   cloth.name = "cloth";
-  cloth.grid.nodes = {3, 3};
-  cloth.grid.total_mass = 0.1;
-  cloth.grid.center = {0, 5, 0};
+  cloth.grid().nodes = {3, 3};
+  cloth.grid().total_mass = 0.1;
+  cloth.grid().center = {0, 5, 0};
   scene.cloths = {cloth};
   scene.colliders = {collider};
   return scene;

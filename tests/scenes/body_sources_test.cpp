@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <weft/custom_forces/core/hinges.hpp>
+#include <weft/scenes/mesh_text.hpp>
 #include <weft/scenes/scene_file.hpp>
 
 namespace weft::scenes {
@@ -104,6 +105,49 @@ TEST(BodySource, WrittenReadsBackToTheSameTextAndTheSameBits) {
     EXPECT_EQ(a.masses, b.masses);
     EXPECT_EQ(a.pinned, b.pinned);
   }
+}
+
+TEST(BodySource, AMeshFileBesideTheSceneIsABodyThatItsTextTakesAlong) {
+  const std::string name = std::string(WEFT_SOURCE_DIR) + "/tests/scenes/import/good/scene.toml";
+  const auto read_mesh = [&](const std::string& file) {
+    const std::string text = std::string(kHead) + "mesh = { file = \"" + file + R"(", scale = 0.1 }
+position = ["1 m", "0 m", "0 m"]
+orientation = { axis = [0, 0, 1], angle = "30 deg" }
+areal_density = "1/3 kg/m^2"
+pin = [{ part = "right" }]
+)";
+    return read_scene_text(text, name);
+  };
+  const Scene first = read_mesh("two_parts.obj");
+  const ClothMesh mesh = make_mesh(first.cloths[0]);
+  EXPECT_EQ(mesh.num_nodes(), 9);
+  EXPECT_THAT(mesh.pinned, ElementsAre(5, 6, 7, 8));
+  EXPECT_EQ(mesh.rest_positions.col(0), Vector3<double>(1, 0, 0));
+  // Two unit squares, a tenth in size. 1e-7: the file's positions are single precision.
+  EXPECT_NEAR(mesh.masses.sum(), 0.02 / 3, 1e-7 * 0.02);
+  // The written text names no file: it reads back where there is none.
+  const std::string written = write_scene(first);
+  const Scene second = read_scene_text(written, "elsewhere.toml");
+  EXPECT_EQ(write_scene(second), written);
+  EXPECT_EQ(make_mesh(second.cloths[0]).rest_positions, mesh.rest_positions);
+  EXPECT_EQ(make_mesh(second.cloths[0]).masses, mesh.masses);
+  EXPECT_EQ(make_mesh(second.cloths[0]).pinned, mesh.pinned);
+  EXPECT_THROW((void)read_mesh("not_there.obj"), SceneError);
+}
+
+TEST(BodySource, AStoredMeshThatIsDamagedIsRefused) {
+  const Surface surface = std::get<MeshBody>(
+      read_scene_text(std::string(kHead) +
+                          "mesh = { file = \"tetrahedron.ply\" }\nmass = \"1 kg\"\n",
+                      std::string(WEFT_SOURCE_DIR) + "/tests/scenes/import/good/scene.toml")
+          .cloths[0]
+          .source).shape->surface;
+  const std::string text = mesh_text(surface);
+  EXPECT_EQ(mesh_text(parse_mesh_text(text)), text);
+  for (std::size_t size = 0; size < text.size(); ++size) {
+    EXPECT_THROW((void)parse_mesh_text(text.substr(0, size)), InvalidArgument) << size;
+  }
+  EXPECT_THROW((void)parse_mesh_text("?" + text.substr(1)), InvalidArgument);
 }
 
 TEST(BodySource, CornersOfWhatIsNoGridAreRefusedAlsoFromCode) {

@@ -21,10 +21,10 @@ constexpr double kLedDistance = 0.6;  // [m] that a kinematic collider goes befo
 scenes::Cloth thrown_cloth(double speed, double margin) {
   scenes::Cloth cloth;
   cloth.name = "cloth";
-  cloth.grid.nodes = {kNodes, kNodes};
-  cloth.grid.size = {kClothSize, kClothSize};
-  cloth.grid.total_mass = 0.25;
-  cloth.grid.center = {0, kGap + kMargin, 0};
+  cloth.grid().nodes = {kNodes, kNodes};
+  cloth.grid().size = {kClothSize, kClothSize};
+  cloth.grid().total_mass = 0.25;
+  cloth.grid().center = {0, kGap + kMargin, 0};
   cloth.velocity = {0, -speed, 0};
   cloth.collision_margin = margin;
   cloth.friction = 0.5;
@@ -66,7 +66,7 @@ scenes::Scene contact_scene(const ContactTarget& target, double time_step, doubl
   scenes::Collider collider = target.collider;
   if (target.mover != Mover::kCloth) {
     // The other way round: the collider falls, its lowest point above the cloth.
-    scene.cloths[0].grid.center = Vector3<double>::Zero();
+    scene.cloths[0].grid().center = Vector3<double>::Zero();
     for (const int axis : {0, 1}) {
       for (const int side : {0, -1}) scene.cloths[0].pins.emplace_back(scenes::EdgePin{axis, side});
     }

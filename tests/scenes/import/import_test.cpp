@@ -1,0 +1,144 @@
+#include <weft/scenes/import/import_mesh.hpp>
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <weft/custom_forces/core/hinges.hpp>
+#include <weft/scenes/import/isolated_run.hpp>
+#include <weft/scenes/import/weld.hpp>
+#include "tests/scenes/import/broken_cases.hpp"
+
+namespace weft::import {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+const std::filesystem::path kHere = std::string(WEFT_SOURCE_DIR) + "/tests/scenes/import";
+constexpr double kRoundoff = 1e-12;  // of a few sums near 1
+
+std::string error_of(const std::filesystem::path& file, const ImportOptions& options = {}) {
+  try {
+    (void)import_mesh(file, options);
+  } catch (const ImportError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Import, EveryBrokenFileGivesOneClearLine) {
+  for (const BrokenCase& broken : kBrokenCases) {
+    const std::filesystem::path file = kHere / "broken" / broken.file;
+    const std::string error = error_of(file);
+    EXPECT_THAT(error, StartsWith(file.string() + ": ")) << broken.file;
+    EXPECT_THAT(error, HasSubstr(broken.fragment)) << broken.file;
+    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+    EXPECT_LE(error.size(), file.string().size() + 400) << error;
+  }
+}
+
+TEST(Import, ATetrahedronIsTheSameFromEveryFormat) {
+  for (const char* name : {"tetrahedron.glb", "tetrahedron.stl", "tetrahedron.ply"}) {
+    const ImportedMesh mesh = import_mesh(kHere / "good" / name);
+    EXPECT_EQ(mesh.surface.positions.cols(), 4) << name;
+    EXPECT_EQ(mesh.surface.triangles.cols(), 4) << name;
+    EXPECT_TRUE(mesh.report.is_closed()) << name;
+    EXPECT_TRUE(is_closed_surface(mesh.surface.triangles)) << name;
+    EXPECT_NEAR(surface_area(mesh.surface), 1.5 + std::sqrt(3.0) / 2, 1e-6) << name;
+    EXPECT_NEAR(mesh.report.area, surface_area(mesh.surface), kRoundoff) << name;
+    const ClothMesh body =
+        make_surface_body(mesh.surface, {.total_mass = 2.0, .center_mass_share = 0.1});
+    EXPECT_NEAR(body.masses.sum(), 2.0, kRoundoff) << name;
+  }
+  EXPECT_EQ(import_mesh(kHere / "good/tetrahedron.stl").report.welded_vertices, 12 - 4);
+}
+
+TEST(Import, LeavesOutWhatIsNoSurfaceAndSaysSo) {
+  const MeshReport report = check_mesh(kHere / "good/square.obj");
+  EXPECT_EQ(report.num_nodes, 5);
+  EXPECT_EQ(report.num_triangles, 4);
+  ASSERT_EQ(report.duplicate_faces.size(), 1U);
+  EXPECT_EQ(report.duplicate_faces[0].face, 4);
+  EXPECT_EQ(report.boundary_loops, 1);
+  EXPECT_EQ(report.boundary_edges, 4);
+  EXPECT_NEAR(report.smallest_angle, std::numbers::pi / 4, 1e-6);
+  EXPECT_FALSE(report.fault().has_value());
+  EXPECT_THAT(report.text(), HasSubstr("duplicate triangles: 1: face 4 of 'sheet'"));
+}
+
+TEST(Import, ScaleAxisAndTextureAreAsTheOptionsSay) {
+  const ImportedMesh plain = import_mesh(kHere / "good/quad.obj");
+  ASSERT_EQ(plain.surface.corner_texture_coordinates.cols(), 6);
+  for (Eigen::Index c = 0; c < 6; ++c) {
+    // The texture coordinates of this file are x and -z.
+    const int node = plain.surface.triangles(c % 3, c / 3);
+    const Vector3<double> place = plain.surface.positions.col(node);
+    EXPECT_EQ(plain.surface.corner_texture_coordinates.col(c),
+              Eigen::Vector2d(place.x(), -place.z()));
+  }
+  const ImportedMesh turned =
+      import_mesh(kHere / "good/quad.obj", {.scale = 0.5, .up = UpAxis::kZ});
+  for (Eigen::Index n = 0; n < 4; ++n) {
+    const Vector3<double> p = plain.surface.positions.col(n);
+    EXPECT_EQ(turned.surface.positions.col(n), 0.5 * Vector3<double>(p.x(), p.z(), -p.y()));
+  }
+  EXPECT_THROW((void)import_mesh(kHere / "good/quad.obj", {.scale = 0.0}), InvalidArgument);
+}
+
+TEST(Import, PartsAreReadByNameAndAreGroups) {
+  const std::filesystem::path file = kHere / "good/two_parts.obj";
+  const ImportedMesh both = import_mesh(file);
+  EXPECT_EQ(both.surface.triangles.cols(), 6);
+  ASSERT_EQ(both.groups.size(), 2U);
+  EXPECT_EQ(both.groups[1].name, "right");
+  EXPECT_EQ(both.groups[1].nodes, (std::vector<int>{5, 6, 7, 8}));
+  EXPECT_EQ(import_mesh(file, {.part = "right"}).surface.triangles.cols(), 2);
+  EXPECT_THAT(error_of(file, {.part = "middle"}),
+              HasSubstr("has no part 'middle', expected one of left, right"));
+}
+
+TEST(Weld, JoinsToTheFirstWithinTheToleranceAndNoOther) {
+  Matrix3X<double> positions(3, 5);
+  positions << 0, 1, 1.5e-3, 0.9e-3, 1,  //
+      0, 0, 0, 0, 0,                     //
+      0, 0, 0, 0, -0.5e-3;
+  EXPECT_EQ(weld(positions, 1e-3), (std::vector<int>{0, 1, 2, 0, 1}));
+  EXPECT_EQ(weld(positions, 0.0), (std::vector<int>{0, 1, 2, 3, 4}));
+  positions.col(4) = positions.col(1);
+  EXPECT_EQ(weld(positions, 0.0), (std::vector<int>{0, 1, 2, 3, 1}));
+}
+
+TEST(IsolatedRun, ACrashIsAnErrorOfTheChildAlone) {
+  EXPECT_EQ(run_isolated([] { return std::string("a\0b", 3); }), std::string("a\0b", 3));
+  EXPECT_THROW((void)run_isolated([]() -> std::string { throw Error("no"); }), Error);
+  EXPECT_THROW((void)run_isolated([]() -> std::string {
+                 std::signal(SIGABRT, SIG_DFL);
+                 std::abort();
+               }),
+               Error);
+}
+
+/// Every beginning of a file is a damaged file: none may do more than give an error.
+TEST(Import, EveryTruncationOfAFileIsAnError) {
+  std::ifstream stream(kHere / "good/tetrahedron.glb", std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(stream), {}};
+  const std::filesystem::path file = testing::TempDir() + "truncated.glb";
+  ASSERT_GT(whole.size(), 100U);
+  constexpr std::size_t kStep = 13;  // no divisor of the chunks' sizes
+  for (std::size_t size = 1; size < whole.size(); size += kStep) {
+    std::ofstream(file, std::ios::binary) << whole.substr(0, size);
+    EXPECT_NE(error_of(file), "no error") << size << " bytes";
+  }
+}
+
+}  // namespace
+}  // namespace weft::import
