@@ -13,13 +13,11 @@
 namespace weft::scenes {
 namespace {
 
-constexpr std::array<std::string_view, 11> kClothKeys = {"name",           "collision_margin",
-                                                         "friction",       "law",
-                                                         "velocity",       "pin",
-                                                         "connection",     "region",
-                                                         "self_collision", "self_thickness",
-                                                         "soft_collision"};
-constexpr std::array<std::string_view, 2> kRegionKeys = {"name", "nodes"};
+constexpr std::array<std::string_view, 12> kClothKeys = {
+    "bulge",          "name",          "collision_margin", "friction", "law",
+    "velocity",       "pin",           "connection",       "region",   "self_collision",
+    "self_thickness", "soft_collision"};
+constexpr std::array<std::string_view, 3> kRegionKeys = {"name", "nodes", "springs"};
 constexpr std::array<std::string_view, 3> kConnectionKeys = {"name", "node", "to"};
 
 /// Column and row of a grid, or the number of a node.
@@ -77,9 +75,23 @@ std::vector<Region> read_regions(const TomlValue& value, const Cloth& cloth) {
     if (region.nodes.empty()) {
       nodes.fail("is empty, expected at least one corner, edge, box, sphere or node list");
     }
+    if (const auto springs = table.find("springs")) region.has_springs = springs->boolean();
+    const std::vector<std::string> sets = source_sets(cloth.source, forces::ElementKind::kEdges);
+    if (region.has_springs && std::find(sets.begin(), sets.end(), region.name) != sets.end()) {
+      entry.fail("has springs and the name of an edge set, expected another name");
+    }
     regions.push_back(std::move(region));
   }
   return regions;
+}
+
+Bulge read_bulge(const TomlValue& value, const Cloth& cloth) {
+  constexpr std::array<std::string_view, 2> kKeys = {"height", "radius"};
+  if (!std::holds_alternative<ClothGrid>(cloth.source)) value.fail("expected a grid to raise");
+  const TomlTable table = value.table("a table such as { height = \"20 cm\", radius = \"40 cm\" }");
+  table.allow(kKeys);
+  return {.height = table.require("height", expected_quantity("m")).quantity("m"),
+          .radius = table.require("radius", expected_quantity("m")).positive("m")};
 }
 
 /// A grid takes every law that check_surface() lets pass; whether another mesh does, is tried.
@@ -123,6 +135,7 @@ Cloth read_cloth(const TomlTable& table, const World& world) {
   Cloth cloth;
   cloth.name = table.require("name", "a name such as \"cloth\"").identifier();
   cloth.source = read_cloth_source(table);
+  if (const auto value = table.find("bulge")) cloth.bulge = read_bulge(*value, cloth);
   if (const auto value = table.find("velocity")) cloth.velocity = value->vector("m/s");
   if (const auto value = table.find("collision_margin")) {
     cloth.collision_margin = value->non_negative("m");

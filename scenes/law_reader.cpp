@@ -21,7 +21,11 @@ const forces::LawInfo& find_info(const TomlTable& table) {
 /// connections and regions.
 std::vector<std::string> set_names(forces::ElementKind elements, const Cloth& cloth) {
   std::vector<std::string> names = source_sets(cloth.source, elements);
-  if (elements == forces::ElementKind::kNodeSets) {
+  if (elements == forces::ElementKind::kEdges) {
+    for (const Region& region : cloth.regions) {
+      if (region.has_springs) names.push_back(region.name);
+    }
+  } else if (elements == forces::ElementKind::kNodeSets) {
     for (const Region& region : cloth.regions) names.push_back(region.name);
   } else if (elements == forces::ElementKind::kConnections) {
     for (const Connection& connection : cloth.connections) names.push_back(connection.name);
@@ -51,6 +55,8 @@ std::vector<std::string> read_sets(const TomlTable& table, std::string_view key,
   const std::vector<std::string> all = set_names(elements, cloth);
   const std::optional<TomlValue> value = table.find(key);
   if (!value) {
+    // The springs of a region are some of the source's once more: only for laws that name them.
+    if (elements == forces::ElementKind::kEdges) return source_sets(cloth.source, elements);
     if (!all.empty()) return all;
     table.fail(fmt::format("{} is empty, expected a cloth with at least one", key));
   }

@@ -12,7 +12,8 @@ namespace weft::scenes {
 namespace {
 
 constexpr std::array<std::string_view, 10> kMovingPinKeys = {
-    "corner", "edge", "box", "sphere", "nodes", "part", "vertex_group", "above", "velocity", "path"};
+    "corner", "edge",         "box",   "sphere",   "nodes",
+    "part",   "vertex_group", "above", "velocity", "path"};
 constexpr Keys kPinKinds = Keys(kMovingPinKeys).first(7);
 constexpr Keys kPinKeys = Keys(kMovingPinKeys).first(8);
 constexpr std::array<std::string_view, 2> kBoxKeys = {"min", "max"};
@@ -84,7 +85,8 @@ NodePin read_group(const TomlTable& table, const TomlValue& value, bool is_part,
                    const Cloth& cloth) {
   const auto* body = std::get_if<MeshBody>(&cloth.source);
   if (body == nullptr) {
-    value.fail(fmt::format("{} has no parts and groups, expected a mesh", source_name(cloth.source)));
+    value.fail(
+        fmt::format("{} has no parts and groups, expected a mesh", source_name(cloth.source)));
   }
   const auto limit = table.find("above");
   const double above = limit ? limit->quantity("1") : 0.5;

@@ -127,15 +127,53 @@ const ClothGrid& Cloth::grid() const {
   return require_grid(*this, "rows and columns");
 }
 
+namespace {
+
+void raise(const Bulge& bulge, const ClothGrid& grid, ClothMesh& mesh) {
+  const Vector3<double> normal = grid.u_axis.cross(grid.v_axis).normalized();
+  for (Eigen::Index i = 0; i < mesh.rest_positions.cols(); ++i) {
+    const double share = (mesh.rest_positions.col(i) - grid.center).norm() / bulge.radius;
+    if (share < 1) {
+      mesh.rest_positions.col(i) += bulge.height * std::pow(1 - share * share, 2) * normal;
+    }
+  }
+}
+
+/// The springs of the source, its first num_sets edge sets, with both ends in the region.
+void add_springs_of(const NodeSet& region, std::size_t num_sets, ClothMesh& mesh) {
+  const auto is_in = [&](int node) {
+    return std::binary_search(region.nodes.begin(), region.nodes.end(), node);
+  };
+  std::vector<std::array<int, 2>> found;
+  for (std::size_t s = 0; s < num_sets; ++s) {
+    const EdgeSet& set = mesh.edge_sets[s];
+    for (Eigen::Index e = 0; e < set.edges.cols(); ++e) {
+      if (is_in(set.edges(0, e)) && is_in(set.edges(1, e))) {
+        found.push_back({set.edges(0, e), set.edges(1, e)});
+      }
+    }
+  }
+  Edges edges(2, static_cast<Eigen::Index>(found.size()));
+  for (std::size_t e = 0; e < found.size(); ++e) {
+    edges.col(static_cast<Eigen::Index>(e)) << found[e][0], found[e][1];
+  }
+  mesh.edge_sets.push_back({region.name, edges});
+}
+
+}  // namespace
+
 std::vector<int> nodes_of(const Pin& pin, const Cloth& cloth, const ClothMesh& mesh) {
   return nodes_of_all({pin}, cloth, mesh, "pin");
 }
 
 ClothMesh make_mesh(const Cloth& cloth) {
   ClothMesh mesh = make_source_mesh(cloth.source);
+  if (cloth.bulge) raise(*cloth.bulge, cloth.grid(), mesh);
   add_pins(cloth, mesh);
+  const std::size_t num_source_sets = mesh.edge_sets.size();
   for (const Region& region : cloth.regions) {
     mesh.node_sets.push_back({region.name, nodes_of_all(region.nodes, cloth, mesh, "region")});
+    if (region.has_springs) add_springs_of(mesh.node_sets.back(), num_source_sets, mesh);
   }
   for (const Connection& connection : cloth.connections) add_connection(connection, cloth, mesh);
   return mesh;

@@ -61,6 +61,16 @@ struct MovingPin {
 struct Region {
   std::string name;
   std::vector<Pin> nodes;  ///< all nodes that one of these holds
+  /// Also makes an edge set of this name: the springs with both ends in the region, for laws that
+  /// shall be stronger there.
+  bool has_springs = false;
+};
+
+/// The rest shape of a grid, raised around its centre along its normal by
+/// height (1 - (r / radius)^2)^2, 0 from the radius on.
+struct Bulge {
+  double height;  ///< [m]
+  double radius;  ///< [m], > 0
 };
 
 /// Ties of one node to far ones, for nonlocal_torsion.
@@ -76,7 +86,8 @@ struct Cloth {
   std::string name;
   ClothSource source = ClothGrid();
   std::vector<Pin> pins;
-  std::vector<MovingPin> moving_pins = {};  ///< a node of several moves with the last of them
+  std::optional<Bulge> bulge = std::nullopt;  ///< of a grid
+  std::vector<MovingPin> moving_pins = {};    ///< a node of several moves with the last of them
   std::vector<Connection> connections = {};
   std::vector<Region> regions = {};
   Vector3<double> velocity{0, 0, 0};  ///< [m/s] of every free node at the start

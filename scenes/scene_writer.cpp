@@ -136,6 +136,11 @@ void write_cloth(std::string& out, const Cloth& cloth) {
   out += "\n[[cloth]]\n";
   line(out, "name", toml_string(cloth.name));
   write_source(out, cloth.source);
+  if (cloth.bulge) {
+    line(out, "bulge",
+         fmt::format("{{ height = {}, radius = {} }}", value_text(cloth.bulge->height, "m"),
+                     value_text(cloth.bulge->radius, "m")));
+  }
   line(out, "velocity", vector_text(cloth.velocity, "m/s"));
   line(out, "collision_margin", value_text(cloth.collision_margin, "m"));
   line(out, "friction", value_text(cloth.friction, "1"));
@@ -153,8 +158,9 @@ void write_cloth(std::string& out, const Cloth& cloth) {
   if (!cloth.regions.empty()) {
     std::string regions;
     for (const Region& region : cloth.regions) {
-      regions += fmt::format("{}{{ name = {}, nodes = {} }}", regions.empty() ? "" : ", ",
-                             toml_string(region.name), pins_text(region.nodes));
+      regions +=
+          fmt::format("{}{{ name = {}, nodes = {}, springs = {} }}", regions.empty() ? "" : ", ",
+                      toml_string(region.name), pins_text(region.nodes), region.has_springs);
     }
     line(out, "region", "[" + regions + "]");
   }
