@@ -36,16 +36,15 @@ TEST(GhostScene, TheSheetStaysOnItsHeadAndOutOfIt) {
   double widest = 0;
   run_scene(scene, [&](const SceneState& state) {
     if (state.time < 1.6) return;  // still falling
-    const Matrix3X<double> arms =
-        state.cloths[0].positions.colwise() - state.rigids[0].position;
+    const Matrix3X<double> arms = state.cloths[0].positions.colwise() - state.rigids[0].position;
     const double nearest = arms.colwise().norm().minCoeff();
     deepest = std::max(deepest, radius - nearest);
     loosest = std::max(loosest, nearest - radius);
     widest = std::max(widest, (state.rigids[0].position - Vector3<double>(0, 1.6, 0)).norm());
   });
-  EXPECT_LT(deepest, margin);     // no node is deeper than the margin
+  EXPECT_LT(deepest, margin);      // no node is deeper than the margin
   EXPECT_LT(loosest, 2 * margin);  // and some node always lies on the head
-  EXPECT_GT(widest, 1.0);         // the head does travel
+  EXPECT_GT(widest, 1.0);          // the head does travel
 }
 
 TEST(FlyingCarpetScene, TheLeadingEdgeIsOnItsSplineToTheLastBit) {
@@ -120,9 +119,8 @@ TEST(SquishyBallScene, RollsOnItsTorqueAndKeepsItsVolume) {
   Scene still = scene;  // what rolls it is the torque, and nothing else
   still.controllers.clear();
   still.world.duration = 2;
-  run_scene(still, [&](const SceneState& state) {
-    end = center_of(mesh, state.cloths[0].positions);
-  });
+  run_scene(still,
+            [&](const SceneState& state) { end = center_of(mesh, state.cloths[0].positions); });
   EXPECT_LT(std::abs(end.x() - start.x()), 0.1);
 }
 
@@ -152,7 +150,8 @@ TEST(DrapeTorsionScene, TheMoreTorsionTheWiderTheClothStands) {
       heights[c] = state.cloths[c].positions.row(1).mean();
     }
   });
-  for (std::size_t c = 2; c < heights.size(); ++c) EXPECT_GT(heights[c], heights[c - 1] + 0.01) << c;
+  for (std::size_t c = 2; c < heights.size(); ++c)
+    EXPECT_GT(heights[c], heights[c - 1] + 0.01) << c;
   EXPECT_GE(heights[1], heights[0] - 0.002);  // soft folds stand about as low as a handkerchief
 }
 
