@@ -209,6 +209,9 @@ void SoftBodySolver::set_cloth_contact(btSoftBody& body, const ClothContactSetti
   auto& list = attachments_->contacts;
   std::erase_if(list, [&](const auto& known) { return known->body == &body; });
   list.push_back(std::move(entry));
+  // Last in every iteration: links that are solved after a contact pull layers into each other.
+  body.m_cfg.m_psequence.remove(btSoftBody::ePSolver::SContacts);
+  body.m_cfg.m_psequence.push_back(btSoftBody::ePSolver::SContacts);
 }
 
 ClothContact* SoftBodySolver::find_contact(const btSoftBody& body) const {

@@ -29,7 +29,7 @@ constexpr double kGrowthRatio = 0.002;
 constexpr double kVoxelRatio = 0.05;
 /// The same for the edges of a mesh's triangles: their fronts are flat, and only bends between them
 /// are rounded, by about a quarter of a voxel.
-constexpr double kMeshVoxelRatio = 0.15;
+constexpr double kMeshVoxelRatio = 0.25;
 constexpr double kLargestVoxel = 0.25;  ///< [m] Bullet's default
 
 btVector3 to_bullet(const Vector3<double>& v) {

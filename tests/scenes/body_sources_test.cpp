@@ -136,12 +136,14 @@ pin = [{ part = "right" }]
 }
 
 TEST(BodySource, AStoredMeshThatIsDamagedIsRefused) {
-  const Surface surface = std::get<MeshBody>(
-      read_scene_text(std::string(kHead) +
-                          "mesh = { file = \"tetrahedron.ply\" }\nmass = \"1 kg\"\n",
-                      std::string(WEFT_SOURCE_DIR) + "/tests/scenes/import/good/scene.toml")
-          .cloths[0]
-          .source).shape->surface;
+  const Surface surface =
+      std::get<MeshBody>(
+          read_scene_text(
+              std::string(kHead) + "mesh = { file = \"tetrahedron.ply\" }\nmass = \"1 kg\"\n",
+              std::string(WEFT_SOURCE_DIR) + "/tests/scenes/import/good/scene.toml")
+              .cloths[0]
+              .source)
+          .shape->surface;
   const std::string text = mesh_text(surface);
   EXPECT_EQ(mesh_text(parse_mesh_text(text)), text);
   for (std::size_t size = 0; size < text.size(); ++size) {
