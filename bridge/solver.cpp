@@ -176,6 +176,29 @@ void SoftBodySolver::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> mas
   attachments_->list.push_back(std::move(attachment));
 }
 
+// An attachment of its own is checked first, so that laws that do not fit leave all as it was.
+void SoftBodySolver::replace_laws(btSoftBody& body, LawSet laws, VectorX<btScalar> masses) {
+  Attachment* const old = find(body);
+  if (!old) {
+    throw InvalidArgument("soft body solver: the body has no laws, expected attach() first");
+  }
+  check_attachment("soft body solver", body, masses);
+  auto attachment = std::make_unique<Attachment>();
+  attachment->body = &body;
+  attachment->laws = std::move(laws);
+  attachment->masses = std::move(masses);
+  attachment->damping = old->damping;
+  attachment->blow_up = old->blow_up;
+  attachment->was_in_world = old->was_in_world;
+  attachment->time = old->time;
+  attachment->check_laws();
+  const bool was_begun = old->deferred.is_in_flight();
+  for (auto& entry : attachments_->list) {
+    if (entry.get() == old) entry = std::move(attachment);
+  }
+  if (was_begun && !is_frozen(body)) find(body)->begin_forces();
+}
+
 void SoftBodySolver::detach(btSoftBody& body) {
   auto& list = attachments_->list;
   list.erase(std::remove_if(list.begin(), list.end(),
@@ -208,6 +231,10 @@ ClothContact* SoftBodySolver::find_contact(const btSoftBody& body) const {
     if (entry->body == &body) return &entry->contact;
   }
   return nullptr;
+}
+
+void SoftBodySolver::add_copies(const btSoftBody& body, const std::vector<int>& origins) {
+  if (ClothContact* contact = find_contact(body)) contact->add_copies(origins);
 }
 
 void SoftBodySolver::set_deferred(bool is_deferred) {

@@ -13,10 +13,19 @@
 namespace weft::scenes {
 namespace {
 
-constexpr std::array<std::string_view, 12> kClothKeys = {
-    "bulge",          "name",          "collision_margin", "friction", "law",
-    "velocity",       "pin",           "connection",       "region",   "self_collision",
-    "self_thickness", "soft_collision"};
+constexpr std::array<std::string_view, 13> kClothKeys = {"bulge",
+                                                         "name",
+                                                         "collision_margin",
+                                                         "friction",
+                                                         "law",
+                                                         "velocity",
+                                                         "pin",
+                                                         "connection",
+                                                         "region",
+                                                         "self_collision",
+                                                         "self_thickness",
+                                                         "soft_collision",
+                                                         "tear"};
 constexpr std::array<std::string_view, 3> kRegionKeys = {"name", "nodes", "springs"};
 constexpr std::array<std::string_view, 3> kConnectionKeys = {"name", "node", "to"};
 
@@ -152,6 +161,7 @@ Cloth read_cloth(const TomlTable& table, const World& world) {
   }
   if (const auto value = table.find("region")) cloth.regions = read_regions(*value, cloth);
   read_laws(table, world, cloth);
+  if (const auto value = table.find("tear")) cloth.tear = read_tear(*value, cloth);
   cloth.appearance = read_appearance(table);
   return cloth;
 }

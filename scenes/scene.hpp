@@ -14,6 +14,7 @@
 #include <weft/scenes/appearance.hpp>
 #include <weft/scenes/characters/character_settings.hpp>
 #include <weft/scenes/cloth_source.hpp>
+#include <weft/scenes/cloth_tear.hpp>
 #include <weft/scenes/motion/path.hpp>
 #include <weft/scenes/shapes.hpp>
 
@@ -96,6 +97,7 @@ struct Cloth {
   double friction =
       0.5;  ///< Coulomb coefficient of the cloth [-]; with a collider: the product of both
   std::vector<forces::LawSpecification> laws;
+  std::optional<ClothTear> tear = std::nullopt;  ///< none: it never tears
   bool self_collision = false;
   /// [m] distance that layers of the cloth keep, > 0; none: twice collision_margin
   std::optional<double> self_thickness = std::nullopt;

@@ -37,6 +37,8 @@ void read_character(const TomlTable& table, Scene& scene);
 /// acceleration.
 [[nodiscard]] forces::LawSpecification read_law(const TomlTable& table, const Cloth& cloth,
                                                 const World& world);
+/// cloth: its regions may be weak, and its laws must allow a tear.
+[[nodiscard]] ClothTear read_tear(const TomlValue& value, const Cloth& cloth);
 [[nodiscard]] Path read_path(const TomlValue& value);
 /// scene: its cloths say which there are.
 [[nodiscard]] ControllerSettings read_controller(const TomlTable& table, const Scene& scene);

@@ -109,6 +109,23 @@ std::string connection_text(const Connection& connection) {
                      connection.to.empty() ? "" : ", to = " + pins_text(connection.to));
 }
 
+std::string tear_text(const ClothTear& tear) {
+  std::string weak;
+  for (const WeakRegion& region : tear.rule.weak) {
+    weak += fmt::format("{}{{ region = {}, strain = {} }}", weak.empty() ? "" : ", ",
+                        toml_string(region.node_set), value_text(region.strain, "1"));
+  }
+  std::string cuts;
+  for (const Blade& cut : tear.cuts) {
+    cuts += fmt::format("{}{{ from = {}, to = {}, depth = {} }}", cuts.empty() ? "" : ", ",
+                        vector_text(cut.from, "m"), vector_text(cut.to, "m"),
+                        vector_text(cut.depth, "m"));
+  }
+  return fmt::format("{{ strain = {}, variation = {}, max_splits = {}, weak = [{}], cut = [{}] }}",
+                     value_text(tear.rule.strain, "1"), value_text(tear.rule.variation, "1"),
+                     tear.rule.max_splits, weak, cuts);
+}
+
 }  // namespace
 
 void write_law(std::string& out, std::string_view path, const forces::LawSpecification& law) {
@@ -168,6 +185,7 @@ void write_cloth(std::string& out, const Cloth& cloth) {
     }
     line(out, "region", "[" + regions + "]");
   }
+  if (cloth.tear) line(out, "tear", tear_text(*cloth.tear));
   out += write_appearance(cloth.appearance);
   for (const forces::LawSpecification& law : cloth.laws) write_law(out, "cloth.law", law);
 }

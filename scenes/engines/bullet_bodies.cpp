@@ -57,6 +57,13 @@ void BulletBodies::add(const Collider& collider, btRigidBody& body) {
   state_.rigids.push_back(std::move(state));
 }
 
+void BulletBodies::set_torn(std::size_t cloth, const ClothMesh& mesh,
+                            std::shared_ptr<const ClothTopology> topology) {
+  steered_[cloth].pinned = mesh.pinned;
+  steered_[cloth].pinned_velocities = mesh.pinned_velocities;
+  state_.cloths[cloth].topology = std::move(topology);
+}
+
 void BulletBodies::begin_step(const Steering* steering, double time_step) {
   for (std::size_t c = 0; c < cloths_.size(); ++c) {
     btSoftBody& body = *cloths_[c];

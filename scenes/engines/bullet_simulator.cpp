@@ -10,6 +10,7 @@
 #include <weft/scenes/engines/blow_up_check.hpp>
 #include <weft/scenes/engines/bullet_bodies.hpp>
 #include <weft/scenes/engines/bullet_shapes.hpp>
+#include <weft/scenes/engines/bullet_tears.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -35,12 +36,14 @@ class BulletSimulator final : public Simulator {
   double links_time_step_ = 0.0;
   std::unique_ptr<bridge::SoftWorld> world_;
   BulletBodies bodies_;
+  BulletTears tears_;
   Director director_;
   StepReport report_;
 };
 
 void BulletSimulator::load(const Scene& scene) {
   bodies_ = {};
+  tears_ = {};
   report_ = {};
   links_time_step_ = scene.world.time_step;
   world_ = std::make_unique<bridge::SoftWorld>(
@@ -50,6 +53,7 @@ void BulletSimulator::load(const Scene& scene) {
     BulletCollider made = make_bullet_collider(collider, scene.bullet.concave);
     bodies_.add(collider, world_->add(std::move(made.body), std::move(made.shape)));
   }
+  tears_.make_first_cuts(world_->solver(), bodies_);
   bodies_.read_state(0.0);
   director_ = Director(scene, controllers());
 }
@@ -70,13 +74,13 @@ void BulletSimulator::add_cloth(const Cloth& cloth, const Scene& scene) {
                                  .friction = cloth.friction,
                                  .position_iterations = scene.bullet.position_iterations,
                                  .time_step = links_time_step_};
-  forces::LawSet<btScalar> laws;
+  std::vector<forces::LawSpecification> laws;
   for (const forces::LawSpecification& given : cloth.laws) {
     const forces::LawSpecification law = forces::checked(given);
     if (law.law == "tension" && tension_ == Tension::kLinks) {
       settings.links.push_back(link_set(cloth, law));
     } else {
-      laws.add(forces::make_law<btScalar>(law, mesh));
+      laws.push_back(law);
     }
   }
   btSoftBody& body = world_->add(bridge::make_cloth_body(world_->info(), mesh, settings));
@@ -92,8 +96,12 @@ void BulletSimulator::add_cloth(const Cloth& cloth, const Scene& scene) {
   // A skin is drawn only. Bullet would look each of its nodes up in the colliders' distance fields.
   const auto* skin = std::get_if<SkinSource>(&cloth.source);
   if (skin != nullptr && !skin->is_cloth) body.m_cfg.collisions = 0;
-  world_->solver().attach(body, std::move(laws), mesh.masses.cast<btScalar>());
+  world_->solver().attach(body, mesh, laws);
   bodies_.add(cloth, mesh, body);
+  if (cloth.tear) {
+    tears_.add(bodies_.cloths().size() - 1, *cloth.tear, mesh, std::move(settings),
+               std::move(laws));
+  }
 }
 
 void BulletSimulator::set_limits(const Steering& steering) {
@@ -133,6 +141,7 @@ StepReport BulletSimulator::step(double time_step) {
     report_.num_contacts += cloth->m_rcontacts.size() + cloth->m_scontacts.size();
   bodies_.read_state(report_.time);
   report_.blow_up = find_blow_up();
+  if (!report_.blow_up && tears_.tear(world_->solver(), bodies_)) bodies_.read_state(report_.time);
   return report_;
 }
 

@@ -6,7 +6,7 @@
 #include <weft/custom_forces/registry.hpp>
 #include <weft/scenes/characters/start_state.hpp>
 #include <weft/scenes/controllers/director.hpp>
-#include <weft/scenes/engines/blow_up_check.hpp>
+#include <weft/scenes/engines/reference_tears.hpp>
 #include <weft/scenes/scene_words.hpp>
 #include <weft/validation/reference/solver.hpp>
 
@@ -28,10 +28,20 @@ class ReferenceSimulator final : public Simulator {
 
   LawFilter filter_;
   std::unique_ptr<reference::SpringSolver> solver_;
+  ReferenceTears tears_;
   SceneState state_;
   StepReport report_;
   Director director_;
 };
+
+forces::LawSet<double> make_laws(const Cloth& cloth, const ClothMesh& mesh,
+                                 const LawFilter& filter) {
+  forces::LawSet<double> laws;
+  for (const forces::LawSpecification& law : cloth.laws) {
+    laws.add(filter(forces::make_law<double>(law, mesh)));
+  }
+  return laws;
+}
 
 reference::Body make_body(const Cloth& cloth, const LawFilter& filter) {
   if (cloth.self_collision || cloth.soft_collision) {
@@ -42,9 +52,7 @@ reference::Body make_body(const Cloth& cloth, const LawFilter& filter) {
   reference::Body body;
   body.name = cloth.name;
   body.mesh = make_mesh(cloth);
-  for (const forces::LawSpecification& law : cloth.laws) {
-    body.laws.add(filter(forces::make_law<double>(law, body.mesh)));
-  }
+  body.laws = make_laws(cloth, body.mesh, filter);
   StartState start = start_state(cloth, body.mesh);
   body.positions = std::move(start.positions);
   body.velocities = std::move(start.velocities);
@@ -123,6 +131,10 @@ void ReferenceSimulator::load(const Scene& scene) {
                         : reference::ContactKind::kImpulse;
   options.guard = to_reference(scene.reference.step_guard);
   solver_ = std::make_unique<reference::SpringSolver>(std::move(system), options);
+  tears_ = ReferenceTears(scene, *solver_, [this](const Cloth& cloth, const ClothMesh& mesh) {
+    return make_laws(cloth, mesh, this->filter_);
+  });
+  tears_.make_first_cuts(*solver_);
   state_ = {};
   report_ = {};
   read_state();
@@ -163,6 +175,7 @@ void ReferenceSimulator::read_state() {
     state_.cloths[b].name = system.bodies[b].name;
     state_.cloths[b].positions = system.bodies[b].positions;
     state_.cloths[b].velocities = system.bodies[b].velocities;
+    state_.cloths[b].topology = tears_.topology(b);
   }
   state_.rigids.resize(system.colliders.size());
   for (std::size_t c = 0; c < system.colliders.size(); ++c) {
@@ -185,6 +198,7 @@ StepReport ReferenceSimulator::step(double time_step) {
   report_.substeps = outcome.substeps;
   report_.num_contacts = outcome.contact.num_contacts;
   report_.stable_time_step = outcome.stable_step;
+  if (!outcome.blow_up) tears_.tear(*solver_);
   read_state();
   if (outcome.blow_up) {
     report_.blow_up = BlowUp{report_.step, report_.time, outcome.blow_up->body,

@@ -45,6 +45,11 @@ class SpringSolver {
   /// or that the guard refuses; a numerical blow-up is in the outcome.
   StepOutcome step(double time_step);
 
+  /// Puts another body in place of one, between two steps: the same cloth after it tore. Throws
+  /// InvalidArgument as the constructor, and for a number that no body has; nothing changes then.
+  /// The stable step is estimated anew where the guard acts on it, else when it is due.
+  void replace_body(std::size_t index, Body body);
+
   [[nodiscard]] const System& system() const { return *system_; }
   /// Leads what has no free motion, for steps to come: pinned nodes reach targets, 3 x pinned.size()
   /// [m], in a step of time_step [s]. Throws InvalidArgument for another number of targets.
