@@ -18,7 +18,7 @@ using Face = btSoftBody::Face;
 /// that bend away from each other it would be over none.
 constexpr btScalar kOverlap = btScalar(0.1);
 /// How fast layers that are closer than their thickness part, while they are pressed together [1/s].
-constexpr btScalar kRecoveryRate = 20;
+constexpr btScalar kRecoveryRate = 5;
 
 struct Rules {
   btScalar thickness;  // [m]

@@ -7,6 +7,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/node_state.hpp>
+#include <weft/bridge/position_limits.hpp>
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/trace.hpp>
 #include <weft/custom_forces/deferred_forces.hpp>
@@ -29,6 +30,7 @@ struct SoftBodySolver::Attachment {
   Matrix3X<btScalar> velocities;
   Matrix3X<btScalar> forces;
   std::optional<BodyBlowUp> blow_up;
+  PositionLimits limits;
   bool was_in_world = false;
   double time = 0.0;  // [s] of the steps since the body was attached
 
@@ -181,11 +183,24 @@ void SoftBodySolver::detach(btSoftBody& body) {
              list.end());
 }
 
+void SoftBodySolver::set_position_limits(btSoftBody& body, PositionLimits limits) {
+  Attachment* attachment = find(body);
+  if (!attachment) {
+    throw InvalidArgument(
+        "soft body solver: limits for a body without laws, expected attach() first");
+  }
+  check_position_limits(limits, body.m_nodes.size());
+  attachment->limits = std::move(limits);
+}
+
 void SoftBodySolver::set_cloth_contact(btSoftBody& body, const ClothContactSettings& settings) {
   auto entry = std::make_unique<ContactEntry>(ContactEntry{&body, ClothContact(body, settings)});
   auto& list = attachments_->contacts;
   std::erase_if(list, [&](const auto& known) { return known->body == &body; });
   list.push_back(std::move(entry));
+  // Last in every iteration: links that are solved after a contact pull layers into each other.
+  body.m_cfg.m_psequence.remove(btSoftBody::ePSolver::SContacts);
+  body.m_cfg.m_psequence.push_back(btSoftBody::ePSolver::SContacts);
 }
 
 ClothContact* SoftBodySolver::find_contact(const btSoftBody& body) const {
@@ -253,7 +268,10 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
     if (!body.isActive() || is_frozen(body)) continue;
-    if (Attachment* attachment = find(body)) attachment->damp_velocities(time_step_);
+    Attachment* attachment = find(body);
+    if (!attachment) continue;
+    apply_position_limits(attachment->limits, static_cast<double>(time_step_), body);
+    attachment->damp_velocities(time_step_);
   }
   for (const auto& attachment : attachments_->list) {
     if (attachment->was_in_world) attachment->time += static_cast<double>(time_step_);

@@ -11,6 +11,7 @@
 #include <weft/bridge/cloth_contact.hpp>
 #include <weft/bridge/law_attachment.hpp>
 #include <weft/custom_forces/core/cloth_mesh.hpp>
+#include <weft/custom_forces/core/position_limits.hpp>
 #include <weft/custom_forces/law_set.hpp>
 
 namespace weft::bridge {
@@ -85,6 +86,12 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   [[nodiscard]] bool has_laws(const btSoftBody& body) const;
   /// Set once the body has exploded; it does not move any more.
   [[nodiscard]] std::optional<BodyBlowUp> blow_up(const btSoftBody& body) const;
+
+  /// Limits on the places of a body's nodes at the end of each of the following steps, until others
+  /// are set; empty limits end them. They act after btSoftBody::solveConstraints, and so after links
+  /// and contacts, and before damping (position_limits.hpp). Throws InvalidArgument for limits that do
+  /// not fit the body and for a body without attached laws.
+  void set_position_limits(btSoftBody& body, PositionLimits limits);
 
   /// Contact of the body with itself and with the others that have it too, see ClothContact. Made
   /// from the body's present shape as its rest shape; replaces what was set before. Bodies without

@@ -94,7 +94,9 @@ Bulge read_bulge(const TomlValue& value, const Cloth& cloth) {
           .radius = table.require("radius", expected_quantity("m")).positive("m")};
 }
 
-/// A grid takes every law that check_surface() lets pass; whether another mesh does, is tried.
+}  // namespace
+
+// A grid takes every law that check_surface() lets pass; whether another mesh does, is tried.
 void read_laws(const TomlTable& table, const World& world, Cloth& cloth) {
   const std::vector<TomlTable> entries = table.tables("law");
   std::optional<ClothMesh> mesh;
@@ -111,6 +113,8 @@ void read_laws(const TomlTable& table, const World& world, Cloth& cloth) {
     }
   }
 }
+
+namespace {
 
 void read_cloth_contact(const TomlTable& table, Cloth& cloth) {
   if (const auto value = table.find("self_collision")) cloth.self_collision = value->boolean();

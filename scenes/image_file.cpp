@@ -54,7 +54,8 @@ Image decode_jpeg(std::string_view bytes) {
   int subsampling = 0;
   int color_space = 0;
   if (tjDecompressHeader3(handle.get(), data, bytes.size(), &width, &height, &subsampling,
-                          &color_space) != 0) {
+                          &color_space) != 0 ||
+      width < 1 || height < 1) {
     throw Error(fmt::format("is no readable JPEG: {}", tjGetErrorStr2(handle.get())));
   }
   Image image = make_image(width, height);

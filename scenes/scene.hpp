@@ -12,6 +12,7 @@
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
 #include <weft/scenes/appearance.hpp>
+#include <weft/scenes/characters/character_settings.hpp>
 #include <weft/scenes/cloth_source.hpp>
 #include <weft/scenes/motion/path.hpp>
 #include <weft/scenes/shapes.hpp>
@@ -120,6 +121,8 @@ struct Collider {
   /// Leads the centre, absolute [m]; turns beyond orientation. The collider has no mass then and
   /// position is the path's at time 0.
   std::optional<Path> path = std::nullopt;
+  /// Name of the character whose bone leads the collider; empty: none.
+  std::string led_by = {};
 };
 
 /// How Bullet's classic soft-body world meets a mesh or a height field, which are not convex.
@@ -190,6 +193,7 @@ struct Scene {
   std::vector<Cloth> cloths;
   std::vector<Collider> colliders;
   std::vector<ControllerSettings> controllers = {};
+  std::vector<CharacterSettings> characters = {};
   BulletSettings bullet;
   ReferenceSettings reference;
   Camera camera;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/scenes/characters/character_controller.hpp>
 #include <weft/scenes/controllers/collider_path.hpp>
 #include <weft/scenes/controllers/pin_path.hpp>
 #include <weft/scenes/controllers/roll.hpp>
@@ -48,6 +49,9 @@ Director::Director(const Scene& scene, std::vector<std::shared_ptr<Controller>> 
   for (std::size_t k = 0; k < scene.colliders.size(); ++k) {
     if (!scene.colliders[k].path) continue;
     controllers_.push_back(std::make_shared<ColliderPathController>(scene.colliders[k], k));
+  }
+  for (const CharacterSettings& character : scene.characters) {
+    controllers_.push_back(std::make_shared<CharacterController>(character, scene));
   }
   for (const ControllerSettings& settings : scene.controllers) {
     controllers_.push_back(std::visit(MakeController{scene}, settings));

@@ -29,7 +29,7 @@ constexpr double kGrowthRatio = 0.002;
 constexpr double kVoxelRatio = 0.05;
 /// The same for the edges of a mesh's triangles: their fronts are flat, and only bends between them
 /// are rounded, by about a quarter of a voxel.
-constexpr double kMeshVoxelRatio = 0.15;
+constexpr double kMeshVoxelRatio = 0.25;
 constexpr double kLargestVoxel = 0.25;  ///< [m] Bullet's default
 
 btVector3 to_bullet(const Vector3<double>& v) {
@@ -187,7 +187,7 @@ BulletCollider make_bullet_collider(const Collider& collider, ConcaveContact con
     result.body->setLinearVelocity(to_bullet(collider.velocity));
     result.body->setAngularVelocity(to_bullet(collider.angular_velocity));
   }
-  if (collider.path) {
+  if (collider.path || !collider.led_by.empty()) {
     result.body->setCollisionFlags(result.body->getCollisionFlags() |
                                    btCollisionObject::CF_KINEMATIC_OBJECT);
   }

@@ -28,6 +28,7 @@ class BulletSimulator final : public Simulator {
   void add_cloth(const Cloth& cloth, const Scene& scene);
   [[nodiscard]] bridge::LinkSet link_set(const Cloth& cloth,
                                          const forces::LawSpecification& law) const;
+  void set_limits(const Steering& steering);
   [[nodiscard]] std::optional<BlowUp> find_blow_up() const;
 
   Tension tension_;
@@ -88,8 +89,17 @@ void BulletSimulator::add_cloth(const Cloth& cloth, const Scene& scene) {
                .margin = margin > 0 ? margin : 0.5 * *cloth.self_thickness,
                .friction = cloth.friction});
   }
+  // A skin is drawn only. Bullet would look each of its nodes up in the colliders' distance fields.
+  const auto* skin = std::get_if<SkinSource>(&cloth.source);
+  if (skin != nullptr && !skin->is_cloth) body.m_cfg.collisions = 0;
   world_->solver().attach(body, std::move(laws), mesh.masses.cast<btScalar>());
   bodies_.add(cloth, mesh, body);
+}
+
+void BulletSimulator::set_limits(const Steering& steering) {
+  for (std::size_t c = 0; c < bodies_.cloths().size(); ++c) {
+    world_->solver().set_position_limits(*bodies_.cloths()[c], steering.cloths[c].limits);
+  }
 }
 
 std::optional<BlowUp> BulletSimulator::find_blow_up() const {
@@ -115,6 +125,7 @@ StepReport BulletSimulator::step(double time_step) {
   const Steering* steering =
       director_.is_needed() ? &director_.steer(state(), report_.time) : nullptr;
   bodies_.begin_step(steering, report_.time_step);
+  if (steering) set_limits(*steering);
   world_->step(time_step);
   bodies_.end_step(steering, report_.time_step);
   report_.num_contacts = 0;

@@ -4,6 +4,7 @@
 
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
+#include <weft/scenes/characters/start_state.hpp>
 #include <weft/scenes/controllers/director.hpp>
 #include <weft/scenes/engines/blow_up_check.hpp>
 #include <weft/scenes/scene_words.hpp>
@@ -22,7 +23,7 @@ class ReferenceSimulator final : public Simulator {
 
  private:
   void begin_step(const Steering& steering, double time_step);
-  void end_step(const Steering& steering);
+  void end_step(const Steering& steering, double time_step);
   void read_state();
 
   LawFilter filter_;
@@ -44,8 +45,9 @@ reference::Body make_body(const Cloth& cloth, const LawFilter& filter) {
   for (const forces::LawSpecification& law : cloth.laws) {
     body.laws.add(filter(forces::make_law<double>(law, body.mesh)));
   }
-  body.positions = body.mesh.rest_positions;
-  body.velocities = cloth.velocity.replicate(1, body.mesh.num_nodes());
+  StartState start = start_state(cloth, body.mesh);
+  body.positions = std::move(start.positions);
+  body.velocities = std::move(start.velocities);
   body.collision_margin = cloth.collision_margin;
   body.friction = cloth.friction;
   return body;
@@ -141,10 +143,11 @@ void ReferenceSimulator::begin_step(const Steering& steering, double time_step) 
   }
 }
 
-void ReferenceSimulator::end_step(const Steering& steering) {
+void ReferenceSimulator::end_step(const Steering& steering, double time_step) {
   for (std::size_t c = 0; c < steering.cloths.size(); ++c) {
     const Matrix3X<double>& targets = steering.cloths[c].pinned_positions;
     if (targets.cols() > 0) solver_->place_pins(c, targets);
+    solver_->limit_positions(c, steering.cloths[c].limits, time_step);
   }
   for (std::size_t k = 0; k < steering.colliders.size(); ++k) {
     const auto& pose = steering.colliders[k];
@@ -175,7 +178,7 @@ StepReport ReferenceSimulator::step(double time_step) {
       director_.is_needed() ? &director_.steer(state_, solver_->time() + time_step) : nullptr;
   if (steering) begin_step(*steering, time_step);
   const reference::StepOutcome outcome = solver_->step(time_step);
-  if (steering) end_step(*steering);
+  if (steering) end_step(*steering, time_step);
   report_.step += 1;
   report_.time = solver_->time();
   report_.time_step = time_step;

@@ -40,9 +40,9 @@ TEST(Filmstrip, RefusesWhatMakesNoStrip) {
 }
 
 TEST(ContactSheet, WritesBelowEachPicture) {
-  const Image page = contact_sheet({{filled(160, 90, 128), "name", "some words below"}}, 4);
+  const Image page = contact_sheet({{filled(480, 270, 128), "name", "some words below"}}, 4);
   int dark_below = 0;
-  for (int row = 105; row < page.height; ++row) {
+  for (int row = 302; row < page.height; ++row) {
     for (int column = 0; column < page.width; ++column) {
       dark_below += pixel(page, column, row)[0] < 120 ? 1 : 0;
     }

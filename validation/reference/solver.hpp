@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <weft/custom_forces/core/position_limits.hpp>
 #include <weft/validation/reference/contact/contact_model.hpp>
 #include <weft/validation/reference/integrators/integrator.hpp>
 #include <weft/validation/reference/options.hpp>
@@ -50,6 +51,9 @@ class SpringSolver {
   void lead_pins(std::size_t body, ConstMatrix3XRef<double> targets, double time_step);
   /// After that step: puts them there exactly.
   void place_pins(std::size_t body, ConstMatrix3XRef<double> targets);
+  /// After that step, of time_step [s]: moves free nodes to where their limits allow them and adds the way
+  /// divided by time_step to their velocities. Throws InvalidArgument for limits that do not fit.
+  void limit_positions(std::size_t body, const PositionLimits& limits, double time_step);
   /// Sets Body::external_forces, 3 x n [N] or empty. Throws InvalidArgument for another size.
   void set_external_forces(std::size_t body, const Matrix3X<double>& forces);
   /// A collider without a mass reaches a place and an orientation in a step of time_step [s]. Throws
