@@ -69,9 +69,10 @@ double winding(const MeshShape& mesh, const Vector3<double>& point) {
   return angle / (4.0 * std::numbers::pi);
 }
 
-// A polyhedron of 100 sides lies up to R (1 - cos(pi / 100)) = 4.9e-4 R inside a round surface.
+// A polyhedron of 100 sides lies up to R (1 - cos(pi / 100)) = 4.9e-4 R inside a round
+// surface, where it is curved both ways twice that.
 constexpr int kDivisions = 100;
-constexpr double kRoundness = 6e-4;  // [m]
+constexpr double kRoundness = 1.1e-3;  // [m]
 
 TEST(ShapeDistance, IsTheDistanceToTheTrianglesOfTheSurface) {
   std::mt19937 random(4);
