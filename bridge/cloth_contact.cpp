@@ -176,6 +176,13 @@ ClothContact::ClothContact(const btSoftBody& body, const ClothContactSettings& s
   }
 }
 
+// What was near the whole node at rest is near both of its halves.
+void ClothContact::add_copies(const std::vector<int>& origins) {
+  for (const int origin : origins) {
+    near_at_rest_.push_back(std::vector<int>(near_at_rest_.at(static_cast<std::size_t>(origin))));
+  }
+}
+
 void ClothContact::add_self_contacts(btSoftBody& body, btScalar time_step) {
   if (!settings_.with_itself) return;
   const Rules rules{static_cast<btScalar>(settings_.self_thickness),

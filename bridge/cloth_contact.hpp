@@ -37,6 +37,8 @@ class ClothContact {
   ClothContact(const btSoftBody& body, const ClothContactSettings& settings);
 
   [[nodiscard]] const ClothContactSettings& settings() const { return settings_; }
+  /// Nodes of the body were split (tearing.hpp): origins are the nodes that those appended were.
+  void add_copies(const std::vector<int>& origins);
   /// Between btSoftBody::predictMotion and solveConstraints. time_step [s].
   void add_self_contacts(btSoftBody& body, btScalar time_step);
 

@@ -191,7 +191,7 @@ BulletCollider make_bullet_collider(const Collider& collider, ConcaveContact con
     result.body->setLinearVelocity(to_bullet(collider.velocity));
     result.body->setAngularVelocity(to_bullet(collider.angular_velocity));
   }
-  if (collider.path) {
+  if (collider.path || !collider.led_by.empty()) {
     result.body->setCollisionFlags(result.body->getCollisionFlags() |
                                    btCollisionObject::CF_KINEMATIC_OBJECT);
   }
