@@ -51,9 +51,10 @@ Action add_check_mesh_command(CLI::App& parser) {
   command->add_option("--scale", options->import.scale, "Metres per unit of the file (1)");
   command->add_option("--up", options->up, "Axis of the file that points up: y (default) or z")
       ->check(CLI::IsMember({"y", "z"}));
-  command->add_option("--weld", options->weld_tolerance,
-                      "Distance [m] within which vertices become one node "
-                      "(a millionth of the diagonal)")
+  command
+      ->add_option("--weld", options->weld_tolerance,
+                   "Distance [m] within which vertices become one node "
+                   "(a millionth of the diagonal)")
       ->check(CLI::NonNegativeNumber);
   return [options] { return check_meshes(*options); };
 }

@@ -16,6 +16,7 @@
 #include <weft/scenes/playback/renderer.hpp>
 #include <weft/scenes/quantity.hpp>
 #include <weft/scenes/recording/recording.hpp>
+#include <weft/scenes/torn_cloth.hpp>
 
 #include "apps/app.hpp"
 #include "apps/progress_bar.hpp"
@@ -54,8 +55,10 @@ std::vector<Eigen::VectorXd> strains_percent(const scenes::Scene& scene,
                                              const scenes::SceneState& state) {
   std::vector<Eigen::VectorXd> values;
   for (std::size_t c = 0; c < scene.cloths.size(); ++c) {
-    values.push_back(
-        100 * scenes::node_strain(scenes::make_mesh(scene.cloths[c]), state.cloths[c].positions));
+    const scenes::ClothState& cloth = state.cloths[c];
+    const ClothMesh mesh =
+        scenes::drawn_mesh(scenes::make_mesh(scene.cloths[c]), cloth.topology.get());
+    values.push_back(100 * scenes::node_strain(mesh, cloth.positions));
   }
   return values;
 }

@@ -1,10 +1,9 @@
 #include <weft/bridge/cloth_body.hpp>
 
 #include <cmath>
-#include <map>
 #include <utility>
 
-#include <weft/bridge/link_stiffness.hpp>
+#include <weft/bridge/cloth_links.hpp>
 #include <weft/custom_forces/core/error.hpp>
 
 namespace weft::bridge {
@@ -99,33 +98,6 @@ void configure(const ClothSettings& settings, btSoftBody& body) {
   body.getCollisionShape()->setMargin(static_cast<btScalar>(settings.collision_margin));
 }
 
-double inverse_mass(const btSoftBody& body, int node) {
-  return static_cast<double>(body.m_nodes[node].m_im);
-}
-
-void add_links(const ClothMesh& mesh, const ClothSettings& settings, btSoftBody& body) {
-  for (const LinkSet& set : settings.links) {
-    std::vector<std::string> names = set.edge_sets;
-    if (names.empty()) {
-      for (const EdgeSet& edge_set : mesh.edge_sets) names.push_back(edge_set.name);
-    }
-    const Edges edges = mesh.edges_of(names);
-    // Links between nodes of the same masses share a material: a grid has a handful.
-    std::map<double, btSoftBody::Material*> materials;
-    for (Eigen::Index e = 0; e < edges.cols(); ++e) {
-      const double inverse_sum = inverse_mass(body, edges(0, e)) + inverse_mass(body, edges(1, e));
-      if (inverse_sum == 0.0) continue;  // between two pinned nodes nothing can move
-      auto [entry, is_new] = materials.try_emplace(inverse_sum, nullptr);
-      if (is_new) {
-        entry->second = body.appendMaterial();
-        entry->second->m_kLST = static_cast<btScalar>(link_factor_from_stiffness(
-            set.stiffness, {1.0 / inverse_sum, settings.position_iterations, settings.time_step}));
-      }
-      body.appendLink(edges(0, e), edges(1, e), entry->second);
-    }
-  }
-}
-
 }  // namespace
 
 void set_pinned_velocities(const ClothMesh& mesh, btSoftBody& body) {
@@ -154,7 +126,7 @@ std::unique_ptr<btSoftBody> make_cloth_body(btSoftBodyWorldInfo& world_info, con
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     body->appendFace(mesh.triangles(0, t), mesh.triangles(1, t), mesh.triangles(2, t));
   }
-  add_links(mesh, settings, *body);
+  append_links(mesh, settings, *body);
   // Now, from the rest shape: Bullet would do it in the first step, from whatever shape the body
   // has by then.
   body->updateConstants();

@@ -18,7 +18,7 @@ using Face = btSoftBody::Face;
 /// that bend away from each other it would be over none.
 constexpr btScalar kOverlap = btScalar(0.1);
 /// How fast layers that are closer than their thickness part, while they are pressed together [1/s].
-constexpr btScalar kRecoveryRate = 20;
+constexpr btScalar kRecoveryRate = 5;
 
 struct Rules {
   btScalar thickness;  // [m]
@@ -173,6 +173,13 @@ ClothContact::ClothContact(const btSoftBody& body, const ClothContactSettings& s
         near_at_rest_[static_cast<std::size_t>(i)].push_back(f);
       }
     }
+  }
+}
+
+// What was near the whole node at rest is near both of its halves.
+void ClothContact::add_copies(const std::vector<int>& origins) {
+  for (const int origin : origins) {
+    near_at_rest_.push_back(std::vector<int>(near_at_rest_.at(static_cast<std::size_t>(origin))));
   }
 }
 

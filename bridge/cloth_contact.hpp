@@ -23,9 +23,10 @@ struct ClothContactSettings {
 /// Contact of cloth with cloth: nodes against faces, found here and solved by Bullet.
 ///
 /// Bullet's own (VF_SS) leaves a body's own faces out, takes the side from where the step would end,
-/// so that a node that has passed a face is drawn through, and demands twice the way of the step on
-/// top of the margin, which throws cloths apart. Here the side is that of the start of the step, and
-/// a contact takes away the approach, and what is left of the thickness slowly. It goes into
+/// and solves one body after the other, so that what a later body gives an earlier one moves it and
+/// is lost: of two free cloths that meet, a tenth of the momentum is left. Here the side is that of
+/// the start of the step, a contact takes away the approach, and what is left of the thickness
+/// slowly, and SoftBodySolver derives all velocities once all are solved. It goes into
 /// btSoftBody::m_scontacts, so that Bullet's own iterations solve it together with its links.
 /// Edges against edges are not looked at: let the thickness be half the spacing of the nodes or
 /// more.
@@ -36,6 +37,8 @@ class ClothContact {
   ClothContact(const btSoftBody& body, const ClothContactSettings& settings);
 
   [[nodiscard]] const ClothContactSettings& settings() const { return settings_; }
+  /// Nodes of the body were split (tearing.hpp): origins are the nodes that those appended were.
+  void add_copies(const std::vector<int>& origins);
   /// Between btSoftBody::predictMotion and solveConstraints. time_step [s].
   void add_self_contacts(btSoftBody& body, btScalar time_step);
 

@@ -7,6 +7,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/node_state.hpp>
+#include <weft/bridge/position_limits.hpp>
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/trace.hpp>
 #include <weft/custom_forces/deferred_forces.hpp>
@@ -29,6 +30,7 @@ struct SoftBodySolver::Attachment {
   Matrix3X<btScalar> velocities;
   Matrix3X<btScalar> forces;
   std::optional<BodyBlowUp> blow_up;
+  PositionLimits limits;
   bool was_in_world = false;
   double time = 0.0;  // [s] of the steps since the body was attached
 
@@ -174,6 +176,29 @@ void SoftBodySolver::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> mas
   attachments_->list.push_back(std::move(attachment));
 }
 
+// An attachment of its own is checked first, so that laws that do not fit leave all as it was.
+void SoftBodySolver::replace_laws(btSoftBody& body, LawSet laws, VectorX<btScalar> masses) {
+  Attachment* const old = find(body);
+  if (!old) {
+    throw InvalidArgument("soft body solver: the body has no laws, expected attach() first");
+  }
+  check_attachment("soft body solver", body, masses);
+  auto attachment = std::make_unique<Attachment>();
+  attachment->body = &body;
+  attachment->laws = std::move(laws);
+  attachment->masses = std::move(masses);
+  attachment->damping = old->damping;
+  attachment->blow_up = old->blow_up;
+  attachment->was_in_world = old->was_in_world;
+  attachment->time = old->time;
+  attachment->check_laws();
+  const bool was_begun = old->deferred.is_in_flight();
+  for (auto& entry : attachments_->list) {
+    if (entry.get() == old) entry = std::move(attachment);
+  }
+  if (was_begun && !is_frozen(body)) find(body)->begin_forces();
+}
+
 void SoftBodySolver::detach(btSoftBody& body) {
   auto& list = attachments_->list;
   list.erase(std::remove_if(list.begin(), list.end(),
@@ -181,11 +206,24 @@ void SoftBodySolver::detach(btSoftBody& body) {
              list.end());
 }
 
+void SoftBodySolver::set_position_limits(btSoftBody& body, PositionLimits limits) {
+  Attachment* attachment = find(body);
+  if (!attachment) {
+    throw InvalidArgument(
+        "soft body solver: limits for a body without laws, expected attach() first");
+  }
+  check_position_limits(limits, body.m_nodes.size());
+  attachment->limits = std::move(limits);
+}
+
 void SoftBodySolver::set_cloth_contact(btSoftBody& body, const ClothContactSettings& settings) {
   auto entry = std::make_unique<ContactEntry>(ContactEntry{&body, ClothContact(body, settings)});
   auto& list = attachments_->contacts;
   std::erase_if(list, [&](const auto& known) { return known->body == &body; });
   list.push_back(std::move(entry));
+  // Last in every iteration: links that are solved after a contact pull layers into each other.
+  body.m_cfg.m_psequence.remove(btSoftBody::ePSolver::SContacts);
+  body.m_cfg.m_psequence.push_back(btSoftBody::ePSolver::SContacts);
 }
 
 ClothContact* SoftBodySolver::find_contact(const btSoftBody& body) const {
@@ -193,6 +231,10 @@ ClothContact* SoftBodySolver::find_contact(const btSoftBody& body) const {
     if (entry->body == &body) return &entry->contact;
   }
   return nullptr;
+}
+
+void SoftBodySolver::add_copies(const btSoftBody& body, const std::vector<int>& origins) {
+  if (ClothContact* contact = find_contact(body)) contact->add_copies(origins);
 }
 
 void SoftBodySolver::set_deferred(bool is_deferred) {
@@ -253,7 +295,10 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
     if (!body.isActive() || is_frozen(body)) continue;
-    if (Attachment* attachment = find(body)) attachment->damp_velocities(time_step_);
+    Attachment* attachment = find(body);
+    if (!attachment) continue;
+    apply_position_limits(attachment->limits, static_cast<double>(time_step_), body);
+    attachment->damp_velocities(time_step_);
   }
   for (const auto& attachment : attachments_->list) {
     if (attachment->was_in_world) attachment->time += static_cast<double>(time_step_);

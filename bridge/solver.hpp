@@ -11,6 +11,7 @@
 #include <weft/bridge/cloth_contact.hpp>
 #include <weft/bridge/law_attachment.hpp>
 #include <weft/custom_forces/core/cloth_mesh.hpp>
+#include <weft/custom_forces/core/position_limits.hpp>
 #include <weft/custom_forces/law_set.hpp>
 
 namespace weft::bridge {
@@ -76,15 +77,27 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   /// masses: n [kg], > 0, those of pinned nodes too (Bullet itself only knows that they do not move).
   /// Throws InvalidArgument if masses or laws do not fit the body's nodes, if laws are attached
   /// already, and for a body whose m_cfg.timescale is not 1: laws and Bullet would live in two times.
-  /// The body must not gain or lose nodes while laws are attached.
+  /// The body must not gain or lose nodes while laws are attached, but as replace_laws() says.
   void attach(btSoftBody& body, forces::LawSet<btScalar> laws, VectorX<btScalar> masses,
               DampingPlace damping = DampingPlace::kAutomatic);
   /// Back to plain Bullet. Call before deleting a body that never was in a stepped world. Does
   /// nothing if no laws are attached.
   void detach(btSoftBody& body);
+  /// Nodes were appended to a body, copies of these: its contact with cloth knows them from now on.
+  void add_copies(const btSoftBody& body, const std::vector<int>& origins);
+  /// Other laws for a body that has laws, and that may have gained nodes since (tearing.hpp). Its
+  /// time goes on; where its damping acts stays. Throws InvalidArgument as attach(), and then
+  /// nothing has changed; also for a body without laws.
+  void replace_laws(btSoftBody& body, forces::LawSet<btScalar> laws, VectorX<btScalar> masses);
   [[nodiscard]] bool has_laws(const btSoftBody& body) const;
   /// Set once the body has exploded; it does not move any more.
   [[nodiscard]] std::optional<BodyBlowUp> blow_up(const btSoftBody& body) const;
+
+  /// Limits on the places of a body's nodes at the end of each of the following steps, until others
+  /// are set; empty limits end them. They act after btSoftBody::solveConstraints, and so after links
+  /// and contacts, and before damping (position_limits.hpp). Throws InvalidArgument for limits that do
+  /// not fit the body and for a body without attached laws.
+  void set_position_limits(btSoftBody& body, PositionLimits limits);
 
   /// Contact of the body with itself and with the others that have it too, see ClothContact. Made
   /// from the body's present shape as its rest shape; replaces what was set before. Bodies without

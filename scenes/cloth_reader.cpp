@@ -13,10 +13,19 @@
 namespace weft::scenes {
 namespace {
 
-constexpr std::array<std::string_view, 12> kClothKeys = {
-    "bulge",          "name",          "collision_margin", "friction", "law",
-    "velocity",       "pin",           "connection",       "region",   "self_collision",
-    "self_thickness", "soft_collision"};
+constexpr std::array<std::string_view, 13> kClothKeys = {"bulge",
+                                                         "name",
+                                                         "collision_margin",
+                                                         "friction",
+                                                         "law",
+                                                         "velocity",
+                                                         "pin",
+                                                         "connection",
+                                                         "region",
+                                                         "self_collision",
+                                                         "self_thickness",
+                                                         "soft_collision",
+                                                         "tear"};
 constexpr std::array<std::string_view, 3> kRegionKeys = {"name", "nodes", "springs"};
 constexpr std::array<std::string_view, 3> kConnectionKeys = {"name", "node", "to"};
 
@@ -94,7 +103,9 @@ Bulge read_bulge(const TomlValue& value, const Cloth& cloth) {
           .radius = table.require("radius", expected_quantity("m")).positive("m")};
 }
 
-/// A grid takes every law that check_surface() lets pass; whether another mesh does, is tried.
+}  // namespace
+
+// A grid takes every law that check_surface() lets pass; whether another mesh does, is tried.
 void read_laws(const TomlTable& table, const World& world, Cloth& cloth) {
   const std::vector<TomlTable> entries = table.tables("law");
   std::optional<ClothMesh> mesh;
@@ -111,6 +122,8 @@ void read_laws(const TomlTable& table, const World& world, Cloth& cloth) {
     }
   }
 }
+
+namespace {
 
 void read_cloth_contact(const TomlTable& table, Cloth& cloth) {
   if (const auto value = table.find("self_collision")) cloth.self_collision = value->boolean();
@@ -148,6 +161,7 @@ Cloth read_cloth(const TomlTable& table, const World& world) {
   }
   if (const auto value = table.find("region")) cloth.regions = read_regions(*value, cloth);
   read_laws(table, world, cloth);
+  if (const auto value = table.find("tear")) cloth.tear = read_tear(*value, cloth);
   cloth.appearance = read_appearance(table);
   return cloth;
 }

@@ -17,6 +17,10 @@ int count_nodes(const Rope& rope) {
   return rope.nodes;
 }
 
+int count_nodes(const SkinSource& skin) {
+  return static_cast<int>(skin.part->positions.cols());
+}
+
 int count_nodes(const MeshBody& body) {
   return static_cast<int>(body.shape->surface.positions.cols()) + (body.center_mass_share ? 1 : 0);
 }
@@ -31,6 +35,10 @@ ClothMesh build(const Icosphere& sphere) {
 
 ClothMesh build(const Rope& rope) {
   return make_rope(rope);
+}
+
+ClothMesh build(const SkinSource& skin) {
+  return make_skin_mesh(skin);
 }
 
 ClothMesh build(const MeshBody& body) {
@@ -54,6 +62,11 @@ double size_of(const Rope& rope) {
   return (rope.end - rope.start).norm();
 }
 
+double size_of(const SkinSource& skin) {
+  const Matrix3X<double> places = rest_positions(skin);
+  return (places.rowwise().maxCoeff() - places.rowwise().minCoeff()).maxCoeff();
+}
+
 double size_of(const MeshBody& body) {
   const Matrix3X<double>& positions = body.shape->surface.positions;
   return (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).norm();
@@ -74,6 +87,10 @@ Rope smallest(const Rope&) {
   return {};
 }
 
+Icosphere smallest(const SkinSource&) {
+  return {.frequency = 1};
+}
+
 Icosphere smallest(const MeshBody& body) {
   return {.frequency = 1, .center_mass_share = body.center_mass_share};
 }
@@ -88,6 +105,10 @@ std::string name_of(const Icosphere&) {
 
 std::string name_of(const Rope&) {
   return "a rope";
+}
+
+std::string name_of(const SkinSource&) {
+  return "a part of a character";
 }
 
 std::string name_of(const MeshBody&) {

@@ -10,6 +10,7 @@
 #include <weft/custom_forces/core/rope.hpp>
 #include <weft/custom_forces/core/surface_body.hpp>
 #include <weft/custom_forces/law_info.hpp>
+#include <weft/scenes/characters/skin_source.hpp>
 #include <weft/scenes/import/import_mesh.hpp>
 
 namespace weft::scenes {
@@ -30,7 +31,7 @@ struct MeshBody {
 };
 
 /// Where the nodes and triangles of a body come from. Each has total_mass and lumping.
-using ClothSource = std::variant<ClothGrid, Icosphere, Rope, MeshBody>;
+using ClothSource = std::variant<ClothGrid, Icosphere, Rope, MeshBody, SkinSource>;
 
 /// Number of nodes of the mesh that make_source_mesh() builds, without building it.
 [[nodiscard]] int num_nodes(const ClothSource& source);

@@ -156,6 +156,9 @@ double measure(const ClothGrid& grid) {
 double measure(const Icosphere& sphere) {
   return surface_area(sphere);
 }
+double measure(const SkinSource& skin) {
+  return skin_area(skin);
+}
 double measure(const Rope& rope) {
   return (rope.end - rope.start).norm();
 }

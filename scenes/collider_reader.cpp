@@ -85,11 +85,12 @@ void read_motion(const TomlTable& table, Collider& collider) {
 
 }  // namespace
 
-Collider read_collider(const TomlTable& table) {
+Collider read_collider(const TomlTable& table, Keys more) {
   Collider collider;
   std::vector<std::string_view> keys = {"name",     "shape", "position", "orientation",
                                         "friction", "mass",  "velocity", "angular_velocity",
                                         "path"};
+  keys.insert(keys.end(), more.begin(), more.end());
   keys.insert(keys.end(), kColliderAppearanceKeys.begin(), kColliderAppearanceKeys.end());
   collider.shape = read_shape(table, keys);
   collider.name = table.require("name", "a name such as \"ball\"").identifier();

@@ -12,7 +12,9 @@
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
 #include <weft/scenes/appearance.hpp>
+#include <weft/scenes/characters/character_settings.hpp>
 #include <weft/scenes/cloth_source.hpp>
+#include <weft/scenes/cloth_tear.hpp>
 #include <weft/scenes/motion/path.hpp>
 #include <weft/scenes/shapes.hpp>
 
@@ -95,6 +97,7 @@ struct Cloth {
   double friction =
       0.5;  ///< Coulomb coefficient of the cloth [-]; with a collider: the product of both
   std::vector<forces::LawSpecification> laws;
+  std::optional<ClothTear> tear = std::nullopt;  ///< none: it never tears
   bool self_collision = false;
   /// [m] distance that layers of the cloth keep, > 0; none: twice collision_margin
   std::optional<double> self_thickness = std::nullopt;
@@ -120,6 +123,8 @@ struct Collider {
   /// Leads the centre, absolute [m]; turns beyond orientation. The collider has no mass then and
   /// position is the path's at time 0.
   std::optional<Path> path = std::nullopt;
+  /// Name of the character whose bone leads the collider; empty: none.
+  std::string led_by = {};
 };
 
 /// How Bullet's classic soft-body world meets a mesh or a height field, which are not convex.
@@ -190,6 +195,7 @@ struct Scene {
   std::vector<Cloth> cloths;
   std::vector<Collider> colliders;
   std::vector<ControllerSettings> controllers = {};
+  std::vector<CharacterSettings> characters = {};
   BulletSettings bullet;
   ReferenceSettings reference;
   Camera camera;

@@ -21,9 +21,9 @@ constexpr int kMaxPositionIterations = 100'000;
 /// rounding of both, and after kMaxSteps steps the recording is still only 1/100 of a step off.
 constexpr double kWholeStepTolerance = 1e-9;
 
-constexpr std::array<std::string_view, 11> kRootKeys = {
-    "schema",   "name",       "summary", "engines",   "world", "cloth",
-    "collider", "controller", "bullet",  "reference", "camera"};
+constexpr std::array<std::string_view, 12> kRootKeys = {
+    "character", "schema",   "name",       "summary", "engines",   "world",
+    "cloth",     "collider", "controller", "bullet",  "reference", "camera"};
 constexpr std::array<std::string_view, 4> kWorldKeys = {"gravity", "time_step", "duration",
                                                         "frame_interval"};
 constexpr std::array<std::string_view, 2> kBulletKeys = {"position_iterations", "concave"};
@@ -141,6 +141,23 @@ Camera read_camera(const TomlTable& table, const Scene& scene) {
   return camera;
 }
 
+/// After the cloths, so that theirs come after these; names: of all bodies.
+void read_characters(const TomlTable& root, std::set<std::string>& names, Scene& scene) {
+  for (const TomlTable& table : root.tables("character")) {
+    const std::size_t first_cloth = scene.cloths.size();
+    const std::size_t first_collider = scene.colliders.size();
+    read_character(table, scene);
+    const auto claim = [&](const std::string& name) {
+      if (names.insert(name).second) return;
+      table.fail("has a body '" + name + "', but another body has this name, expected its own");
+    };
+    for (std::size_t c = first_cloth; c < scene.cloths.size(); ++c) claim(scene.cloths[c].name);
+    for (std::size_t k = first_collider; k < scene.colliders.size(); ++k) {
+      claim(scene.colliders[k].name);
+    }
+  }
+}
+
 void read_bodies(const TomlTable& root, Scene& scene) {
   std::set<std::string> names;
   const auto claim = [&](const TomlTable& table, const std::string& name) {
@@ -158,6 +175,7 @@ void read_bodies(const TomlTable& root, Scene& scene) {
                              kMaxNodes));
     }
   }
+  read_characters(root, names, scene);
   if (scene.cloths.empty()) root.fail("no cloth, expected at least one table [[cloth]]");
   for (const TomlTable& table : root.tables("collider")) {
     scene.colliders.push_back(read_collider(table));

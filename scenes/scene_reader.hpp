@@ -15,7 +15,12 @@ inline constexpr int kMaxNodes = 1'000'000;   ///< of all cloths together
 [[nodiscard]] Scene read_scene(const TomlTable& root, const FileSource& files);
 [[nodiscard]] World read_world(const TomlTable& table);
 [[nodiscard]] Cloth read_cloth(const TomlTable& table, const World& world);
-[[nodiscard]] Collider read_collider(const TomlTable& table);
+/// more: further keys that the table may have.
+[[nodiscard]] Collider read_collider(const TomlTable& table, Keys more = {});
+/// The laws of a cloth whose source and pins are known.
+void read_laws(const TomlTable& table, const World& world, Cloth& cloth);
+/// Adds the character, its cloths, skins and colliders to a scene whose world is known.
+void read_character(const TomlTable& table, Scene& scene);
 /// Keys of a cloth that say where its nodes come from and what they weigh: those of the source that
 /// the table names.
 [[nodiscard]] std::vector<std::string_view> cloth_source_keys(const TomlTable& table);
@@ -32,6 +37,8 @@ inline constexpr int kMaxNodes = 1'000'000;   ///< of all cloths together
 /// acceleration.
 [[nodiscard]] forces::LawSpecification read_law(const TomlTable& table, const Cloth& cloth,
                                                 const World& world);
+/// cloth: its regions may be weak, and its laws must allow a tear.
+[[nodiscard]] ClothTear read_tear(const TomlValue& value, const Cloth& cloth);
 [[nodiscard]] Path read_path(const TomlValue& value);
 /// scene: its cloths say which there are.
 [[nodiscard]] ControllerSettings read_controller(const TomlTable& table, const Scene& scene);

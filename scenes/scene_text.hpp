@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include <weft/scenes/cloth_source.hpp>
+#include <weft/scenes/scene.hpp>
 #include <weft/scenes/toml_text.hpp>
 
 namespace weft::scenes {
@@ -29,5 +29,14 @@ template <class Words, class Enum>
 
 /// Adds the lines of a cloth that say where its nodes come from and what they weigh.
 void write_source(std::string& out, const ClothSource& source);
+
+/// Adds a law as a table of this path, "cloth.law".
+void write_law(std::string& out, std::string_view path, const forces::LawSpecification& law);
+
+/// Adds the keys of a collider, without its header.
+void write_collider_keys(std::string& out, const Collider& collider);
+
+/// Adds a character with the cloths and colliders of the scene that belong to it.
+void write_character(std::string& out, const CharacterSettings& settings, const Scene& scene);
 
 }  // namespace weft::scenes

@@ -30,4 +30,6 @@ inline constexpr std::array<std::string_view, 4> kEdgeWords = {"-u", "+u", "-v",
 inline constexpr std::array<std::string_view, 3> kFollowWords = {"fixed", "heading", "banked"};
 inline constexpr std::array<std::string_view, 2> kControllerWords = {"seek", "roll"};
 
+inline constexpr std::array<std::string_view, 4> kChannelWords = {"red", "green", "blue", "alpha"};
+
 }  // namespace weft::scenes

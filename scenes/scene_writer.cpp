@@ -109,12 +109,31 @@ std::string connection_text(const Connection& connection) {
                      connection.to.empty() ? "" : ", to = " + pins_text(connection.to));
 }
 
-void write_law(std::string& out, const forces::LawSpecification& law) {
+std::string tear_text(const ClothTear& tear) {
+  std::string weak;
+  for (const WeakRegion& region : tear.rule.weak) {
+    weak += fmt::format("{}{{ region = {}, strain = {} }}", weak.empty() ? "" : ", ",
+                        toml_string(region.node_set), value_text(region.strain, "1"));
+  }
+  std::string cuts;
+  for (const Blade& cut : tear.cuts) {
+    cuts += fmt::format("{}{{ from = {}, to = {}, depth = {} }}", cuts.empty() ? "" : ", ",
+                        vector_text(cut.from, "m"), vector_text(cut.to, "m"),
+                        vector_text(cut.depth, "m"));
+  }
+  return fmt::format("{{ strain = {}, variation = {}, max_splits = {}, weak = [{}], cut = [{}] }}",
+                     value_text(tear.rule.strain, "1"), value_text(tear.rule.variation, "1"),
+                     tear.rule.max_splits, weak, cuts);
+}
+
+}  // namespace
+
+void write_law(std::string& out, std::string_view path, const forces::LawSpecification& law) {
   const forces::LawInfo* info = forces::find_law(law.law);
   if (info == nullptr) {
     throw InvalidArgument("write_scene: law = '" + law.law + "', expected a registered law");
   }
-  out += "\n[[cloth.law]]\n";
+  out += fmt::format("\n[[{}]]\n", path);
   line(out, "law", toml_string(law.law));
   if (!law.sets.empty()) {
     std::string sets;
@@ -131,6 +150,8 @@ void write_law(std::string& out, const forces::LawSpecification& law) {
             : value_text(values.at(0), parameter.unit));
   }
 }
+
+namespace {
 
 void write_cloth(std::string& out, const Cloth& cloth) {
   out += "\n[[cloth]]\n";
@@ -164,12 +185,14 @@ void write_cloth(std::string& out, const Cloth& cloth) {
     }
     line(out, "region", "[" + regions + "]");
   }
+  if (cloth.tear) line(out, "tear", tear_text(*cloth.tear));
   out += write_appearance(cloth.appearance);
-  for (const forces::LawSpecification& law : cloth.laws) write_law(out, law);
+  for (const forces::LawSpecification& law : cloth.laws) write_law(out, "cloth.law", law);
 }
 
-void write_collider(std::string& out, const Collider& collider) {
-  out += "\n[[collider]]\n";
+}  // namespace
+
+void write_collider_keys(std::string& out, const Collider& collider) {
   line(out, "name", toml_string(collider.name));
   out += shape_text(collider.shape);
   if (collider.path) {
@@ -185,6 +208,8 @@ void write_collider(std::string& out, const Collider& collider) {
   line(out, "velocity", vector_text(collider.velocity, "m/s"));
   line(out, "angular_velocity", vector_text(collider.angular_velocity, "rad/s"));
 }
+
+namespace {
 
 void write_controller(std::string& out, const Seek& seek) {
   line(out, "kind", toml_string("seek"));
@@ -245,8 +270,17 @@ std::string write_scene(const Scene& scene) {
   line(out, "time_step", value_text(scene.world.time_step, "s"));
   line(out, "duration", value_text(scene.world.duration, "s"));
   line(out, "frame_interval", value_text(scene.world.frame_interval, "s"));
-  for (const Cloth& cloth : scene.cloths) write_cloth(out, cloth);
-  for (const Collider& collider : scene.colliders) write_collider(out, collider);
+  for (const Cloth& cloth : scene.cloths) {
+    if (!std::holds_alternative<SkinSource>(cloth.source)) write_cloth(out, cloth);
+  }
+  for (const CharacterSettings& character : scene.characters) {
+    write_character(out, character, scene);
+  }
+  for (const Collider& collider : scene.colliders) {
+    if (!collider.led_by.empty()) continue;
+    out += "\n[[collider]]\n";
+    write_collider_keys(out, collider);
+  }
   for (const ControllerSettings& settings : scene.controllers) {
     out += "\n[[controller]]\n";
     std::visit([&](const auto& controller) { write_controller(out, controller); }, settings);

@@ -38,6 +38,9 @@ struct ClothState {
   std::string name;
   Matrix3X<double> positions;   ///< 3 x n [m]
   Matrix3X<double> velocities;  ///< 3 x n [m/s]
+  /// Set once the cloth is torn: it then has more nodes than its mesh. The same object for as long
+  /// as nothing more tears.
+  std::shared_ptr<const ClothTopology> topology = nullptr;
 };
 
 struct RigidState {

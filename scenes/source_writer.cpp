@@ -36,6 +36,9 @@ void write_geometry(std::string& out, const Rope& rope) {
                    vector_text(rope.start, "m"), vector_text(rope.end, "m")));
 }
 
+/// The character says it.
+void write_geometry(std::string&, const SkinSource&) {}
+
 void write_geometry(std::string& out, const MeshBody& body) {
   line(out, "mesh",
        fmt::format("{{ data = \"{}\", {} }}", mesh_text(body.shape->surface),

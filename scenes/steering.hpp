@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include <weft/custom_forces/core/position_limits.hpp>
 #include <weft/custom_forces/core/types.hpp>
 #include <weft/scenes/motion/pose.hpp>
 #include <weft/scenes/simulator.hpp>
@@ -17,6 +18,8 @@ struct ClothSteering {
   Matrix3X<double> pinned_positions;
   /// Forces beside those of the laws, 3 x n [N], constant over the step. Empty: none.
   Matrix3X<double> node_forces;
+  /// Where the free nodes may be at the end of the step. Empty: anywhere.
+  PositionLimits limits;
 };
 
 /// What shall happen in the step that begins, in the order of the scene's cloths and colliders.

@@ -60,6 +60,9 @@ class TomlTable {
   TomlTable(const std::string& file, std::string path, const toml::table& table)
       : file_(&file), path_(std::move(path)), table_(&table) {}
 
+  /// Name of the text that the table is from.
+  [[nodiscard]] const std::string& file() const { return *file_; }
+
   /// "path: message" at the start of the table.
   [[noreturn]] void fail(const std::string& message) const;
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 
-_SCENES = {"custom_forces", "scenes", "scenes/import", "scenes/recording", "scenes/playback"}
+_SCENES = {"custom_forces", "characters", "scenes", "scenes/import", "scenes/recording", "scenes/playback"}
 _ENGINES = _SCENES | {"bridge", "validation/reference", "scenes/engines"}
 _ALL = _ENGINES | {"validation", "validation/metrics", "validation/report"}
 
@@ -20,9 +20,10 @@ MAY_INCLUDE = {
     "custom_forces": {"custom_forces"},
     "bridge": {"bridge", "custom_forces"},
     "validation/reference": {"validation/reference", "custom_forces"},
-    "scenes": {"scenes", "scenes/import", "custom_forces"},
+    "characters": {"characters", "custom_forces"},
+    "scenes": {"scenes", "characters", "scenes/import", "custom_forces"},
     "scenes/import": {"scenes/import", "custom_forces"},
-    "scenes/recording": {"scenes/recording", "scenes", "scenes/import", "custom_forces"},
+    "scenes/recording": {"scenes/recording", "scenes", "characters", "scenes/import", "custom_forces"},
     "scenes/playback": _SCENES,
     "scenes/engines": _ENGINES,
     "validation/metrics": _SCENES | {"validation/metrics"},

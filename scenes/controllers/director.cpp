@@ -1,8 +1,10 @@
 #include <weft/scenes/controllers/director.hpp>
 
+#include <algorithm>
 #include <utility>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/scenes/characters/character_controller.hpp>
 #include <weft/scenes/controllers/collider_path.hpp>
 #include <weft/scenes/controllers/pin_path.hpp>
 #include <weft/scenes/controllers/roll.hpp>
@@ -34,6 +36,10 @@ struct MakeController {
   }
   std::shared_ptr<Controller> operator()(const Roll& roll) const {
     const std::size_t cloth = cloth_index(scene, roll.cloth);
+    if (scene.cloths[cloth].tear) {
+      throw InvalidArgument("controller: roll: cloth '" + roll.cloth +
+                            "' tears, expected one that does not");
+    }
     return std::make_shared<RollController>(roll, cloth, make_mesh(scene.cloths[cloth]));
   }
 };
@@ -49,16 +55,38 @@ Director::Director(const Scene& scene, std::vector<std::shared_ptr<Controller>> 
     if (!scene.colliders[k].path) continue;
     controllers_.push_back(std::make_shared<ColliderPathController>(scene.colliders[k], k));
   }
+  for (const CharacterSettings& character : scene.characters) {
+    controllers_.push_back(std::make_shared<CharacterController>(character, scene));
+  }
   for (const ControllerSettings& settings : scene.controllers) {
     controllers_.push_back(std::visit(MakeController{scene}, settings));
   }
   for (auto& controller : added) controllers_.push_back(std::move(controller));
+  for (const Cloth& cloth : scene.cloths) {
+    pinned_.push_back(is_needed() && cloth.tear ? make_mesh(cloth).pinned : std::vector<int>());
+  }
+}
+
+/// A pinned node that was split is led alike in both its places: its copies follow in the order in
+/// which they were made, as in the torn mesh.
+void Director::lead_copies(const SceneState& state) {
+  for (std::size_t c = 0; c < state.cloths.size(); ++c) {
+    Matrix3X<double>& positions = steering_.cloths[c].pinned_positions;
+    if (!state.cloths[c].topology || positions.cols() != std::ssize(pinned_[c])) continue;
+    for (const int origin : state.cloths[c].topology->origins) {
+      const auto found = std::lower_bound(pinned_[c].begin(), pinned_[c].end(), origin);
+      if (found == pinned_[c].end() || *found != origin) continue;
+      positions.conservativeResize(3, positions.cols() + 1);
+      positions.rightCols(1) = positions.col(found - pinned_[c].begin()).eval();
+    }
+  }
 }
 
 const Steering& Director::steer(const SceneState& state, double end_time) {
   steering_.cloths.assign(state.cloths.size(), {});
   steering_.colliders.assign(state.rigids.size(), {});
   for (const auto& controller : controllers_) controller->steer(state, end_time, steering_);
+  lead_copies(state);
   return steering_;
 }
 

@@ -25,7 +25,10 @@ class Director {
   [[nodiscard]] const Steering& steer(const SceneState& state, double end_time);
 
  private:
+  void lead_copies(const SceneState& state);
+
   std::vector<std::shared_ptr<Controller>> controllers_;
+  std::vector<std::vector<int>> pinned_;  ///< of each cloth's mesh, before it tears
   Steering steering_;
 };
 

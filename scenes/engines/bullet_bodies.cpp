@@ -6,6 +6,7 @@
 #include <weft/bridge/node_state.hpp>
 #include <weft/bridge/pinned_nodes.hpp>
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/scenes/characters/start_state.hpp>
 #include <weft/scenes/engines/bullet_shapes.hpp>
 
 namespace weft::scenes {
@@ -30,10 +31,14 @@ void lead_collider(const Pose& pose, const Vector3<double>& offset, btRigidBody&
 }  // namespace
 
 void BulletBodies::add(const Cloth& cloth, const ClothMesh& mesh, btSoftBody& body) {
-  const Vector3<btScalar> velocity = cloth.velocity.cast<btScalar>();
+  const StartState start = start_state(cloth, mesh);
   for (int i = 0; i < body.m_nodes.size(); ++i) {
     btSoftBody::Node& node = body.m_nodes[i];
+    const Vector3<btScalar> place = start.positions.col(i).cast<btScalar>();
+    node.m_x.setValue(place[0], place[1], place[2]);
+    node.m_q = node.m_x;
     if (node.m_im == 0) continue;
+    const Vector3<btScalar> velocity = start.velocities.col(i).cast<btScalar>();
     node.m_v.setValue(velocity[0], velocity[1], velocity[2]);
     node.m_vn = node.m_v;  // an implicit step of the deformable world starts from this one
   }
@@ -50,6 +55,13 @@ void BulletBodies::add(const Collider& collider, btRigidBody& body) {
   RigidState state;
   state.name = collider.name;
   state_.rigids.push_back(std::move(state));
+}
+
+void BulletBodies::set_torn(std::size_t cloth, const ClothMesh& mesh,
+                            std::shared_ptr<const ClothTopology> topology) {
+  steered_[cloth].pinned = mesh.pinned;
+  steered_[cloth].pinned_velocities = mesh.pinned_velocities;
+  state_.cloths[cloth].topology = std::move(topology);
 }
 
 void BulletBodies::begin_step(const Steering* steering, double time_step) {

@@ -17,6 +17,9 @@ class BulletBodies {
   /// mesh and body are the cloth's; its free nodes get the cloth's initial velocity.
   void add(const Cloth& cloth, const ClothMesh& mesh, btSoftBody& body);
   void add(const Collider& collider, btRigidBody& body);
+  /// A cloth that has torn: nodes of its body were split, and with them its pins.
+  void set_torn(std::size_t cloth, const ClothMesh& mesh,
+                std::shared_ptr<const ClothTopology> topology);
   /// Before every step: pins move as the mesh says, or as steering does; so do colliders that are
   /// led, and the forces of controllers are added. steering may be nullptr. time_step [s] is that
   /// which Bullet takes.

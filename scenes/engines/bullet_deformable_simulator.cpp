@@ -53,6 +53,11 @@ void DeformableSimulator::load(const Scene& scene) {
 
 void DeformableSimulator::add_cloth(const Cloth& cloth) {
   const ClothMesh mesh = make_mesh(cloth);
+  if (cloth.tear) {
+    throw InvalidArgument("bullet_deformable: cloth '" + cloth.name +
+                          "' tears, expected one that does not, or one of the engines bullet_soft, "
+                          "bullet_forces and reference");
+  }
   if (mesh.pinned_velocities.cols() > 0 && !mesh.pinned_velocities.isZero()) {
     throw InvalidArgument("bullet_deformable: cloth '" + cloth.name +
                           "': a pin moves, expected pins at rest, or the law drive");

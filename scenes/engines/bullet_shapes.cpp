@@ -29,7 +29,9 @@ constexpr double kGrowthRatio = 0.002;
 constexpr double kVoxelRatio = 0.05;
 /// The same for the edges of a mesh's triangles: their fronts are flat, and only bends between them
 /// are rounded, by about a quarter of a voxel.
-constexpr double kMeshVoxelRatio = 0.15;
+constexpr double kMeshVoxelRatio = 0.25;
+/// A height field's prisms are few and deep: a finer field costs little.
+constexpr double kFieldVoxelRatio = 0.15;
 constexpr double kLargestVoxel = 0.25;  ///< [m] Bullet's default
 
 btVector3 to_bullet(const Vector3<double>& v) {
@@ -58,7 +60,9 @@ struct SmallestHalfExtent {
 struct Voxel {
   double operator()(const PlaneShape&) const { return kLargestVoxel; }
   double operator()(const MeshShape& s) const { return kMeshVoxelRatio * mean_edge_length(s); }
-  double operator()(const HeightFieldShape& s) const { return (*this)(height_field_surface(s)); }
+  double operator()(const HeightFieldShape& s) const {
+    return kFieldVoxelRatio * mean_edge_length(height_field_surface(s));
+  }
   double operator()(const CompoundShape& s) const {
     double voxel = kLargestVoxel;
     for (const CompoundPart& part : s.parts) {
@@ -187,7 +191,7 @@ BulletCollider make_bullet_collider(const Collider& collider, ConcaveContact con
     result.body->setLinearVelocity(to_bullet(collider.velocity));
     result.body->setAngularVelocity(to_bullet(collider.angular_velocity));
   }
-  if (collider.path) {
+  if (collider.path || !collider.led_by.empty()) {
     result.body->setCollisionFlags(result.body->getCollisionFlags() |
                                    btCollisionObject::CF_KINEMATIC_OBJECT);
   }

@@ -10,6 +10,7 @@
 #include <weft/scenes/engines/blow_up_check.hpp>
 #include <weft/scenes/engines/bullet_bodies.hpp>
 #include <weft/scenes/engines/bullet_shapes.hpp>
+#include <weft/scenes/engines/bullet_tears.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -28,18 +29,21 @@ class BulletSimulator final : public Simulator {
   void add_cloth(const Cloth& cloth, const Scene& scene);
   [[nodiscard]] bridge::LinkSet link_set(const Cloth& cloth,
                                          const forces::LawSpecification& law) const;
+  void set_limits(const Steering& steering);
   [[nodiscard]] std::optional<BlowUp> find_blow_up() const;
 
   Tension tension_;
   double links_time_step_ = 0.0;
   std::unique_ptr<bridge::SoftWorld> world_;
   BulletBodies bodies_;
+  BulletTears tears_;
   Director director_;
   StepReport report_;
 };
 
 void BulletSimulator::load(const Scene& scene) {
   bodies_ = {};
+  tears_ = {};
   report_ = {};
   links_time_step_ = scene.world.time_step;
   world_ = std::make_unique<bridge::SoftWorld>(
@@ -49,6 +53,7 @@ void BulletSimulator::load(const Scene& scene) {
     BulletCollider made = make_bullet_collider(collider, scene.bullet.concave);
     bodies_.add(collider, world_->add(std::move(made.body), std::move(made.shape)));
   }
+  tears_.make_first_cuts(world_->solver(), bodies_);
   bodies_.read_state(0.0);
   director_ = Director(scene, controllers());
 }
@@ -69,13 +74,13 @@ void BulletSimulator::add_cloth(const Cloth& cloth, const Scene& scene) {
                                  .friction = cloth.friction,
                                  .position_iterations = scene.bullet.position_iterations,
                                  .time_step = links_time_step_};
-  forces::LawSet<btScalar> laws;
+  std::vector<forces::LawSpecification> laws;
   for (const forces::LawSpecification& given : cloth.laws) {
     const forces::LawSpecification law = forces::checked(given);
     if (law.law == "tension" && tension_ == Tension::kLinks) {
       settings.links.push_back(link_set(cloth, law));
     } else {
-      laws.add(forces::make_law<btScalar>(law, mesh));
+      laws.push_back(law);
     }
   }
   btSoftBody& body = world_->add(bridge::make_cloth_body(world_->info(), mesh, settings));
@@ -88,8 +93,21 @@ void BulletSimulator::add_cloth(const Cloth& cloth, const Scene& scene) {
                .margin = margin > 0 ? margin : 0.5 * *cloth.self_thickness,
                .friction = cloth.friction});
   }
-  world_->solver().attach(body, std::move(laws), mesh.masses.cast<btScalar>());
+  // A skin is drawn only. Bullet would look each of its nodes up in the colliders' distance fields.
+  const auto* skin = std::get_if<SkinSource>(&cloth.source);
+  if (skin != nullptr && !skin->is_cloth) body.m_cfg.collisions = 0;
+  world_->solver().attach(body, mesh, laws);
   bodies_.add(cloth, mesh, body);
+  if (cloth.tear) {
+    tears_.add(bodies_.cloths().size() - 1, *cloth.tear, mesh, std::move(settings),
+               std::move(laws));
+  }
+}
+
+void BulletSimulator::set_limits(const Steering& steering) {
+  for (std::size_t c = 0; c < bodies_.cloths().size(); ++c) {
+    world_->solver().set_position_limits(*bodies_.cloths()[c], steering.cloths[c].limits);
+  }
 }
 
 std::optional<BlowUp> BulletSimulator::find_blow_up() const {
@@ -115,6 +133,7 @@ StepReport BulletSimulator::step(double time_step) {
   const Steering* steering =
       director_.is_needed() ? &director_.steer(state(), report_.time) : nullptr;
   bodies_.begin_step(steering, report_.time_step);
+  if (steering) set_limits(*steering);
   world_->step(time_step);
   bodies_.end_step(steering, report_.time_step);
   report_.num_contacts = 0;
@@ -122,6 +141,7 @@ StepReport BulletSimulator::step(double time_step) {
     report_.num_contacts += cloth->m_rcontacts.size() + cloth->m_scontacts.size();
   bodies_.read_state(report_.time);
   report_.blow_up = find_blow_up();
+  if (!report_.blow_up && tears_.tear(world_->solver(), bodies_)) bodies_.read_state(report_.time);
   return report_;
 }
 

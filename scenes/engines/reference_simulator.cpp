@@ -4,8 +4,9 @@
 
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
+#include <weft/scenes/characters/start_state.hpp>
 #include <weft/scenes/controllers/director.hpp>
-#include <weft/scenes/engines/blow_up_check.hpp>
+#include <weft/scenes/engines/reference_tears.hpp>
 #include <weft/scenes/scene_words.hpp>
 #include <weft/validation/reference/solver.hpp>
 
@@ -22,15 +23,25 @@ class ReferenceSimulator final : public Simulator {
 
  private:
   void begin_step(const Steering& steering, double time_step);
-  void end_step(const Steering& steering);
+  void end_step(const Steering& steering, double time_step);
   void read_state();
 
   LawFilter filter_;
   std::unique_ptr<reference::SpringSolver> solver_;
+  ReferenceTears tears_;
   SceneState state_;
   StepReport report_;
   Director director_;
 };
+
+forces::LawSet<double> make_laws(const Cloth& cloth, const ClothMesh& mesh,
+                                 const LawFilter& filter) {
+  forces::LawSet<double> laws;
+  for (const forces::LawSpecification& law : cloth.laws) {
+    laws.add(filter(forces::make_law<double>(law, mesh)));
+  }
+  return laws;
+}
 
 reference::Body make_body(const Cloth& cloth, const LawFilter& filter) {
   if (cloth.self_collision || cloth.soft_collision) {
@@ -41,11 +52,10 @@ reference::Body make_body(const Cloth& cloth, const LawFilter& filter) {
   reference::Body body;
   body.name = cloth.name;
   body.mesh = make_mesh(cloth);
-  for (const forces::LawSpecification& law : cloth.laws) {
-    body.laws.add(filter(forces::make_law<double>(law, body.mesh)));
-  }
-  body.positions = body.mesh.rest_positions;
-  body.velocities = cloth.velocity.replicate(1, body.mesh.num_nodes());
+  body.laws = make_laws(cloth, body.mesh, filter);
+  StartState start = start_state(cloth, body.mesh);
+  body.positions = std::move(start.positions);
+  body.velocities = std::move(start.velocities);
   body.collision_margin = cloth.collision_margin;
   body.friction = cloth.friction;
   return body;
@@ -121,6 +131,10 @@ void ReferenceSimulator::load(const Scene& scene) {
                         : reference::ContactKind::kImpulse;
   options.guard = to_reference(scene.reference.step_guard);
   solver_ = std::make_unique<reference::SpringSolver>(std::move(system), options);
+  tears_ = ReferenceTears(scene, *solver_, [this](const Cloth& cloth, const ClothMesh& mesh) {
+    return make_laws(cloth, mesh, this->filter_);
+  });
+  tears_.make_first_cuts(*solver_);
   state_ = {};
   report_ = {};
   read_state();
@@ -141,10 +155,11 @@ void ReferenceSimulator::begin_step(const Steering& steering, double time_step) 
   }
 }
 
-void ReferenceSimulator::end_step(const Steering& steering) {
+void ReferenceSimulator::end_step(const Steering& steering, double time_step) {
   for (std::size_t c = 0; c < steering.cloths.size(); ++c) {
     const Matrix3X<double>& targets = steering.cloths[c].pinned_positions;
     if (targets.cols() > 0) solver_->place_pins(c, targets);
+    solver_->limit_positions(c, steering.cloths[c].limits, time_step);
   }
   for (std::size_t k = 0; k < steering.colliders.size(); ++k) {
     const auto& pose = steering.colliders[k];
@@ -160,6 +175,7 @@ void ReferenceSimulator::read_state() {
     state_.cloths[b].name = system.bodies[b].name;
     state_.cloths[b].positions = system.bodies[b].positions;
     state_.cloths[b].velocities = system.bodies[b].velocities;
+    state_.cloths[b].topology = tears_.topology(b);
   }
   state_.rigids.resize(system.colliders.size());
   for (std::size_t c = 0; c < system.colliders.size(); ++c) {
@@ -175,13 +191,14 @@ StepReport ReferenceSimulator::step(double time_step) {
       director_.is_needed() ? &director_.steer(state_, solver_->time() + time_step) : nullptr;
   if (steering) begin_step(*steering, time_step);
   const reference::StepOutcome outcome = solver_->step(time_step);
-  if (steering) end_step(*steering);
+  if (steering) end_step(*steering, time_step);
   report_.step += 1;
   report_.time = solver_->time();
   report_.time_step = time_step;
   report_.substeps = outcome.substeps;
   report_.num_contacts = outcome.contact.num_contacts;
   report_.stable_time_step = outcome.stable_step;
+  if (!outcome.blow_up) tears_.tear(*solver_);
   read_state();
   if (outcome.blow_up) {
     report_.blow_up = BlowUp{report_.step, report_.time, outcome.blow_up->body,

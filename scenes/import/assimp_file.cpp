@@ -1,7 +1,9 @@
 #include <weft/scenes/import/assimp_file.hpp>
 
 #include <assimp/scene.h>
+#include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
 #include <string>
 
 #include <weft/custom_forces/core/error.hpp>
@@ -15,6 +17,42 @@ constexpr int kMaxDepth = 1000;  // of nodes within nodes: deeper is a circle
 void require(bool ok, const std::string& message) {
   if (!ok) throw Error(message);
 }
+
+/// Keeps assimp's word on what it has left out without an error.
+class LossLog final : public Assimp::LogStream {
+ public:
+  explicit LossLog(std::string& loss) : loss_(loss) {}
+  void write(const char* message) override {
+    const std::string text = message;
+    const bool is_loss = text.find("dropped") != std::string::npos ||
+                         text.find("out-of-range") != std::string::npos ||
+                         text.find("out of range") != std::string::npos;
+    // Without assimp's "Warn, T0: ".
+    const std::size_t colon = text.find(": ");
+    if (is_loss && loss_.empty()) loss_ = text.substr(colon == std::string::npos ? 0 : colon + 2);
+  }
+
+ private:
+  std::string& loss_;
+};
+
+/// While it lives, assimp's warnings go to the log.
+class LogGuard {
+ public:
+  explicit LogGuard(std::string& loss) : log_(loss) {
+    Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0);
+    Assimp::DefaultLogger::get()->attachStream(&log_, Assimp::Logger::Warn | Assimp::Logger::Err);
+  }
+  ~LogGuard() {
+    Assimp::DefaultLogger::get()->detachStream(&log_, Assimp::Logger::Warn | Assimp::Logger::Err);
+    Assimp::DefaultLogger::kill();
+  }
+  LogGuard(const LogGuard&) = delete;
+  LogGuard& operator=(const LogGuard&) = delete;
+
+ private:
+  LossLog log_;
+};
 
 class PartCollector {
  public:
@@ -101,8 +139,13 @@ class PartCollector {
 
 AssimpFile::AssimpFile(const std::filesystem::path& path)
     : importer_(std::make_unique<Assimp::Importer>()) {
-  scene_ = importer_->ReadFile(path.string(), 0);
+  std::string loss;
+  {
+    const LogGuard guard(loss);
+    scene_ = importer_->ReadFile(path.string(), 0);
+  }
   if (scene_ == nullptr) throw Error(importer_->GetErrorString());
+  require(loss.empty(), loss);
   require(scene_->mRootNode != nullptr, "holds no scene");
 }
 

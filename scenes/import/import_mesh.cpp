@@ -84,7 +84,8 @@ void place_vertices(const ImportOptions& options, const std::filesystem::path& f
 }
 
 /// Corners of the triangles of a polygon.
-std::vector<Eigen::Vector3i> cut(const std::vector<int>& polygon, const Matrix3X<double>& vertices) {
+std::vector<Eigen::Vector3i> cut(const std::vector<int>& polygon,
+                                 const Matrix3X<double>& vertices) {
   std::vector<Eigen::Vector3i> triangles;
   if (polygon.size() == 4) {
     const auto distance = [&](std::size_t a, std::size_t b) {
@@ -168,9 +169,9 @@ Surface surface_of(const Draft& draft) {
   surface.positions = draft.soup.positions;
   const auto num_triangles = static_cast<Eigen::Index>(draft.keep.size());
   surface.triangles.resize(3, num_triangles);
-  const bool has_texture = std::all_of(
-      draft.parts.begin(), draft.parts.end(),
-      [](const FilePart& part) { return !part.texture_coordinates.empty(); });
+  const bool has_texture =
+      std::all_of(draft.parts.begin(), draft.parts.end(),
+                  [](const FilePart& part) { return !part.texture_coordinates.empty(); });
   if (has_texture) surface.corner_texture_coordinates.resize(2, 3 * num_triangles);
   for (Eigen::Index t = 0; t < num_triangles; ++t) {
     const auto from = static_cast<std::size_t>(draft.keep[static_cast<std::size_t>(t)]);

@@ -55,7 +55,7 @@ void write_all(int file, const std::string& text) {
   try {
     answer = kDone + work();
   } catch (const std::bad_alloc&) {
-    answer = std::string(1, kFailed) + "needs more than 4 GiB of memory";
+    answer = std::string(1, kFailed) + "needs too much memory";
   } catch (const std::exception& error) {
     answer = kFailed + std::string(error.what());
   } catch (...) {

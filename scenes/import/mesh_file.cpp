@@ -62,6 +62,7 @@ std::string one_line(std::string message) {
       [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }, ' ');
   if (message.size() > kMaxMessageLength) message = message.substr(0, kMaxMessageLength) + "...";
   while (!message.empty() && message.back() == ' ') message.pop_back();
+  if (message.find("bad_alloc") != std::string::npos) return "needs too much memory";
   return message;
 }
 
@@ -83,7 +84,10 @@ std::vector<FilePart> read_mesh_file(const std::filesystem::path& path) {
   }
   ByteReader in(bytes);
   std::vector<FilePart> parts(in.count());
-  for (FilePart& part : parts) part = get_part(in);
+  for (FilePart& part : parts) {
+    part = get_part(in);
+    if (part.node.empty() && part.mesh.empty()) part.mesh = path.stem().string();
+  }
   return parts;
 }
 

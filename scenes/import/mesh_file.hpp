@@ -25,10 +25,10 @@ struct FileGroup {
 
 /// One mesh at one place of the file's scene.
 struct FilePart {
-  std::string node;      ///< name of the place
-  std::string mesh;      ///< name of the mesh
-  std::string material;  ///< name of its material
-  std::vector<double> positions;             ///< 3 per vertex, in the axes and unit of the file
+  std::string node;               ///< name of the place
+  std::string mesh;               ///< name of the mesh; if it and node have none, that of the file
+  std::string material;           ///< name of its material
+  std::vector<double> positions;  ///< 3 per vertex, in the axes and unit of the file
   std::vector<double> texture_coordinates;   ///< 2 per vertex, or empty
   std::vector<std::vector<int>> faces = {};  ///< vertices of each polygon, in the file's order
   std::vector<FileGroup> groups = {};

@@ -39,7 +39,8 @@ void add_defects(std::ostringstream& out, const char* what, const std::vector<De
                  const std::vector<std::string>& parts) {
   out << what << ": " << defects.size() << "\n";
   for (std::size_t i = 0; i < defects.size() && i < kMaxListed; ++i) {
-    out << "  at " << place_of(defects[i].place) << ": " << list_of(defects[i].faces, parts) << "\n";
+    out << "  at " << place_of(defects[i].place) << ": " << list_of(defects[i].faces, parts)
+        << "\n";
   }
 }
 

@@ -30,8 +30,9 @@ struct MeshReport {
   int welded_vertices = 0;         ///< that share the node of an earlier one
   int unreferenced_vertices = 0;   ///< that no face names: left out
   int other_elements = 0;          ///< points and lines: left out
-  std::vector<FaceOfFile> duplicate_faces;  ///< triangles with the nodes of an earlier one: left out
-  std::vector<FaceOfFile> slivers;          ///< with an angle below kSliverAngle
+  std::vector<FaceOfFile>
+      duplicate_faces;              ///< triangles with the nodes of an earlier one: left out
+  std::vector<FaceOfFile> slivers;  ///< with an angle below kSliverAngle
   int boundary_edges = 0;
   int boundary_loops = 0;  ///< holes and outer rims
   double area = 0.0;       ///< [m^2]

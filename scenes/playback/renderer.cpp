@@ -30,17 +30,32 @@ void check_count(const std::string& what, Eigen::Index value, Eigen::Index expec
   }
 }
 
+/// A torn cloth has the nodes of the scene's mesh and those that were split off.
+Eigen::Index num_nodes(const ClothMesh& mesh, const ClothState& cloth) {
+  if (!cloth.topology) return mesh.num_nodes();
+  const Eigen::Index count = mesh.num_nodes() + std::ssize(cloth.topology->origins);
+  const Triangles& triangles = cloth.topology->triangles;
+  if (triangles.size() > 0 && (triangles.minCoeff() < 0 || triangles.maxCoeff() >= count)) {
+    throw InvalidArgument(
+        fmt::format("Renderer::render: a triangle of cloth '{}' names a node that is not there, "
+                    "expected 0 to {}",
+                    cloth.name, count - 1));
+  }
+  return count;
+}
+
 void check_state(const Scene& scene, const std::vector<ClothMesh>& meshes,
                  const SceneState& state) {
   check_count("number of cloths", std::ssize(state.cloths), std::ssize(scene.cloths));
   check_count("number of colliders", std::ssize(state.rigids), std::ssize(scene.colliders));
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     check_count(fmt::format("number of nodes of cloth '{}'", scene.cloths[i].name),
-                state.cloths[i].positions.cols(), meshes[i].num_nodes());
+                state.cloths[i].positions.cols(), num_nodes(meshes[i], state.cloths[i]));
   }
 }
 
-void check_scalar(const std::vector<ClothMesh>& meshes, const ScalarField* scalar) {
+void check_scalar(const std::vector<ClothMesh>& meshes, const SceneState& state,
+                  const ScalarField* scalar) {
   if (scalar == nullptr) {
     throw InvalidArgument("Renderer::render: scalar = none, expected a field for the scalar style");
   }
@@ -48,7 +63,7 @@ void check_scalar(const std::vector<ClothMesh>& meshes, const ScalarField* scala
               std::ssize(meshes));
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     check_count(fmt::format("number of scalar values of cloth {}", i), scalar->values[i].size(),
-                meshes[i].num_nodes());
+                num_nodes(meshes[i], state.cloths[i]));
   }
 }
 
@@ -72,7 +87,7 @@ Image Renderer::render(const SceneState& state, const RenderOptions& options,
   check_state(painter.scene(), painter.meshes(), state);
   if (options.style != SurfaceStyle::kScalar)
     return painter.paint(state, options, nullptr, nullptr);
-  check_scalar(painter.meshes(), scalar);
+  check_scalar(painter.meshes(), state, scalar);
   const ColorMap map(scalar->minimum, scalar->maximum);
   Image image = painter.paint(state, options, scalar, &map);
   draw_color_bar(image, map, scalar->label);

@@ -84,8 +84,8 @@ ScenePainter::ScenePainter(const Scene& scene)
   ground_.upload(ground_surface(kGroundExtent * stage_.radius));
   for (std::size_t i = 0; i < scene_.cloths.size(); ++i) {
     const ClothMesh& mesh = meshes_.emplace_back(make_mesh(scene_.cloths[i]));
-    layouts_.push_back(make_layout(mesh));
-    cloth_paints_.push_back(cloth_paint(gl_, scene_, i, layouts_.back().has_coordinates));
+    layouts_.emplace_back(mesh);
+    cloth_paints_.push_back(cloth_paint(gl_, scene_, i, layouts_.back().whole().has_coordinates));
     cloths_.emplace_back(gl_);
   }
   for (const Collider& collider : scene_.colliders) {
@@ -136,7 +136,8 @@ void ScenePainter::upload_cloths(const SceneState& state, const RenderOptions& o
   const DrawLimits limits{stage_.center, kLargestDistance * stage_.radius};
   for (std::size_t i = 0; i < meshes_.size(); ++i) {
     const double rope = std::max(scene_.cloths[i].collision_margin, kThinnestRope * stage_.radius);
-    SurfaceMesh mesh = cloth_surface(layouts_[i], state.cloths[i].positions, rope, limits);
+    SurfaceMesh mesh = cloth_surface(layouts_[i].of(meshes_[i], state.cloths[i]),
+                                     state.cloths[i].positions, rope, limits);
     if (scalar != nullptr) set_scalar(*scalar, i, *map, mesh);
     const bool is_wireframe = options.style == SurfaceStyle::kWireframe;
     cloths_[i].upload(is_wireframe ? with_barycentrics(mesh) : mesh);
@@ -287,7 +288,7 @@ void ScenePainter::draw_cloths(const Picture& picture) const {
       // Thin light lines on white paper would hardly be seen.
       paint.back *= 0.6f;
     }
-    const bool has_inside = layouts_[i].is_closed || layouts_[i].rope.cols() > 0;
+    const bool has_inside = layouts_[i].whole().is_closed || layouts_[i].whole().rope.cols() > 0;
     surface_program_.set("u_is_thin", has_inside || mode == SurfaceMode::kWireframe ? 0 : 1);
     paint.set(gl_, surface_program_, kTextureUnit);
     cloths_[i].draw();

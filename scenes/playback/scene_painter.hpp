@@ -4,12 +4,12 @@
 #include <vector>
 
 #include <weft/scenes/playback/body_paint.hpp>
-#include <weft/scenes/playback/cloth_layout.hpp>
 #include <weft/scenes/playback/color_map.hpp>
 #include <weft/scenes/playback/gpu_mesh.hpp>
 #include <weft/scenes/playback/light_maps.hpp>
 #include <weft/scenes/playback/renderer.hpp>
 #include <weft/scenes/playback/sample_target.hpp>
+#include <weft/scenes/playback/torn_layout.hpp>
 #include <weft/scenes/playback/view.hpp>
 
 namespace weft::scenes {
@@ -58,7 +58,7 @@ class ScenePainter {
   std::vector<GpuMesh> bodies_;
   std::vector<GpuMesh> cloths_;
   std::vector<BodyPaint> body_paints_;
-  std::vector<ClothLayout> layouts_;
+  std::vector<TornLayout> layouts_;
   std::vector<BodyPaint> cloth_paints_;
   GLuint screen_ = 0;
   GLuint scale_ = 0;

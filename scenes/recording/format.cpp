@@ -64,6 +64,25 @@ CREATE TABLE event (
 );
 )sql";
 
+const std::string_view kTopologySchema = R"sql(
+CREATE TABLE topology (
+  id          INTEGER PRIMARY KEY,  -- from 0
+  first_frame INTEGER NOT NULL,     -- frame.id from which on it holds
+  body        INTEGER NOT NULL,     -- body.id of a cloth
+  nodes       INTEGER NOT NULL,     -- it has now
+  raw_bytes   INTEGER NOT NULL,     -- size of the decoded data
+  hash        TEXT NOT NULL,        -- XXH3-128 of column data
+  data        BLOB NOT NULL
+);
+)sql";
+
+std::int64_t format_version(const Scene& scene) {
+  for (const Cloth& cloth : scene.cloths) {
+    if (cloth.tear) return kTornFormatVersion;
+  }
+  return kFormatVersion;
+}
+
 std::string header_hash(const Header& header) {
   StreamHash hash;
   for (const auto& [key, value] : header.meta) {
@@ -110,6 +129,12 @@ void ContentHash::add_frame(double time, std::span<const std::byte> frame) {
   hash_.add(time);
   hash_.add(frame);
   ++num_frames_;
+}
+
+void ContentHash::add_topology(int body, std::span<const std::byte> topology) {
+  hash_.add(body);
+  hash_.add(static_cast<std::int64_t>(topology.size()));
+  hash_.add(topology);
 }
 
 std::string ContentHash::hex(const std::optional<BlowUp>& blow_up) const {

@@ -14,10 +14,16 @@
 namespace weft::scenes {
 
 inline constexpr std::int64_t kApplicationId = 0x57454654;  // "WEFT" in ASCII
-inline constexpr std::int64_t kFormatVersion = 1;           // SQLite's user_version
+
+/// SQLite's user_version. 2 is 1 with table topology and frames of different sizes: only scenes with
+/// a cloth that can tear need it, so that older programs read all others.
+inline constexpr std::int64_t kFormatVersion = 1;
+inline constexpr std::int64_t kTornFormatVersion = 2;
+[[nodiscard]] std::int64_t format_version(const Scene& scene);
 
 /// Statements that make the tables. Their comments stay in the file: ".schema" explains it.
 extern const std::string_view kTableSchema;
+extern const std::string_view kTopologySchema;  ///< version 2 only
 inline constexpr std::string_view kProvenancePrefix = "provenance.";
 
 using Meta = std::map<std::string, std::string>;
@@ -53,6 +59,8 @@ class ContentHash {
  public:
   ContentHash(std::string_view scene_text, StoredPrecision precision);
   void add_frame(double time, std::span<const std::byte> frame);
+  /// Before the frame from which on a body consists of these.
+  void add_topology(int body, std::span<const std::byte> topology);
   /// With what ends the content; more frames may follow.
   [[nodiscard]] std::string hex(const std::optional<BlowUp>& blow_up) const;
 

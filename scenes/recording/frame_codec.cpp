@@ -106,10 +106,18 @@ std::vector<RecordedBody> recorded_bodies(const Scene& scene) {
 
 FrameCodec::FrameCodec(std::vector<RecordedBody> bodies, StoredPrecision precision)
     : bodies_(std::move(bodies)), precision_(precision) {
-  for (const RecordedBody& body : bodies_) {
-    const auto nodes = static_cast<std::size_t>(body.num_nodes);
-    frame_bytes_ += (body.is_cloth ? kNodeScalars * nodes : kRigidScalars) * scalar_bytes();
-  }
+  for (const RecordedBody& body : bodies_) frame_bytes_ += bytes_of(body);
+}
+
+std::size_t FrameCodec::bytes_of(const RecordedBody& body) const {
+  const auto nodes = static_cast<std::size_t>(body.num_nodes);
+  return (body.is_cloth ? kNodeScalars * nodes : kRigidScalars) * scalar_bytes();
+}
+
+void FrameCodec::set_num_nodes(std::size_t body, int num_nodes) {
+  frame_bytes_ -= bytes_of(bodies_[body]);
+  bodies_[body].num_nodes = num_nodes;
+  frame_bytes_ += bytes_of(bodies_[body]);
 }
 
 std::size_t FrameCodec::scalar_bytes() const {

@@ -29,6 +29,9 @@ class FrameCodec {
   [[nodiscard]] std::size_t scalar_bytes() const;
   [[nodiscard]] std::size_t frame_bytes() const { return frame_bytes_; }
 
+  /// A cloth that has torn has another number of nodes from the next frame on.
+  void set_num_nodes(std::size_t body, int num_nodes);
+
   /// Throws InvalidArgument if the state has not the bodies of this recording.
   void check(const SceneState& state) const;
   /// Appends frame_bytes() bytes; the time is not among them.
@@ -37,6 +40,8 @@ class FrameCodec {
   [[nodiscard]] SceneState decode(std::span<const std::byte> bytes) const;
 
  private:
+  [[nodiscard]] std::size_t bytes_of(const RecordedBody& body) const;
+
   std::vector<RecordedBody> bodies_;
   StoredPrecision precision_;
   std::size_t frame_bytes_ = 0;

@@ -102,8 +102,10 @@ Database open_database(const std::filesystem::path& path) {
       path, has_log ? Database::Access::kReadOnlyUnlocked : Database::Access::kReadOnlyImmutable);
 }
 
-void check_tables(const Database& database, const std::string& file) {
-  for (const char* table : {"meta", "scene", "body", "chunk", "frame", "metric", "event"}) {
+void check_tables(const Database& database, const std::string& file, bool can_tear) {
+  std::vector<const char*> tables = {"meta", "scene", "body", "chunk", "frame", "metric", "event"};
+  if (can_tear) tables.push_back("topology");
+  for (const char* table : tables) {
     Statement find = database.prepare("SELECT type FROM sqlite_master WHERE name = ?");
     find.bind(1, std::string_view(table));
     if (!find.step() || find.text(0) != "table") {  // a view could run any query
@@ -152,12 +154,13 @@ Database open_recording(const std::filesystem::path& path) {
     throw Error(fmt::format("{}: not a Weft recording but another application's database", file));
   }
   const std::int64_t version = database.query_integer("PRAGMA user_version");
-  if (version != kFormatVersion) {
-    throw Error(fmt::format("{}: recording format version {}, this program reads version {}{}",
-                            file, version, kFormatVersion,
-                            version > kFormatVersion ? "; a newer Weft is needed" : ""));
+  if (version < kFormatVersion || version > kTornFormatVersion) {
+    throw Error(
+        fmt::format("{}: recording format version {}, this program reads version {} to {}{}", file,
+                    version, kFormatVersion, kTornFormatVersion,
+                    version > kTornFormatVersion ? "; a newer Weft is needed" : ""));
   }
-  check_tables(database, file);
+  check_tables(database, file, version == kTornFormatVersion);
   return database;
 }
 
@@ -177,7 +180,7 @@ Header read_header(const Database& database, const std::string& file) {
   return header;
 }
 
-RecordingIndex read_index(const Database& database, const Header& header, const FrameCodec& codec,
+RecordingIndex read_index(const Database& database, const Header& header, const Topologies& layout,
                           const std::string& file) {
   RecordingIndex index;
   StreamHash hash;
@@ -188,17 +191,19 @@ RecordingIndex read_index(const Database& database, const Header& header, const 
     ChunkEntry chunk{chunks.integer(0), chunks.integer(1), chunks.integer(4),
                      chunks.text(3),    chunks.text(5),    {}};
     const std::int64_t num_frames = chunks.integer(2);
+    std::size_t raw_bytes = 0;
     for (std::int64_t i = 0; i < num_frames; ++i) {
       if (!times.step() || times.integer(0) != static_cast<std::int64_t>(index.times.size()) ||
           times.integer(2) != chunk.id) {
         damaged(file, fmt::format("frames of chunk {} are not consistent", chunk.id));
       }
+      index.offsets.push_back(raw_bytes);
+      raw_bytes += layout.codec_at(static_cast<std::int64_t>(index.times.size())).frame_bytes();
       chunk.times.push_back(times.real(1));
       index.times.push_back(chunk.times.back());
       index.chunk_of.push_back(index.chunks.size());
     }
     const auto first = static_cast<std::int64_t>(index.times.size() - chunk.times.size());
-    const std::size_t raw_bytes = chunk.times.size() * codec.frame_bytes();
     if (chunk.first_frame != first || static_cast<std::size_t>(chunk.raw_bytes) != raw_bytes) {
       damaged(file, fmt::format("chunk {} is not consistent", chunk.id));
     }

@@ -4,6 +4,7 @@
 
 #include <weft/scenes/recording/database.hpp>
 #include <weft/scenes/recording/format.hpp>
+#include <weft/scenes/recording/topologies.hpp>
 
 namespace weft::scenes {
 
@@ -17,12 +18,13 @@ struct RecordingIndex {
   std::vector<ChunkEntry> chunks;
   std::vector<double> times;          ///< [s] of every frame
   std::vector<std::size_t> chunk_of;  ///< position in chunks of every frame's chunk
+  std::vector<std::size_t> offsets;   ///< of every frame in the decoded bytes of its chunk
 };
 
 /// Reads and verifies the small tables. Throws Error.
 [[nodiscard]] Header read_header(const Database& database, const std::string& file);
 /// Reads and verifies tables chunk and frame. Throws Error.
 [[nodiscard]] RecordingIndex read_index(const Database& database, const Header& header,
-                                        const FrameCodec& codec, const std::string& file);
+                                        const Topologies& layout, const std::string& file);
 
 }  // namespace weft::scenes

@@ -60,7 +60,7 @@ struct RecordingReader::Impl {
   std::string file;
   std::optional<Database> kept;
   Header header;
-  FrameCodec codec{{}, StoredPrecision::kFloat64};
+  Topologies topologies;
   RecordingIndex index;
   Provenance provenance;
 
@@ -76,8 +76,9 @@ RecordingReader::Impl::Impl(const std::filesystem::path& the_path)
     : path(the_path), file(the_path.string()), kept(open_recording(the_path)) {
   kept->execute("BEGIN");  // one moment of a recording that may be growing
   header = read_header(*kept, file);
-  codec = FrameCodec(header.bodies, read_precision(header, file));
-  index = read_index(*kept, header, codec, file);
+  const FrameCodec codec(header.bodies, read_precision(header, file));
+  topologies = Topologies(*kept, header, codec, file);
+  index = read_index(*kept, header, topologies, file);
   kept->execute("COMMIT");
   for (const auto& [key, value] : header.meta) {
     if (key.starts_with(kProvenancePrefix)) {
@@ -107,7 +108,8 @@ std::vector<std::byte> RecordingReader::Impl::read_chunk(const ChunkEntry& chunk
     if (chunk.codec != kCodecName) {
       throw Error(fmt::format("{}: unknown codec '{}'", file, chunk.codec));
     }
-    return decompress_chunk(data, static_cast<std::size_t>(chunk.raw_bytes), codec.scalar_bytes());
+    return decompress_chunk(data, static_cast<std::size_t>(chunk.raw_bytes),
+                            topologies.codec_at(0).scalar_bytes());
   } catch (const Error& error) {
     const auto last = chunk.first_frame + static_cast<std::int64_t>(chunk.times.size()) - 1;
     throw Error(fmt::format("{} (chunk {}, frames {} to {})", error.what(), chunk.id,
@@ -126,8 +128,9 @@ std::span<const std::byte> RecordingReader::Impl::frame_bytes(int frame) const {
     cached_bytes = read_chunk(index.chunks[chunk]);
     cached_chunk = chunk;
   }
-  const auto place = static_cast<std::size_t>(frame - index.chunks[chunk].first_frame);
-  return std::span(cached_bytes).subspan(place * codec.frame_bytes(), codec.frame_bytes());
+  return std::span(cached_bytes)
+      .subspan(index.offsets[static_cast<std::size_t>(frame)],
+               topologies.codec_at(frame).frame_bytes());
 }
 
 const std::vector<MetricRow>& RecordingReader::Impl::metric_rows() const {
@@ -155,8 +158,15 @@ const std::vector<MetricRow>& RecordingReader::Impl::metric_rows() const {
 }
 
 std::string RecordingReader::Impl::compute_content_hash() const {
-  ContentHash hash(header.scene_text, codec.precision());
+  ContentHash hash(header.scene_text, topologies.codec_at(0).precision());
   for (std::size_t i = 0; i < index.times.size(); ++i) {
+    const auto frame = static_cast<std::int64_t>(i);
+    if (topologies.begins_at(frame)) {
+      with_database([&](const Database& database) {
+        topologies.add_to_hash(database, frame, hash);
+        return 0;
+      });
+    }
     hash.add_frame(index.times[i], frame_bytes(static_cast<int>(i)));
   }
   std::string found = hash.hex(header.blow_up);
@@ -191,7 +201,7 @@ const Provenance& RecordingReader::provenance() const {
   return impl_->provenance;
 }
 StoredPrecision RecordingReader::precision() const {
-  return impl_->codec.precision();
+  return impl_->topologies.codec_at(0).precision();
 }
 bool RecordingReader::finished() const {
   return impl_->header.meta.at("finished") == "yes";
@@ -219,8 +229,14 @@ double RecordingReader::frame_time(int frame) const {
 }
 
 SceneState RecordingReader::frame(int frame) const {
-  SceneState state = impl_->codec.decode(impl_->frame_bytes(frame));
+  SceneState state = impl_->topologies.codec_at(frame).decode(impl_->frame_bytes(frame));
   state.time = frame_time(frame);
+  if (!impl_->topologies.empty()) {
+    impl_->with_database([&](const Database& database) {
+      impl_->topologies.set(database, frame, state);
+      return 0;
+    });
+  }
   return state;
 }
 

@@ -15,6 +15,7 @@
 #include <weft/scenes/recording/database.hpp>
 #include <weft/scenes/recording/format.hpp>
 #include <weft/scenes/recording/recording.hpp>
+#include <weft/scenes/recording/topology_writer.hpp>
 #include <weft/scenes/scene_file.hpp>
 
 namespace weft::scenes {
@@ -76,7 +77,7 @@ Header make_header(const Scene& scene, const Provenance& provenance, StoredPreci
 
 struct RecordingWriter::Impl {
   Impl(const std::filesystem::path& path, Header header, const std::vector<SceneFile>& assets,
-       StoredPrecision precision, const ChunkLimits& limits);
+       StoredPrecision precision, const ChunkLimits& limits, bool can_tear);
 
   void create_tables(const std::vector<SceneFile>& assets);
   void require_usable() const;
@@ -93,6 +94,7 @@ struct RecordingWriter::Impl {
   ChunkLimits limits;
   Header header;
   FrameCodec codec;
+  TopologyWriter topologies;
   std::optional<Database> database;
   ContentHash content_hash;
   StreamHash index_hash;
@@ -113,11 +115,12 @@ struct RecordingWriter::Impl {
 
 RecordingWriter::Impl::Impl(const std::filesystem::path& path, Header the_header,
                             const std::vector<SceneFile>& assets, StoredPrecision precision,
-                            const ChunkLimits& the_limits)
+                            const ChunkLimits& the_limits, bool can_tear)
     : file(path.string()),
       limits(the_limits),
       header(std::move(the_header)),
       codec(header.bodies, precision),
+      topologies(header.bodies, can_tear),
       content_hash(header.scene_text, precision) {
   database.emplace(path, Database::Access::kReadWrite);
   create_tables(assets);
@@ -126,8 +129,10 @@ RecordingWriter::Impl::Impl(const std::filesystem::path& path, Header the_header
 void RecordingWriter::Impl::create_tables(const std::vector<SceneFile>& assets) {
   // Made in one piece before the log is switched on: who sees the tables sees a valid recording.
   database->execute(fmt::format("PRAGMA application_id={}; PRAGMA user_version={}; BEGIN IMMEDIATE",
-                                kApplicationId, kFormatVersion));
+                                kApplicationId,
+                                topologies.can_tear() ? kTornFormatVersion : kFormatVersion));
   database->execute(std::string(kTableSchema));
+  if (topologies.can_tear()) database->execute(std::string(kTopologySchema));
   database->prepare("INSERT INTO scene VALUES (?)")
       .bind(1, std::string_view(header.scene_text))
       .run();
@@ -177,6 +182,7 @@ void RecordingWriter::Impl::write_pending() {
 }
 
 void RecordingWriter::Impl::write_chunk() {
+  topologies.write(*database);
   const auto data = compress_chunk(raw, codec.scalar_bytes());
   StreamHash hash;
   hash.add(data);
@@ -232,6 +238,7 @@ void RecordingWriter::Impl::update_meta() {
   meta["content_hash"] = content_hash.hex(header.blow_up);
   meta["index_hash"] = index_hash.hex();
   meta["metric_hash"] = metric_hash.hex();
+  if (topologies.can_tear()) meta["topology_hash"] = topologies.hash();
   meta["meta_hash"] = header_hash(header);
   Statement upsert = database->prepare("INSERT OR REPLACE INTO meta VALUES (?, ?)");
   for (const auto& [key, value] : meta) {
@@ -267,7 +274,8 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& path, const Scene&
   Header header = make_header(scene, provenance, precision);
   reserve(path);
   try {
-    impl_ = std::make_unique<Impl>(path, std::move(header), scene.files, precision, limits);
+    impl_ = std::make_unique<Impl>(path, std::move(header), scene.files, precision, limits,
+                                   format_version(scene) == kTornFormatVersion);
   } catch (...) {
     remove_files(path);
     throw;
@@ -291,7 +299,11 @@ void RecordingWriter::add_frame(const SceneState& state) {
     throw InvalidArgument(fmt::format("add_frame: time = {} [s], expected more than {} and finite",
                                       time, impl_->last_time));
   }
-  impl_->codec.check(state);
+  FrameCodec codec = impl_->codec;
+  impl_->topologies.prepare(state, codec);
+  codec.check(state);
+  impl_->codec = std::move(codec);
+  impl_->topologies.take(state, impl_->num_frames + std::ssize(impl_->times), impl_->content_hash);
   const std::size_t begin = impl_->raw.size();
   impl_->codec.encode(state, impl_->raw);
   impl_->times.push_back(time);

@@ -57,6 +57,13 @@ for file in "$source_dir"/tests/scenes/malformed/*; do
 done
 check "at least 25 malformed files, found $count" test "$count" -ge 25
 
+# Mesh files
+for file in "$source_dir"/tests/scenes/import/good/*.*; do check "check-mesh $file" exits 0 check-mesh "$file"; done
+for file in "$source_dir"/tests/scenes/import/broken/*; do
+  check "check-mesh $file" exits 2 check-mesh "$file"
+  check "$file: one line" test "$(wc -l <err)" -eq 1
+done
+
 # Recordings
 short=(run drape_sphere --duration "0.6 s")
 check "run" exits 0 "${short[@]}" -o a.weftrec

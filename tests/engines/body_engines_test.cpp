@@ -10,7 +10,7 @@ namespace {
 
 // Every kind of body that is no grid, falling on a floor: a ball of gas, one with spokes to a centre
 // node, a rope. 42 nodes of 100 g on 20 N/m: the fastest mode has about 300 1/s.
-constexpr std::string_view kBodies = R"(schema = "weft-scene/1"
+constexpr std::string_view kBodies = R"toml(schema = "weft-scene/1"
 name = "bodies"
 [world]
 time_step = "1 ms"
@@ -55,11 +55,11 @@ edge_sets = ["stretch"]
 stiffness = "20 N/m"
 [[cloth.law]]
 law = "torsion"
-stiffness = "1/10000 N*m/rad"
+stiffness = "1/100 N/(m*rad)"
 [[collider]]
 name = "floor"
 shape = "plane"
-)";
+)toml";
 
 constexpr int kFallSteps = 50;    // the balls start 10 cm above the floor: contact after 140 ms
 constexpr int kTotalSteps = 400;  // long enough to land and to be pressed flat and back

@@ -81,8 +81,8 @@ TEST(Damage, EveryKindHasAnErrorOfItsOwn) {
   run_sql(folder / "foreign", "CREATE TABLE meta (key, value)");
   EXPECT_THAT(error_of(folder / "foreign"), HasSubstr("foreign: not a Weft recording but another"));
   write_sample(folder / "newer", make_scene(), StoredPrecision::kFloat32, 3);
-  run_sql(folder / "newer", "PRAGMA user_version=2");
-  EXPECT_THAT(error_of(folder / "newer"), HasSubstr("newer: recording format version 2"));
+  run_sql(folder / "newer", "PRAGMA user_version=3");
+  EXPECT_THAT(error_of(folder / "newer"), HasSubstr("newer: recording format version 3"));
   write_sample(folder / "table", make_scene(), StoredPrecision::kFloat32, 3);
   run_sql(folder / "table", "DROP TABLE metric; CREATE VIEW metric AS SELECT * FROM frame");
   EXPECT_THAT(error_of(folder / "table"), HasSubstr("table: has no table 'metric'"));

@@ -46,7 +46,7 @@ law = "drive"
 stiffness = "3 N/m"
 )";
 
-constexpr std::string_view kRope = R"(
+constexpr std::string_view kRope = R"toml(
 rope = { nodes = 11, start = ["0 m", "1 m", "0 m"], end = ["1/3 m", "1 m", "0 m"] }
 linear_density = "30 g/m"
 pin = [{ nodes = [0] }]
@@ -55,8 +55,8 @@ law = "tension"
 stiffness = "30 N/m"
 [[cloth.law]]
 law = "torsion"
-stiffness = "1/1000 N*m/rad"
-)";
+stiffness = "1/1000 N/(m*rad)"
+)toml";
 
 Scene read(std::string_view body) {
   return read_scene_text(std::string(kHead) + std::string(body), "body.toml");
@@ -136,12 +136,14 @@ pin = [{ part = "right" }]
 }
 
 TEST(BodySource, AStoredMeshThatIsDamagedIsRefused) {
-  const Surface surface = std::get<MeshBody>(
-      read_scene_text(std::string(kHead) +
-                          "mesh = { file = \"tetrahedron.ply\" }\nmass = \"1 kg\"\n",
-                      std::string(WEFT_SOURCE_DIR) + "/tests/scenes/import/good/scene.toml")
-          .cloths[0]
-          .source).shape->surface;
+  const Surface surface =
+      std::get<MeshBody>(
+          read_scene_text(
+              std::string(kHead) + "mesh = { file = \"tetrahedron.ply\" }\nmass = \"1 kg\"\n",
+              std::string(WEFT_SOURCE_DIR) + "/tests/scenes/import/good/scene.toml")
+              .cloths[0]
+              .source)
+          .shape->surface;
   const std::string text = mesh_text(surface);
   EXPECT_EQ(mesh_text(parse_mesh_text(text)), text);
   for (std::size_t size = 0; size < text.size(); ++size) {

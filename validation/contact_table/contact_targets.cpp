@@ -79,12 +79,12 @@ scenes::CompoundShape dumbbell() {
 
 /// Hills of 0.1 m.
 scenes::HeightFieldShape hills() {
-  constexpr int kSamples = 13;
+  constexpr int kSamples = 9;
   scenes::HeightFieldShape field{{1.6, 1.6}, Eigen::MatrixXd(kSamples, kSamples)};
   for (int j = 0; j < kSamples; ++j) {
     for (int i = 0; i < kSamples; ++i) {
-      const double x = std::numbers::pi * (i - kSamples / 2) / 4.0;
-      const double z = std::numbers::pi * (j - kSamples / 2) / 4.0;
+      const double x = std::numbers::pi * (i - kSamples / 2) / 3.0;
+      const double z = std::numbers::pi * (j - kSamples / 2) / 3.0;
       field.heights(j, i) = 0.05 * (std::cos(x) + std::cos(z));
     }
   }
@@ -102,8 +102,8 @@ std::vector<ContactTarget> contact_targets() {
       fixed("cylinder", scenes::CylinderShape{kRadius, 2 * kRadius}, kRadius),
       fixed("cone", scenes::ConeShape{0.5, 0.8}, 0.4, 0.24),
       fixed("convex hull", icosahedron(), kRadius * 1.26),
-      fixed("mesh, prisms", torus(24, 12), 0.15, 0.15),
-      fixed("mesh, Bullet's triangles", torus(24, 12), 0.15, 0.15),
+      fixed("mesh, prisms", torus(16, 8), 0.15, 0.15),
+      fixed("mesh, Bullet's triangles", torus(16, 8), 0.15, 0.15),
       fixed("compound", dumbbell(), 0.25, 0.25),
       fixed("height field, prisms", hills(), 0.1),
       fixed("height field, Bullet's triangles", hills(), 0.1),

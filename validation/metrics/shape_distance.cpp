@@ -83,7 +83,13 @@ struct MakeDistance {
   }
   Distance operator()(const scenes::MeshShape& s) const { return MeshDistance(s); }
   Distance operator()(const scenes::HeightFieldShape& s) const {
-    return MeshDistance(scenes::height_field_surface(s));
+    // Beside the field there is no ground, however low a point lies.
+    return [ground = MeshDistance(scenes::height_field_surface(s)),
+            size = s.size](const Vector3<double>& x) {
+      const bool is_beside = 2 * std::abs(x.x()) > size[0] || 2 * std::abs(x.z()) > size[1];
+      const double distance = ground(x);
+      return is_beside ? std::abs(distance) : distance;
+    };
   }
   Distance operator()(const scenes::CompoundShape& s) const {
     std::vector<Distance> parts;

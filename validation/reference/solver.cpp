@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include <weft/custom_forces/core/error.hpp>
@@ -72,6 +73,23 @@ StepOutcome SpringSolver::step(double time_step) {
   time_ += time_step;
   outcome.blow_up = blow_up_;
   return outcome;
+}
+
+void SpringSolver::replace_body(std::size_t index, Body body) {
+  if (index >= system_->bodies.size()) {
+    throw InvalidArgument("reference solver: body " + std::to_string(index) + ", expected 0 to " +
+                          std::to_string(system_->bodies.size()) + " - 1");
+  }
+  System alone;
+  alone.bodies.push_back(std::move(body));
+  check_system(alone);
+  Body& place = system_->bodies[index];
+  place = std::move(alone.bodies.front());
+  set_pinned_velocities(place.mesh, place.velocities);
+  dynamics_[index] = BodyDynamics(place);
+  motion_.inverse_masses[index] = dynamics_[index].inverse_masses();
+  motion_.bodies[index] = {};
+  if (options_.guard != GuardPolicy::kReport) stability_.reset();
 }
 
 ContactOutcome SpringSolver::substep(double time, double time_step) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <weft/custom_forces/core/position_limits.hpp>
 #include <weft/validation/reference/contact/contact_model.hpp>
 #include <weft/validation/reference/integrators/integrator.hpp>
 #include <weft/validation/reference/options.hpp>
@@ -44,12 +45,20 @@ class SpringSolver {
   /// or that the guard refuses; a numerical blow-up is in the outcome.
   StepOutcome step(double time_step);
 
+  /// Puts another body in place of one, between two steps: the same cloth after it tore. Throws
+  /// InvalidArgument as the constructor, and for a number that no body has; nothing changes then.
+  /// The stable step is estimated anew where the guard acts on it, else when it is due.
+  void replace_body(std::size_t index, Body body);
+
   [[nodiscard]] const System& system() const { return *system_; }
   /// Leads what has no free motion, for steps to come: pinned nodes reach targets, 3 x pinned.size()
   /// [m], in a step of time_step [s]. Throws InvalidArgument for another number of targets.
   void lead_pins(std::size_t body, ConstMatrix3XRef<double> targets, double time_step);
   /// After that step: puts them there exactly.
   void place_pins(std::size_t body, ConstMatrix3XRef<double> targets);
+  /// After that step, of time_step [s]: moves free nodes to where their limits allow them and adds the way
+  /// divided by time_step to their velocities. Throws InvalidArgument for limits that do not fit.
+  void limit_positions(std::size_t body, const PositionLimits& limits, double time_step);
   /// Sets Body::external_forces, 3 x n [N] or empty. Throws InvalidArgument for another size.
   void set_external_forces(std::size_t body, const Matrix3X<double>& forces);
   /// A collider without a mass reaches a place and an orientation in a step of time_step [s]. Throws

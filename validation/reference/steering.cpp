@@ -38,6 +38,21 @@ void SpringSolver::place_pins(std::size_t body, ConstMatrix3XRef<double> targets
   }
 }
 
+void SpringSolver::limit_positions(std::size_t body, const PositionLimits& limits,
+                                   double time_step) {
+  Body& led = system_->bodies.at(body);
+  check_position_limits(limits, led.mesh.num_nodes());
+  if (limits.is_empty()) return;
+  const VectorX<double>& inverse = dynamics_[body].inverse_masses();
+  for (int i = 0; i < led.mesh.num_nodes(); ++i) {
+    if (inverse[i] == 0.0) continue;
+    const Vector3<double> position = led.positions.col(i);
+    const Vector3<double> allowed = limited_position(limits, i, position);
+    led.positions.col(i) = allowed;
+    led.velocities.col(i) += (allowed - position) / time_step;
+  }
+}
+
 void SpringSolver::set_external_forces(std::size_t body, const Matrix3X<double>& forces) {
   Body& led = system_->bodies.at(body);
   if (forces.cols() > 0) check_size("external forces", forces.cols(), led.mesh.num_nodes());

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <weft/custom_forces/core/tear.hpp>
+#include <weft/scenes/cloth_tear.hpp>
+
+namespace weft::scenes {
+
+/// The mesh of a cloth that tears while a scene runs: what is the same for every engine.
+class TornCloth {
+ public:
+  /// mesh: of the scene. Throws InvalidArgument as weft::check(TearRule).
+  TornCloth(ClothMesh mesh, ClothTear tear);
+
+  [[nodiscard]] const ClothMesh& mesh() const { return mesh_; }
+  /// None as long as the cloth is whole.
+  [[nodiscard]] const std::shared_ptr<const ClothTopology>& topology() const { return topology_; }
+
+  /// The cuts before the first step; none if nothing comes apart.
+  [[nodiscard]] std::optional<Tear> first_cuts() const;
+  /// What tears at these positions, 3 x n [m]; none if nothing does.
+  [[nodiscard]] std::optional<Tear> tear_at(ConstMatrix3XRef<double> positions) const;
+  /// The engine has made this tear.
+  void adopt(const Tear& tear);
+
+ private:
+  ClothMesh mesh_;
+  ClothTear tear_;
+  int num_first_nodes_;
+  std::shared_ptr<const ClothTopology> topology_;
+};
+
+/// Of a scene's mesh and a state's topology (may be null), what can be said without the engine:
+/// rest positions, triangles, places in pictures and the edges "stretch", for pictures and strains. No masses, no other
+/// sets. Throws InvalidArgument if the two do not fit.
+[[nodiscard]] ClothMesh drawn_mesh(const ClothMesh& mesh, const ClothTopology* topology);
+
+}  // namespace weft::scenes
