@@ -178,8 +178,9 @@ def swing(rig, bone, angles, axis=0):
 def animate(rig):
     rig.animation_data_create()
     rig.animation_data.action = bpy.data.actions.new("Walk")
-    stride = [-26, 0, 26, 0, -26, 0, 26, 0, -26]
-    knee = [12, 45, 6, 2, 12, 45, 6, 2, 12]
+    # Starts with the legs side by side: a leg behind would stand in the cape.
+    stride = [0, 26, 0, -26, 0, 26, 0, -26, 0]
+    knee = [45, 6, 2, 12, 45, 6, 2, 12, 45]
     opposite = [-a for a in stride]
     late_knee = knee[2:] + knee[1:3]
     swing(rig, "UpperLeg.L", stride)
@@ -193,7 +194,7 @@ def animate(rig):
     swing(rig, "Hips", [0, 18, 30, 18, 0, -18, -30, -18, 0], axis=1)  # about the vertical
     swing(rig, "Spine", [4, 6, 4, 6, 4, 6, 4, 6, 4])
     hips = rig.pose.bones["Hips"]
-    for key, height in enumerate([-0.03, 0.0, -0.03, 0.0, -0.03, 0.0, -0.03, 0.0, -0.03]):
+    for key, height in enumerate([0.0, -0.03, 0.0, -0.03, 0.0, -0.03, 0.0, -0.03, 0.0]):
         hips.location = (0, height, 0)
         hips.keyframe_insert("location", frame=1 + round(key * CLIP_FRAMES / 8))
 
