@@ -25,7 +25,7 @@ struct Path {
   double ease_in = 0.0;
   PathFollow follow = PathFollow::kFixed;
   Vector3<double> turn_axis{0, 1, 0};  ///< [-]
-  std::vector<double> turns;  ///< [rad] about turn_axis, one for each time, or none; a loop ends
+  std::vector<double> turns = {};  ///< [rad] about turn_axis, one for each time, or none; a loop ends
                               ///< where it starts, or whole turns further
 };
 

@@ -237,7 +237,9 @@ TEST(FaceGrid, MissesNoFaceThatIsNear) {
         const auto [low, high] = std::minmax({n[0]->m_x[axis], n[1]->m_x[axis], n[2]->m_x[axis]});
         is_in = is_in && point[axis] >= low - reach && point[axis] <= high + reach;
       }
-      if (is_in) EXPECT_TRUE(std::binary_search(found.begin(), found.end(), f));
+      if (is_in) {
+        EXPECT_TRUE(std::binary_search(found.begin(), found.end(), f));
+      }
     }
   }
 }

@@ -49,8 +49,8 @@ TEST(RecordedMesh, IsInTheRecordingBitForBit) {
   const ClothMesh after = make_mesh(reader.scene().cloths.at(0));
   EXPECT_TRUE(samples::same_bits(before.rest_positions, after.rest_positions));
   EXPECT_EQ(before.triangles, after.triangles);
-  EXPECT_TRUE(samples::same_bits(before.corner_texture_coordinates,
-                                 after.corner_texture_coordinates));
+  EXPECT_TRUE(
+      samples::same_bits(before.corner_texture_coordinates, after.corner_texture_coordinates));
   EXPECT_EQ(reader.frame(0).cloths.at(0).positions.cols(), 4);
 }
 

@@ -84,8 +84,12 @@ TEST(Director, PinsWithoutAPathGoOnBesideThoseWithOne) {
     const Vector3<double> rest = mesh.rest_positions.col(mesh.pinned[i]);
     const Vector3<double> led =
         steering.cloths[0].pinned_positions.col(static_cast<Eigen::Index>(i));
-    if (mesh.pinned[i] == 19) EXPECT_EQ(led, rest);
-    if (mesh.pinned[i] == 3) EXPECT_EQ(led, Vector3<double>(rest + Vector3<double>(0, 0.5, 0)));
+    if (mesh.pinned[i] == 19) {
+      EXPECT_EQ(led, rest);
+    }
+    if (mesh.pinned[i] == 3) {
+      EXPECT_EQ(led, Vector3<double>(rest + Vector3<double>(0, 0.5, 0)));
+    }
   }
 }
 
