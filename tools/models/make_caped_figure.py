@@ -13,8 +13,8 @@ import sys
 import bpy
 from mathutils import Vector
 
-FRAMES_PER_SECOND = 24
-CLIP_FRAMES = 48  # 2 s: two steps with each foot
+FRAMES_PER_SECOND = 60
+CLIP_FRAMES = 120  # 2 s: two steps with each foot
 
 # name: (head, tail, parent); the figure looks along -y and is 1.8 m tall.
 BONES = {
@@ -51,6 +51,7 @@ RING = 8  # corners of a ring
 # The cape: rows from the collar to the hem, columns around the back from shoulder to shoulder.
 CAPE_ROWS, CAPE_COLUMNS = 22, 25
 CAPE_TOP, CAPE_BOTTOM = 1.47, 0.42  # heights
+PLEATS = 4
 
 
 def make_armature():
@@ -129,9 +130,12 @@ def make_body(rig):
 def cape_point(row, column):
     """On a half cone behind the back that widens towards the hem."""
     down = row / (CAPE_ROWS - 1)
-    angle = math.pi * (column / (CAPE_COLUMNS - 1) - 0.5) * 1.1  # 0 is behind the figure
-    half_x = 0.20 + 0.14 * down
-    half_y = 0.115 + 0.13 * down
+    # 0 is behind the figure. The edges end behind the arms, which would otherwise stand in the cape.
+    angle = math.pi * (column / (CAPE_COLUMNS - 1) - 0.5) * 0.68
+    # Pleats that open towards the hem: cloth that hangs smooth does not flow.
+    pleat = 1 + 0.09 * down * math.cos(2 * math.pi * PLEATS * column / (CAPE_COLUMNS - 1))
+    half_x = (0.20 + 0.14 * down) * pleat
+    half_y = (0.10 + 0.15 * down) * pleat
     # The collar lies on the shoulders: higher at the neck, lower towards the arms.
     top = CAPE_TOP - 0.055 * abs(math.sin(angle))
     height = top + (CAPE_BOTTOM - top) * down
@@ -167,7 +171,7 @@ def swing(rig, bone, angles, axis=0):
     pose = rig.pose.bones[bone]
     pose.rotation_mode = "QUATERNION"
     for key, angle in enumerate(angles):
-        frame = 1 + round(key * CLIP_FRAMES / (len(angles) - 1))
+        frame = round(key * CLIP_FRAMES / (len(angles) - 1))
         direction = [0.0, 0.0, 0.0]
         direction[axis] = 1.0
         half = math.radians(angle) / 2
@@ -179,24 +183,29 @@ def animate(rig):
     rig.animation_data_create()
     rig.animation_data.action = bpy.data.actions.new("Walk")
     # Starts with the legs side by side: a leg behind would stand in the cape.
+    # Positive angles turn a limb backwards.
     stride = [0, 26, 0, -26, 0, 26, 0, -26, 0]
     knee = [45, 6, 2, 12, 45, 6, 2, 12, 45]
     opposite = [-a for a in stride]
     late_knee = knee[2:] + knee[1:3]
     swing(rig, "UpperLeg.L", stride)
     swing(rig, "UpperLeg.R", opposite)
-    swing(rig, "LowerLeg.L", [-k for k in late_knee])
-    swing(rig, "LowerLeg.R", [-k for k in knee])
+    swing(rig, "LowerLeg.L", late_knee)
+    swing(rig, "LowerLeg.R", knee)
     swing(rig, "UpperArm.L", [0.7 * a for a in opposite])
     swing(rig, "UpperArm.R", [0.7 * a for a in stride])
-    swing(rig, "LowerArm.L", [20] * 9)
-    swing(rig, "LowerArm.R", [20] * 9)
+    swing(rig, "LowerArm.L", [-20] * 9)
+    swing(rig, "LowerArm.R", [-20] * 9)
     swing(rig, "Hips", [0, 18, 30, 18, 0, -18, -30, -18, 0], axis=1)  # about the vertical
     swing(rig, "Spine", [4, 6, 4, 6, 4, 6, 4, 6, 4])
     hips = rig.pose.bones["Hips"]
     for key, height in enumerate([0.0, -0.03, 0.0, -0.03, 0.0, -0.03, 0.0, -0.03, 0.0]):
         hips.location = (0, height, 0)
-        hips.keyframe_insert("location", frame=1 + round(key * CLIP_FRAMES / 8))
+        hips.keyframe_insert("location", frame=round(key * CLIP_FRAMES / 8))
+    # The walk goes on from its last pose to its first one: automatic handles then look across the seam.
+    for curve in rig.animation_data.action.fcurves:
+        curve.modifiers.new("CYCLES")
+        curve.update()
 
 
 def main():
@@ -204,14 +213,16 @@ def main():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     scene.render.fps = FRAMES_PER_SECOND
-    scene.frame_start, scene.frame_end = 1, 1 + CLIP_FRAMES
+    scene.frame_start, scene.frame_end = 0, CLIP_FRAMES
     rig = make_armature()
     make_body(rig)
     make_cape(rig)
     animate(rig)
+    # Sampled: as splines, Blender 3.4 writes the quaternions of bones that point against their parent, as arms and legs
+    # do, with signs that change from key to key. A spline between q and -q turns the limb around once in some 20 ms.
     bpy.ops.export_scene.gltf(
         filepath=target, export_format="GLB", export_yup=True, export_animations=True, export_skins=True,
-        export_force_sampling=False, export_normals=False, export_colors=True, export_morph=False,
+        export_force_sampling=True, export_normals=False, export_colors=True, export_morph=False,
         export_texcoords=False, export_image_format="NONE", export_def_bones=False, export_optimize_animation_size=False)
 
 
