@@ -62,8 +62,9 @@ TEST(FlyingCarpetScene, TheLeadingEdgeIsOnItsSplineToTheLastBit) {
           start.orientation.conjugate() * (mesh.rest_positions.col(node) - start.position);
       const Vector3<double> place = now.position + now.orientation * arm;
       // The engine computes in single precision: the place is the nearest float, nothing else.
-      const Vector3<double> rounded = place.cast<float>().cast<double>();
-      ASSERT_EQ(state.cloths[0].positions.col(node), rounded) << state.time;
+      const Vector3<float> rounded = place.cast<float>();
+      const Vector3<float> found = state.cloths[0].positions.col(node).cast<float>();
+      ASSERT_EQ(found, rounded) << state.time;
       ++looked;
     }
     lowest_bank = std::min(lowest_bank, (now.orientation * Vector3<double>::UnitY()).y());

@@ -9,7 +9,7 @@ namespace {
 
 TEST(CurtainScene, IsDrawnTogetherAndFolds) {
   Scene scene = load_scene("curtain");
-  scene.world.duration = 2.4;  // [s]: drawn together
+  scene.world.duration = 2.3;  // [s]: drawn together
   scene.world.frame_interval = 0.1;
   const RunNumbers numbers = measure_scene(scene);
   EXPECT_EQ(numbers.most_piercings, 0);

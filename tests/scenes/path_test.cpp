@@ -49,10 +49,10 @@ TEST(Path, VelocityAndAccelerationAreDerivatives) {
   path.ease_in = 1.0;
   for (const PathMotion& motion : {PathMotion(wave()), PathMotion(path)}) {
     const double h = 1e-4;
-    for (const double t : {0.3, 0.71, 1.0, 1.37, 2.2, 5.9, 6.4, 7.1}) {
+    for (const double t : {0.3, 0.71, 1.37, 2.2, 5.9, 6.4, 7.1}) {
       const Vector3<double> slope = (motion.position(t + h) - motion.position(t - h)) / (2 * h);
       const Vector3<double> bend = (motion.velocity(t + h) - motion.velocity(t - h)) / (2 * h);
-      // Central differences: h^2 / 6 times the third derivative, at most some 1e2 here; at a knot,
+      // Not at 1 s, where the clock stops speeding up. Central differences: h^2 / 6 times the third derivative, at most some 1e2 here; at a knot,
       // where the third derivative jumps, h / 2 times it.
       EXPECT_LT((slope - motion.velocity(t)).norm(), 1e-5) << t;
       EXPECT_LT((bend - motion.acceleration(t)).norm(), 2e-2) << t;
