@@ -128,11 +128,11 @@ Tear part(SoftBodySolver& solver, btSoftBody& body, ClothMesh& mesh, const Cloth
 void apply_tear(const Tear& tear, const ClothSettings& settings, btSoftBody& body) {
   check(tear, body);
   // Contacts point to nodes that are about to move in memory.
-  body.m_rcontacts.resize(0);
-  body.m_scontacts.resize(0);
+  body.m_rcontacts.resizeNoInitialize(0);
+  body.m_scontacts.resizeNoInitialize(0);
   append_nodes(tear, body);
   lead_faces(tear, body);
-  body.m_links.resize(0);
+  body.m_links.resizeNoInitialize(0);
   append_links(tear.mesh, settings, body);
   body.updateLinkConstants();
   update_areas(tear, body);

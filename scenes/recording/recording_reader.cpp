@@ -229,8 +229,9 @@ double RecordingReader::frame_time(int frame) const {
 }
 
 SceneState RecordingReader::frame(int frame) const {
+  const double time = frame_time(frame);  // refuses a frame that is not there
   SceneState state = impl_->topologies.codec_at(frame).decode(impl_->frame_bytes(frame));
-  state.time = frame_time(frame);
+  state.time = time;
   if (!impl_->topologies.empty()) {
     impl_->with_database([&](const Database& database) {
       impl_->topologies.set(database, frame, state);

@@ -124,7 +124,7 @@ class CharacterEngines : public testing::TestWithParam<const EngineInfo*> {
   /// The figure with limits so tight that both act at once. The reference knows no capsules.
   [[nodiscard]] static Scene scene() {
     Scene scene = with_bullets_time_step(load_scene("caped_figure"));
-    scene.characters[0].cloths[0].reach.max_distance = 0.1;
+    scene.characters[0].cloths[0].reach.max_distance = 0.03;
     scene.characters[0].cloths[0].reach.backstop_offset = 0.005;
     if (GetParam()->name != "reference") return scene;
     std::erase_if(scene.colliders, [](const Collider& c) { return !c.led_by.empty(); });
