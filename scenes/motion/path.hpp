@@ -25,8 +25,8 @@ struct Path {
   double ease_in = 0.0;
   PathFollow follow = PathFollow::kFixed;
   Vector3<double> turn_axis{0, 1, 0};  ///< [-]
-  std::vector<double> turns = {};  ///< [rad] about turn_axis, one for each time, or none; a loop ends
-                              ///< where it starts, or whole turns further
+  /// [rad] about turn_axis, one for each time, or none; a loop ends as it starts, or whole turns on
+  std::vector<double> turns = {};
 };
 
 /// Evaluates a Path. Poses are relative to the start: at time 0 the orientation is the identity
