@@ -204,8 +204,8 @@ struct DetailSwitch {
 /// carry that along.
 struct Detail {
   std::string cloth;
-  std::vector<DetailSwitch> levels;  ///< times growing; before the first one: full
-  double blend = 0.3;                ///< [s], >= 0, in which a switch to kSkin ends
+  std::vector<DetailSwitch> levels = {};  ///< times growing; before the first one: full
+  double blend = 0.3;                ///< [s], >= 0, in which a switch to kSkin or kFull ends
   double follow = 2.0;               ///< [Hz], > 0, of the damped points
 };
 

@@ -39,6 +39,16 @@ Matrix3<double> best_turn(const Matrix3X<double>& points, const Matrix3X<double>
   return svd.matrixU() * mirror * svd.matrixV().transpose();
 }
 
+void limit(const PositionLimits& limits, double time_step, Placement& placement) {
+  if (limits.is_empty()) return;
+  for (Eigen::Index i = 0; i < placement.positions.cols(); ++i) {
+    const Vector3<double> position = placement.positions.col(i);
+    const Vector3<double> allowed = limited_position(limits, static_cast<int>(i), position);
+    placement.positions.col(i) = allowed;
+    placement.velocities.col(i) += (allowed - position) / time_step;
+  }
+}
+
 }  // namespace
 
 DetailController::DetailController(const Detail& detail, std::size_t cloth,
@@ -47,6 +57,7 @@ DetailController::DetailController(const Detail& detail, std::size_t cloth,
   check(detail, description);
   const ClothMesh mesh = make_mesh(description);
   pinned_ = mesh.pinned;
+  blended_ = detail_.blend;  // nothing to blend yet
   pinned_velocities_.resize(3, std::ssize(pinned_));
   for (std::size_t i = 0; i < pinned_.size(); ++i) {
     pinned_velocities_.col(static_cast<Eigen::Index>(i)) = mesh.pinned_velocity(i);
@@ -113,17 +124,17 @@ Placement DetailController::simplified(const ClothState& cloth, const Goal& goal
   return placement;
 }
 
-Placement DetailController::skin(const ClothState& cloth, const Goal& goal, double time_step) {
-  if (last_level_ != DetailLevel::kSkin) {
-    blended_ = 0.0;
-    offset_ = cloth.positions - goal.start;
-    offset_change_ = cloth.velocities - goal.velocity;
-  }
-  blended_ += time_step;
+void DetailController::begin_blending(const ClothState& cloth, const Goal& goal) {
+  blended_ = 0.0;
+  offset_ = cloth.positions - goal.start;
+  offset_change_ = cloth.velocities - goal.velocity;
+}
+
+/// On Hermite's cubic from the offset and its change at the switch to 0 and 0.
+Placement DetailController::blended(const Goal& goal) const {
   if (blended_ >= detail_.blend) return {goal.end, goal.velocity};
   const double s = blended_ / detail_.blend;
   const double rest = 1.0 - s;
-  // Hermite's cubic from offset and its change to 0 and 0.
   const double a = rest * rest * (1.0 + 2.0 * s);
   const double b = rest * rest * s * detail_.blend;
   const double da = -6.0 * s * rest / detail_.blend;
@@ -132,33 +143,47 @@ Placement DetailController::skin(const ClothState& cloth, const Goal& goal, doub
           goal.velocity + da * offset_ + db * offset_change_};
 }
 
+void DetailController::place(const ClothState& cloth, double time_step, ClothSteering& lead) {
+  if (last_level_ == DetailLevel::kFull) leave_full(cloth);
+  const Matrix3X<double> pins = pins_at_end(cloth, time_step, lead);
+  const Goal goal = goal_of(cloth, time_step, lead);
+  if (level_ == DetailLevel::kSimplified) {
+    lead.placement = simplified(cloth, goal, time_step);
+    limit(lead.limits, time_step, *lead.placement);
+  } else {
+    if (last_level_ != DetailLevel::kSkin) begin_blending(cloth, goal);
+    blended_ += time_step;
+    lead.placement = blended(goal);
+  }
+  for (std::size_t i = 0; i < pinned_.size(); ++i) {
+    const Vector3<double> pin = pins.col(static_cast<Eigen::Index>(i));
+    lead.placement->velocities.col(pinned_[i]) =
+        (pin - cloth.positions.col(pinned_[i])) / time_step;
+    lead.placement->positions.col(pinned_[i]) = pin;
+  }
+}
+
+// A limit around the place to which a node's own velocity brings it bounds its acceleration.
+void DetailController::release(const ClothState& cloth, double time_step, ClothSteering& lead) {
+  if (last_level_ != DetailLevel::kFull) blended_ = 0.0;
+  blended_ += time_step;
+  if (blended_ >= detail_.blend) return;
+  const double s = blended_ / detail_.blend;
+  const double radius = kReleaseAcceleration * s / (1.0 - s) * time_step * time_step;
+  lead.limits = {};
+  lead.limits.centers = cloth.positions + time_step * cloth.velocities;
+  lead.limits.max_distances = VectorX<double>::Constant(cloth.positions.cols(), radius);
+}
+
 void DetailController::steer(const SceneState& state, double end_time, Steering& steering) {
   const ClothState& cloth = state.cloths[cloth_];
   ClothSteering& lead = steering.cloths[cloth_];
   const double time_step = end_time - state.time;
   follow_list(end_time);
   if (level_ != DetailLevel::kFull) {
-    if (last_level_ == DetailLevel::kFull) leave_full(cloth);
-    const Goal goal = goal_of(cloth, time_step, lead);
-    Placement placement = level_ == DetailLevel::kSimplified ? simplified(cloth, goal, time_step)
-                                                             : skin(cloth, goal, time_step);
-    if (level_ == DetailLevel::kSimplified && !lead.limits.is_empty()) {
-      for (Eigen::Index i = 0; i < placement.positions.cols(); ++i) {
-        const Vector3<double> position = placement.positions.col(i);
-        const Vector3<double> allowed =
-            limited_position(lead.limits, static_cast<int>(i), position);
-        placement.positions.col(i) = allowed;
-        placement.velocities.col(i) += (allowed - position) / time_step;
-      }
-    }
-    const Matrix3X<double> pins = pins_at_end(cloth, time_step, lead);
-    for (std::size_t i = 0; i < pinned_.size(); ++i) {
-      const auto column = static_cast<Eigen::Index>(i);
-      placement.velocities.col(pinned_[i]) =
-          (pins.col(column) - cloth.positions.col(pinned_[i])) / time_step;
-      placement.positions.col(pinned_[i]) = pins.col(column);
-    }
-    lead.placement = std::move(placement);
+    place(cloth, time_step, lead);
+  } else if (last_level_ != DetailLevel::kFull || blended_ < detail_.blend) {
+    release(cloth, time_step, lead);
   }
   last_animated_ = lead.animated_positions;
   last_level_ = level_;

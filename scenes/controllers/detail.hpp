@@ -15,12 +15,16 @@ namespace weft::scenes {
 ///   kSkin        x = g + o(s), o the cubic with o(0) = x - g and o'(0) = x' - g' at the switch and
 ///                both 0 after the time of blending
 /// so that a switch never moves a node and never changes its velocity at once. Back in kFull the
-/// engine goes on from where the nodes are.
+/// engine goes on from where the nodes are. The animation knew neither colliders nor taut springs; what
+/// they want now comes slowly: during the time of blending, with s from 0 to 1, a node's acceleration is
+/// at most kReleaseAcceleration s / (1 - s), instead of the cloth's own limits.
 class DetailController final : public Controller {
  public:
   /// cloth: number of detail.cloth in its scene. Throws InvalidArgument for values out of their
   /// domain, for times that do not grow and for a cloth that tears.
   DetailController(const Detail& detail, std::size_t cloth, const Cloth& description);
+
+  static constexpr double kReleaseAcceleration = 100.0;  ///< [m/s^2], some ten times gravity
 
   /// From the next step on, until the next time of the list.
   void set_level(DetailLevel level) { level_ = level; }
@@ -43,7 +47,10 @@ class DetailController final : public Controller {
   [[nodiscard]] Goal goal_of(const ClothState& cloth, double time_step, const ClothSteering& lead);
   [[nodiscard]] Placement simplified(const ClothState& cloth, const Goal& goal,
                                      double time_step) const;
-  [[nodiscard]] Placement skin(const ClothState& cloth, const Goal& goal, double time_step);
+  void begin_blending(const ClothState& cloth, const Goal& goal);
+  [[nodiscard]] Placement blended(const Goal& goal) const;
+  void place(const ClothState& cloth, double time_step, ClothSteering& lead);
+  void release(const ClothState& cloth, double time_step, ClothSteering& lead);
 
   Detail detail_;
   std::size_t cloth_;
@@ -58,7 +65,7 @@ class DetailController final : public Controller {
   Matrix3X<double> shape_pins_;     ///< the pins of that shape [m]
   Matrix3<double> turn_;            ///< of the shape since then
 
-  double blended_ = 0.0;            ///< [s] since the switch to kSkin
+  double blended_ = 0.0;            ///< [s] since the last switch, of those that are blended
   Matrix3X<double> offset_;         ///< 3 x n [m], at that switch
   Matrix3X<double> offset_change_;  ///< 3 x n [m/s], likewise
 };
