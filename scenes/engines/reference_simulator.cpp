@@ -92,17 +92,30 @@ reference::Collider make_collider(const Collider& collider) {
 }
 
 reference::IntegratorKind to_reference(Integrator integrator) {
+  using Kind = reference::IntegratorKind;
   switch (integrator) {
     case Integrator::kExplicitEuler:
-      return reference::IntegratorKind::kExplicitEuler;
+      return Kind::kExplicitEuler;
     case Integrator::kModifiedEuler:
-      return reference::IntegratorKind::kModifiedEuler;
+      return Kind::kModifiedEuler;
     case Integrator::kVelocityVerlet:
-      return reference::IntegratorKind::kVelocityVerlet;
+      return Kind::kVelocityVerlet;
     case Integrator::kRungeKutta4:
+      return Kind::kRungeKutta4;
+    case Integrator::kYoshida4:
+      return Kind::kYoshida4;
+    case Integrator::kDormandPrince5:
+      return Kind::kDormandPrince5;
+    case Integrator::kImplicitEuler:
+      return Kind::kImplicitEuler;
+    case Integrator::kTrBdf2:
+      return Kind::kTrBdf2;
+    case Integrator::kImplicitMidpoint:
+      return Kind::kImplicitMidpoint;
+    case Integrator::kGeneralizedAlpha:
       break;
   }
-  return reference::IntegratorKind::kRungeKutta4;
+  return Kind::kGeneralizedAlpha;
 }
 
 reference::GuardPolicy to_reference(StepGuard guard) {
@@ -126,6 +139,8 @@ void ReferenceSimulator::load(const Scene& scene) {
   }
   reference::SolverOptions options;
   options.integrator = to_reference(scene.reference.integrator);
+  options.settings.relative_tolerance = scene.reference.tolerance;
+  options.settings.spectral_radius = scene.reference.spectral_radius;
   options.contact = scene.reference.contact == ContactModel::kProjection
                         ? reference::ContactKind::kProjection
                         : reference::ContactKind::kImpulse;
