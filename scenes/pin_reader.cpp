@@ -11,9 +11,10 @@
 namespace weft::scenes {
 namespace {
 
-constexpr std::array<std::string_view, 10> kMovingPinKeys = {
-    "corner", "edge",         "box",   "sphere",   "nodes",
-    "part",   "vertex_group", "above", "velocity", "path"};
+constexpr std::array<std::string_view, 11> kMovingPinKeys = {
+    "corner",       "edge",  "box",      "sphere", "nodes", "part",
+    "vertex_group", "above", "velocity", "path",   "to"};
+constexpr Keys kMotionKeys = Keys(kMovingPinKeys).last(3);
 constexpr Keys kPinKinds = Keys(kMovingPinKeys).first(7);
 constexpr Keys kPinKeys = Keys(kMovingPinKeys).first(8);
 constexpr std::array<std::string_view, 2> kBoxKeys = {"min", "max"};
@@ -183,15 +184,41 @@ void read_cloth_pins(const TomlValue& value, Cloth& cloth) {
     table.allow(kMovingPinKeys);
     const Pin pin = read_pin(table, cloth);
     check_holds_nodes(entry, pin, cloth);
-    const auto velocity = table.find("velocity");
-    const auto path = table.find("path");
-    if (velocity && path) velocity->fail("path is given too, expected at most one of the two");
-    if (velocity) {
+    std::vector<std::string_view> given;
+    for (const std::string_view key : kMotionKeys) {
+      if (table.has(key)) given.push_back(key);
+    }
+    if (given.size() > 1) {
+      table.require(given[0], "")
+          .fail(fmt::format("{} is given too, expected at most one of {}", given[1],
+                            fmt::join(kMotionKeys, ", ")));
+    }
+    if (const auto velocity = table.find("velocity")) {
       cloth.moving_pins.push_back({pin, velocity->vector("m/s")});
-    } else if (path) {
+    } else if (const auto path = table.find("path")) {
       cloth.moving_pins.push_back({.nodes = pin, .path = read_path(*path)});
+    } else if (const auto to = table.find("to")) {
+      cloth.moving_pins.push_back({.nodes = pin, .to = to->identifier()});
     } else {
       cloth.pins.push_back(pin);
+    }
+  }
+}
+
+void check_carriers(const TomlTable& cloth, const Scene& scene) {
+  const auto pins = cloth.find("pin");
+  if (!pins) return;
+  for (const TomlValue& entry : pin_entries(*pins)) {
+    const auto to = entry.table(kExpectedPin).find("to");
+    if (!to) continue;
+    const std::string name = to->identifier();
+    const auto found = std::find_if(scene.colliders.begin(), scene.colliders.end(),
+                                    [&](const Collider& c) { return c.name == name; });
+    if (found == scene.colliders.end()) to->fail("expected the name of a collider of this scene");
+    if (found->mass) {
+      to->fail(
+          "has a mass, expected a collider without one; the controller \"attach\" ties a cloth to "
+          "a body that moves freely");
     }
   }
 }

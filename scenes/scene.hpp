@@ -53,11 +53,14 @@ struct NodePin {
 };
 using Pin = std::variant<CornerPin, EdgePin, BoxPin, SpherePin, NodePin>;
 
-/// Nodes that are pinned and move: with a constant velocity, or with a frame that follows a path.
+/// Nodes that are pinned and move: with a constant velocity, with a frame that follows a path, or
+/// with a collider.
 struct MovingPin {
   Pin nodes;
   Vector3<double> velocity{0, 0, 0};  ///< [m/s], without a path
   std::optional<Path> path = {};      ///< each node keeps its place in the frame of the start
+  /// Name of a collider without a mass that carries the nodes, exactly and without lag; empty: none.
+  std::string to = {};
 };
 
 /// A named set of nodes, for drive.
@@ -164,7 +167,38 @@ struct Roll {
   double arrival = 0.5;    ///< [m], > 0: rolls slower within this distance
 };
 
-using ControllerSettings = std::variant<Seek, Roll>;
+/// Ties nodes of a cloth to a collider by springs without length, each from a node to the place that
+/// it has in the collider's frame at the start. What pulls the cloth pulls a collider with a mass back.
+struct Attach {
+  std::string cloth;
+  std::string region;      ///< of the cloth
+  std::string to;          ///< name of a collider
+  double stiffness = 0.0;  ///< [N/m] of each spring, > 0
+  double damping = 0.0;    ///< [N s/m] of each, >= 0
+};
+
+/// How a cloth gets its places.
+enum class DetailLevel {
+  kFull,        ///< the engine simulates it
+  kSimplified,  ///< each node follows its animated place by itself, as a damped point
+  kSkin,        ///< each node is at its animated place
+};
+struct DetailSwitch {
+  double time;  ///< [s] at the end of the first step with it
+  DetailLevel level;
+};
+
+/// Level of detail of one cloth. Its animated places are those that a character's bones have for
+/// it; a cloth of no character keeps the shape that it had when it was last simulated, and its pins
+/// carry that along.
+struct Detail {
+  std::string cloth;
+  std::vector<DetailSwitch> levels = {};  ///< times growing; before the first one: full
+  double blend = 0.3;                ///< [s], >= 0, in which a switch to kSkin or kFull ends
+  double follow = 2.0;               ///< [Hz], > 0, of the damped points
+};
+
+using ControllerSettings = std::variant<Seek, Roll, Attach, Detail>;
 
 struct Camera {
   Vector3<double> position{8, 6, 10};  ///< [m]

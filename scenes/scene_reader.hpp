@@ -45,5 +45,7 @@ void read_character(const TomlTable& table, Scene& scene);
 [[nodiscard]] std::vector<Pin> read_pins(const TomlValue& value, const Cloth& cloth);
 /// The pins of a cloth, which may move.
 void read_cloth_pins(const TomlValue& value, Cloth& cloth);
+/// Refuses pins of this table [[cloth]] whose collider the scene does not have or that moves freely.
+void check_carriers(const TomlTable& cloth, const Scene& scene);
 
 }  // namespace weft::scenes
