@@ -20,44 +20,58 @@ double largest_free_force(const Matrix3X<double>& forces, const std::vector<bool
   return largest;
 }
 
+/// Moves positions along a step that goes downhill, as far as options allow and not much beyond the
+/// lowest place on the way; forces become those there. The forces' work along the step says where
+/// that is, so no energy is needed.
+void move_downhill(const StaticProblem& problem, const StaticOptions& options,
+                   const Matrix3X<double>& step, Matrix3X<double>& positions,
+                   Matrix3X<double>& forces) {
+  const double longest = std::sqrt(step.colwise().squaredNorm().maxCoeff());
+  const double pull = forces.cwiseProduct(step).sum();
+  const double residual = largest_free_force(forces, problem.fixed);
+  const Matrix3X<double> start = positions;
+  double part = longest > options.max_move ? options.max_move / longest : 1.0;
+  constexpr int kMaxHalvings = 30;
+  constexpr double kOvershoot = 0.9;  // part of the first pull with which it may be pulled back
+  for (int halving = 0; halving <= kMaxHalvings; ++halving, part *= 0.5) {
+    positions = start + part * step;
+    problem.forces(positions, forces);
+    if (forces.cwiseProduct(step).sum() >= -kOvershoot * pull) return;
+    if (largest_free_force(forces, problem.fixed) < residual) return;
+  }
+}
+
 }  // namespace
 
 StaticOutcome solve_statics(const StaticProblem& problem, Matrix3X<double>& positions,
                             const StaticOptions& options) {
   const ColoredMatrix matrix(problem.coupled, problem.fixed);
-  const auto num_nodes = positions.cols();
-  Matrix3X<double> forces = Matrix3X<double>::Zero(3, num_nodes);
+  Matrix3X<double> forces = Matrix3X<double>::Zero(3, positions.cols());
   DefiniteFactor factor;
   StaticOutcome outcome;
+  problem.forces(positions, forces);
   for (;; ++outcome.iterations) {
-    problem.forces(positions, forces);
     outcome.residual = largest_free_force(forces, problem.fixed) / problem.load;
     outcome.converged = outcome.residual <= options.residual;
     if (outcome.converged || !std::isfinite(outcome.residual) ||
         outcome.iterations == options.max_iterations || matrix.num_free() == 0) {
       return outcome;
     }
-    const Eigen::SparseMatrix<double> stiffness =
+    factor.factorize(
         matrix.assemble([&](const Matrix3X<double>& direction, Matrix3X<double>& product) {
           problem.stiffness_product(positions, direction, product);
           product = -product;
-        });
-    factor.factorize(stiffness);
+        }));
     Eigen::VectorXd right(3 * matrix.num_free());
-    for (int node = 0; node < num_nodes; ++node) {
+    for (int node = 0; node < positions.cols(); ++node) {
       if (matrix.row_of(node) >= 0) right.segment<3>(matrix.row_of(node)) = forces.col(node);
     }
-    const Eigen::VectorXd step = factor.solve(right);
-    double longest = 0.0;
-    for (Eigen::Index row = 0; row < step.size(); row += 3) {
-      longest = std::max(longest, step.segment<3>(row).norm());
+    const Eigen::VectorXd solution = factor.solve(right);
+    Matrix3X<double> step = Matrix3X<double>::Zero(3, positions.cols());
+    for (int node = 0; node < positions.cols(); ++node) {
+      if (matrix.row_of(node) >= 0) step.col(node) = solution.segment<3>(matrix.row_of(node));
     }
-    const double part = longest > options.max_move ? options.max_move / longest : 1.0;
-    for (int node = 0; node < num_nodes; ++node) {
-      if (matrix.row_of(node) >= 0) {
-        positions.col(node) += part * step.segment<3>(matrix.row_of(node));
-      }
-    }
+    move_downhill(problem, options, step, positions, forces);
   }
 }
 
