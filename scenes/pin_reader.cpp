@@ -11,12 +11,12 @@
 namespace weft::scenes {
 namespace {
 
-constexpr std::array<std::string_view, 11> kMovingPinKeys = {
-    "corner",       "edge",  "box",      "sphere", "nodes", "part",
-    "vertex_group", "above", "velocity", "path",   "to"};
+constexpr std::array<std::string_view, 12> kMovingPinKeys = {
+    "corner",       "edge",    "box",   "sphere",   "nodes", "part",
+    "vertex_group", "texture", "above", "velocity", "path",  "to"};
 constexpr Keys kMotionKeys = Keys(kMovingPinKeys).last(3);
-constexpr Keys kPinKinds = Keys(kMovingPinKeys).first(7);
-constexpr Keys kPinKeys = Keys(kMovingPinKeys).first(8);
+constexpr Keys kPinKinds = Keys(kMovingPinKeys).first(8);
+constexpr Keys kPinKeys = Keys(kMovingPinKeys).first(9);
 constexpr std::array<std::string_view, 2> kBoxKeys = {"min", "max"};
 constexpr std::array<std::string_view, 2> kSphereKeys = {"center", "radius"};
 
@@ -128,8 +128,9 @@ Pin read_pin(const TomlTable& table, const Cloth& cloth) {
     return read_sphere(value.table("a table such as { center = [...], radius = \"1 cm\" }"));
   }
   if (given[0] == "nodes") return read_node_list(value, cloth);
+  if (given[0] == "texture") return read_mask(table, value, cloth);
   if (table.has("above") && given[0] != "vertex_group") {
-    table.fail("above goes with vertex_group only");
+    table.fail("above goes with vertex_group and texture only");
   }
   if (given[0] == "part") return read_group(table, value, true, cloth);
   if (given[0] == "vertex_group") return read_group(table, value, false, cloth);

@@ -66,9 +66,10 @@ TEST_P(LongRun, StaysFiniteAndNeedsNoMoreMemory) {
   // Lists of contacts grow to the largest number they ever had; a leak of one pointer per step would
   // be more than this after a minute in most scenes.
   EXPECT_LT(live_memory(), after_a_fifth + 0.5);
-  std::printf("%-14s %-14s %6.0f s simulated in %7.1f s, %7.2f MiB live at a fifth, %7.2f at the end\n",
-              scene.name.c_str(), engine.c_str(), num_steps * scene.world.time_step, taken.count(),
-              after_a_fifth, live_memory());
+  std::printf(
+      "%-14s %-14s %6.0f s simulated in %7.1f s, %7.2f MiB live at a fifth, %7.2f at the end\n",
+      scene.name.c_str(), engine.c_str(), num_steps * scene.world.time_step, taken.count(),
+      after_a_fifth, live_memory());
 }
 
 std::vector<const CatalogEntry*> all_entries() {

@@ -32,9 +32,7 @@ TEST_P(PublicCharacter, WearsACapeThatItsChestLeads) {
   double swing = 0;   // [m] that a node of the hem is away from where the chest would have it
   run_scene(scene, [&](const SceneState& state) {
     const Pose now = chest_pose(state.time);
-    const auto place = [&](int node) {
-      return carried(start, now, mesh.rest_positions.col(node));
-    };
+    const auto place = [&](int node) { return carried(start, now, mesh.rest_positions.col(node)); };
     for (const int node : mesh.pinned) {
       worst = std::max(worst, (state.cloths[0].positions.col(node) - place(node)).norm());
       turned = std::max(turned, (place(node) - mesh.rest_positions.col(node)).norm());
