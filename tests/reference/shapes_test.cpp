@@ -166,6 +166,21 @@ TEST(MeshSurface, OfAnAngleIsTheUnionOfItsArmsOutside) {
   EXPECT_GT(inside, 20);
 }
 
+TEST(MeshSurface, WithItsPointsRepeatedAlongSeamsIsTheSame) {
+  const ClothMesh ball = make_icosphere({.frequency = 2});
+  const MeshSurface shared(ball.rest_positions, ball.triangles);
+  Matrix3X<double> points(3, 3 * ball.triangles.cols());
+  Triangles triangles = ball.triangles;
+  for (Eigen::Index i = 0; i < triangles.size(); ++i) {
+    points.col(i) = ball.rest_positions.col(triangles.data()[i]);
+    triangles.data()[i] = static_cast<int>(i);
+  }
+  const MeshSurface repeated(points, triangles);
+  const Vec point(0.2, -0.9, 0.7);
+  EXPECT_EQ(repeated.distance(point).distance, shared.distance(point).distance);
+  EXPECT_EQ(repeated.distance(point).normal, shared.distance(point).normal);
+}
+
 TEST(MeshSurface, ThatIsNotClosedOrRunsTwoWaysIsRefused) {
   ClothMesh ball = make_icosphere({.frequency = 2});
   EXPECT_NO_THROW((void)MeshSurface(ball.rest_positions, ball.triangles));

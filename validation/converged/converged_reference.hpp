@@ -45,6 +45,7 @@ struct ConvergenceStudy {
 /// A reference with its own numerical error.
 struct ConvergedReference {
   std::string scene;
+  std::string program;     ///< version and revision of what made it; set by the caller
   std::string scene_hash;                 ///< of the resolved scene
   std::string mesh_hash;                  ///< of masses, triangles and edges of all cloths
   double time = 0.0;                      ///< [s]

@@ -64,6 +64,7 @@ std::string to_json(const ConvergedReference& reference, int max_nodes) {
   }
   const Json root = {{"schema", "weft-converged-reference/1"},
                      {"scene", reference.scene},
+                     {"program", reference.program},
                      {"scene_xxh128", reference.scene_hash},
                      {"mesh_xxh128", reference.mesh_hash},
                      {"time_s", reference.time},

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <string>
+#include <tuple>
 
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/validation/reference/contact/primitive_distance.hpp>
@@ -36,6 +37,12 @@ MeshSurface::MeshSurface(const Matrix3X<double>& points, const Triangles& triang
   if (triangles.minCoeff() < 0 || triangles.maxCoeff() >= points.cols()) {
     refuse("a triangle with a node that is not there", "0 to " + std::to_string(points.cols() - 1));
   }
+  // Points in one place are one corner: mesh files repeat them along seams.
+  std::map<std::tuple<double, double, double>, int> corner_at;
+  for (int& node : triangles_.reshaped()) {
+    const Vector3<double> at = points.col(node);
+    node = corner_at.emplace(std::tuple(at.x(), at.y(), at.z()), node).first->second;
+  }
   face_normals_.resize(3, count);
   corner_normals_.setZero(3, points.cols());
   std::map<std::pair<int, int>, Eigen::Index> triangle_of;  // by directed edge
@@ -45,7 +52,7 @@ MeshSurface::MeshSurface(const Matrix3X<double>& points, const Triangles& triang
     if (!(normal.norm() > 0.0)) refuse("triangle " + std::to_string(t) + " without area", "none");
     face_normals_.col(t) = normal.normalized();
     for (int k = 0; k < 3; ++k) {
-      const int from = triangles(k, t), to = triangles((k + 1) % 3, t);
+      const int from = triangles_(k, t), to = triangles_((k + 1) % 3, t);
       if (!triangle_of.emplace(std::pair(from, to), t).second) {
         refuse(
             "edge " + std::to_string(from) + "-" + std::to_string(to) + " twice in one direction",
@@ -66,7 +73,7 @@ MeshSurface::MeshSurface(const Matrix3X<double>& points, const Triangles& triang
              "a closed surface");
     }
     for (std::size_t k = 0; k < 3; ++k) {
-      if (triangles(static_cast<int>(k), t) != edge.first) continue;
+      if (triangles_(static_cast<int>(k), t) != edge.first) continue;
       edge_normals_[k].col(t) = face_normals_.col(t) + face_normals_.col(other->second);
     }
   }

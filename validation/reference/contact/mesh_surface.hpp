@@ -15,7 +15,8 @@ namespace weft::reference {
 /// (Baerentzen and Aanaes 2005).
 class MeshSurface {
  public:
-  /// points 3 x n [m], finite; triangles 3 x t, counter-clockwise seen from outside. Throws
+  /// points 3 x n [m], finite, equal ones count as one; triangles 3 x t, counter-clockwise seen from
+  /// outside. Throws
   /// InvalidArgument for no triangle, a node that is not there, a triangle without area, and an
   /// edge that is not shared by exactly two triangles that run along it in opposite directions.
   MeshSurface(const Matrix3X<double>& points, const Triangles& triangles);
