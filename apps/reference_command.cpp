@@ -13,6 +13,7 @@
 #include <weft/validation/converged/converged_reference.hpp>
 
 #include "apps/app.hpp"
+#include "apps/provenance.hpp"
 
 namespace weft::app {
 namespace {
@@ -59,11 +60,14 @@ void print(const validation::ConvergedReference& reference) {
 
 int make_reference_data(const ReferenceOptions& options) {
   const scenes::Scene scene = scenes::load_scene(options.scene);
-  const validation::ConvergedReference reference =
+  validation::ConvergedReference reference =
       validation::converge(scene, {.time = parsed_time(options.time),
                                    .num_levels = options.levels,
                                    .first_division = options.division,
                                    .gate = options.gate});
+  const scenes::Provenance made = build_provenance();
+  reference.program = fmt::format("weft {} {}, {}", made.at("weft"), made.at("revision"),
+                                  made.at("compiler"));
   print(reference);
   if (!options.output.empty()) {
     std::ofstream file(options.output, std::ios::binary);
