@@ -211,7 +211,7 @@ Body spring_pendulum() {
   return body;
 }
 
-TEST(RungeKutta4, ReproducesTheSpringPendulumTable) {
+TEST(MethodsOfHighOrder, ReproduceTheSpringPendulumTable) {
   // Time [s], x, y [m]: an independent Runge-Kutta solution, error <= 1e-8.
   const double table[][3] = {{0.5, -.069627411, -1.217504590},
                              {1.0, -.348251841, -.821392145},
@@ -220,17 +220,22 @@ TEST(RungeKutta4, ReproducesTheSpringPendulumTable) {
                              {10.0, .347049829, -1.137932779}};
   constexpr double kTableError = 1e-8;   // [m]
   constexpr int kStepsPerSecond = 4000;  // own error (w h)^4 w T / 120 = 3e-11 m
-  SpringSolver solver = solver_of(spring_pendulum(), IntegratorKind::kRungeKutta4);
-  int done = 0;
-  for (const auto& row : table) {
-    for (; done < std::lround(row[0] * kStepsPerSecond); ++done) {
-      (void)solver.step(1.0 / kStepsPerSecond);
-    }
-    EXPECT_NEAR(solver.system().bodies[0].positions(0, 1), row[1], kTableError) << row[0];
-    EXPECT_NEAR(solver.system().bodies[0].positions(1, 1), row[2], kTableError) << row[0];
-    if (done == kStepsPerSecond / 2) {
-      EXPECT_NEAR(solver.system().bodies[0].velocities(0, 1), -1.285588836, 10 * kTableError);
-      EXPECT_NEAR(solver.system().bodies[0].velocities(1, 1), -2.354737000, 10 * kTableError);
+  for (const IntegratorKind integrator :
+       {IntegratorKind::kRungeKutta4, IntegratorKind::kYoshida4, IntegratorKind::kDormandPrince5}) {
+    SpringSolver solver = solver_of(spring_pendulum(), integrator);
+    int done = 0;
+    for (const auto& row : table) {
+      for (; done < std::lround(row[0] * kStepsPerSecond); ++done) {
+        (void)solver.step(1.0 / kStepsPerSecond);
+      }
+      EXPECT_NEAR(solver.system().bodies[0].positions(0, 1), row[1], kTableError)
+          << row[0] << name_of(integrator);
+      EXPECT_NEAR(solver.system().bodies[0].positions(1, 1), row[2], kTableError)
+          << row[0] << name_of(integrator);
+      if (done == kStepsPerSecond / 2) {
+        EXPECT_NEAR(solver.system().bodies[0].velocities(0, 1), -1.285588836, 10 * kTableError);
+        EXPECT_NEAR(solver.system().bodies[0].velocities(1, 1), -2.354737000, 10 * kTableError);
+      }
     }
   }
 }
