@@ -58,23 +58,35 @@ void print(const validation::ConvergedReference& reference) {
              reference.is_converged() ? "Converged." : "NOT converged.");
 }
 
+/// A file of this name appears whole or not at all.
+void write_file(const std::filesystem::path& path, const std::string& text) {
+  const std::filesystem::path partial = path.string() + ".partial";
+  std::ofstream file(partial, std::ios::binary);
+  file << text;
+  file.close();
+  std::error_code failed;
+  if (file) std::filesystem::rename(partial, path, failed);
+  if (file && !failed) return;
+  std::filesystem::remove(partial, failed);
+  throw InvalidArgument(path.string() + ": cannot be written");
+}
+
 int make_reference_data(const ReferenceOptions& options) {
   const scenes::Scene scene = scenes::load_scene(options.scene);
+  const std::filesystem::path folder = std::filesystem::path(options.output).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+    throw InvalidArgument(options.output + ": no such folder");  // before minutes of work
+  }
   validation::ConvergedReference reference =
       validation::converge(scene, {.time = parsed_time(options.time),
                                    .num_levels = options.levels,
                                    .first_division = options.division,
                                    .gate = options.gate});
   const scenes::Provenance made = build_provenance();
-  reference.program = fmt::format("weft {} {}, {}", made.at("weft"), made.at("revision"),
-                                  made.at("compiler"));
+  reference.program =
+      fmt::format("weft {} {}, {}", made.at("weft"), made.at("revision"), made.at("compiler"));
   print(reference);
-  if (!options.output.empty()) {
-    std::ofstream file(options.output, std::ios::binary);
-    file << validation::to_json(reference);
-    file.close();
-    if (!file) throw InvalidArgument(options.output + ": cannot be written");
-  }
+  if (!options.output.empty()) write_file(options.output, validation::to_json(reference));
   return reference.is_converged() ? kOk : kCaseFailed;
 }
 
