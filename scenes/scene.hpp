@@ -17,6 +17,7 @@
 #include <weft/scenes/cloth_tear.hpp>
 #include <weft/scenes/controllers/controller_settings.hpp>
 #include <weft/scenes/motion/path.hpp>
+#include <weft/scenes/reference_settings.hpp>
 #include <weft/scenes/shapes.hpp>
 
 namespace weft::scenes {
@@ -141,18 +142,6 @@ enum class ConcaveContact {
 struct BulletSettings {
   int position_iterations = 20;  ///< >= 1; how often Bullet visits each link and contact per step
   ConcaveContact concave = ConcaveContact::kPrisms;
-};
-
-enum class Integrator { kExplicitEuler, kModifiedEuler, kVelocityVerlet, kRungeKutta4 };
-enum class ContactModel { kProjection, kImpulse };
-/// What to do when the time step is beyond the stable one.
-enum class StepGuard { kReport, kRefuse, kSubstep };
-
-/// Settings of the reference solver.
-struct ReferenceSettings {
-  Integrator integrator = Integrator::kModifiedEuler;
-  ContactModel contact = ContactModel::kImpulse;
-  StepGuard step_guard = StepGuard::kReport;
 };
 
 struct Camera {

@@ -106,6 +106,11 @@ check "a row for each scene" test "$(grep -c "^| !\[drape_sphere\]" pages/scenes
 check "a picture for each scene" test -s pages/img/scenes/drape_sphere.png
 check "contact sheet of nothing" exits 2 contact-sheet no_such_scene -o sheet.png
 check "integrator of the reference only" exits 2 run hang -e bullet_soft --integrator runge_kutta_4 -o x.weftrec
+check "reference: a time without its unit" exits 2 reference hang --time 1
+check "reference: too few levels" exits 2 reference hang --levels 2
+check "reference: no folder for its output" exits 2 reference hang -o /no/such/folder/r.json
+check "reference: a gate that is out of reach" exits 1 reference hang --time "0.005 s" --levels 3 --gate 1e-15 -o r.json
+check "its order is there all the same" grep -q '"observed_order": [12]' r.json
 check "impossible output" exits 2 "${short[@]}" -o /no/such/folder/a.weftrec
 
 # Blow-up as data
