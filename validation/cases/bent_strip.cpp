@@ -234,6 +234,10 @@ reference::StaticProblem endless(const reference::StaticProblem& whole, const Pe
   return problem;
 }
 
+double width_of(const ClothMesh& mesh) {
+  return mesh.rest_positions.row(2).maxCoeff() - mesh.rest_positions.row(2).minCoeff();
+}
+
 }  // namespace
 
 ClothMesh make_strip(const Strip& strip) {
@@ -259,23 +263,50 @@ StripTip strip_tip(const ClothMesh& mesh, ConstMatrix3XRef<double> positions) {
   return {tip.drop / count, tip.reach / count};
 }
 
-BentStrip bend_strip(const StripModel& model, const Matrix3X<double>& start) {
-  BentStrip result;
+reference::Body make_strip_body(const StripModel& model) {
   const Strip& strip = model.strip;
   reference::Body body;
   body.name = "strip";
   body.mesh = make_strip(strip);
   if (model.cut_one_way) body.mesh.crossed_triangles.resize(3, 0);
   const double weight = strip.area_density * kGravity * strip.length;  // per width [N/m]
+  if (model.is_tip_load) {
+    const double end = body.mesh.rest_positions.row(0).maxCoeff() * (1 - 1e-9);
+    const double whole = strip.area_density * strip.length * width_of(body.mesh);
+    double at_tip = 0;
+    for (int node = 0; node < body.mesh.num_nodes(); ++node) {
+      if (body.mesh.rest_positions(0, node) >= end) at_tip += body.mesh.masses[node];
+    }
+    for (int node = 0; node < body.mesh.num_nodes(); ++node) {
+      // What the others weigh is below rounding.
+      const bool is_tip = body.mesh.rest_positions(0, node) >= end;
+      body.mesh.masses[node] *= is_tip ? whole / at_tip : 1e-20;
+    }
+  }
   const double rigidity = weight * strip.length * strip.length / model.gamma;
+  const Vector3<double> gravity =
+      kGravity * Vector3<double>(std::sin(model.tilt), -std::cos(model.tilt), 0);
   for (const forces::LawSpecification& law : std::vector<forces::LawSpecification>{
            {"tension", {}, {{"stiffness", {weight / model.strain}}}},
            {"hinge_torsion",
             {},
             {{"rigidity", {rigidity}}, {"clamp_factor", {model.clamp_factor}}}},
-           {"gravity", {}, {{"acceleration", {0, -kGravity, 0}}}}}) {
+           {"gravity", {}, {{"acceleration", {gravity.x(), gravity.y(), gravity.z()}}}}}) {
     body.laws.add(forces::make_law<double>(law, body.mesh));
   }
+  return body;
+}
+
+BentStrip bend_strip(const StripModel& model, const Matrix3X<double>& start) {
+  constexpr double kFirstGamma = 2.0;  // a straight strip finds its way to this load at once
+  if (start.cols() == 0 && model.gamma > kFirstGamma) {
+    StripModel softer = model;
+    softer.gamma = std::max(kFirstGamma, model.gamma / 3);
+    return bend_strip(model, bend_strip(softer).positions);
+  }
+  BentStrip result;
+  const Strip& strip = model.strip;
+  reference::Body body = make_strip_body(model);
   const reference::StaticProblem whole =
       reference::static_problem(body, body.mesh.masses.sum() * kGravity);
   reference::StaticOptions options;
@@ -302,7 +333,10 @@ BentStrip bend_strip(const StripModel& model, const Matrix3X<double>& start) {
     result.converged = reference::solve_statics(whole, positions, options).converged;
   }
   const StripTip tip = strip_tip(body.mesh, positions);
-  result.drop_over_reach = tip.drop / tip.reach;
+  const double c = std::cos(model.tilt);
+  const double sine = std::sin(model.tilt);
+  result.tip = {c * tip.drop + sine * tip.reach, c * tip.reach - sine * tip.drop};
+  result.drop_over_reach = result.tip.drop / result.tip.reach;
   result.positions = std::move(positions);
   result.mesh = std::move(body.mesh);
   return result;

@@ -35,7 +35,10 @@ struct StripModel {
   double gamma = 1.0;         ///< rho g L^3 / D [-]
   double clamp_factor = 2.0;  ///< of hinge_torsion
   double strain = 1e-4;       ///< of springs under the strip's whole weight [-]
-  bool cut_one_way = false;   ///< deliberate mistake: the cells' other diagonals do not count
+  /// All the weight hangs at the tip, and gamma means P L^2 / D.
+  bool is_tip_load = false;
+  double tilt = 0.0;         ///< of the clamp below the horizontal [rad]
+  bool cut_one_way = false;  ///< deliberate mistake: the cells' other diagonals do not count
   /// The strip is a part of an endless sheet: what leaves on one side comes in on the other.
   bool is_endless = false;
 };
@@ -43,12 +46,16 @@ struct StripModel {
 struct BentStrip {
   bool converged = false;
   double drop_over_reach = 0.0;  ///< H / W [-]
+  StripTip tip;                  ///< drop and reach along the vertical and the horizontal
   ClothMesh mesh;
   Matrix3X<double> positions;  ///< 3 x n [m]
 };
 
+/// The strip with its laws, at its rest shape: the clamp along x, gravity turned by the tilt.
+[[nodiscard]] reference::Body make_strip_body(const StripModel& model);
+
 /// Equilibrium of the strip under hinge_torsion, gravity and springs that stretch by about 1e-5.
-/// start: positions to start from, those of the rest shape if empty.
+/// start: positions to start from; if empty those of the rest shape, for a heavy strip in several steps of load.
 [[nodiscard]] BentStrip bend_strip(const StripModel& model, const Matrix3X<double>& start = {});
 
 }  // namespace weft::validation
