@@ -76,7 +76,7 @@ double gamma_of_chord(double angle) {
     return std::atan2(tip.drop, tip.reach) - angle;
   };
   double a = std::log(1e-3);
-  double b = std::log(1e4);
+  double b = std::log(9e3);
   double at_a = miss(a);
   double at_b = miss(b);
   // Regula falsi, halving the end that stays (Illinois).
