@@ -12,6 +12,7 @@
 #include <weft/custom_forces/core/cloth_grid.hpp>
 #include <weft/custom_forces/core/hinges.hpp>
 #include <weft/custom_forces/registry.hpp>
+#include <weft/validation/cases/lattice_strip.hpp>
 #include <weft/validation/reference/statics/coupling.hpp>
 
 namespace weft::validation {
@@ -234,6 +235,31 @@ reference::StaticProblem endless(const reference::StaticProblem& whole, const Pe
   return problem;
 }
 
+bool is_odd(const Strip& strip) {
+  return strip.angle != 0 && strip.angle != 45 && strip.angle != 90;
+}
+
+ClothMesh odd_strip(const Strip& strip) {
+  return make_lattice_strip(nearest_direction(strip.angle), strip.num_cells, strip.length,
+                            strip.area_density);
+}
+
+/// Across the strip, until its nodes repeat [m].
+double repeat_of(const Strip& strip, const ClothMesh& mesh) {
+  const double spacing = strip.length / strip.num_cells;
+  if (is_odd(strip)) {
+    // The two legs of a triangle are a spacing long.
+    const double edge = (mesh.rest_positions.col(mesh.triangles(1, 0)) -
+                         mesh.rest_positions.col(mesh.triangles(0, 0)))
+                            .norm();
+    const double other = (mesh.rest_positions.col(mesh.triangles(2, 0)) -
+                          mesh.rest_positions.col(mesh.triangles(0, 0)))
+                             .norm();
+    return nearest_direction(strip.angle).period() * std::min(edge, other);
+  }
+  return strip.angle == 45 ? strip.length / num_diagonals(strip) : 2 * spacing;
+}
+
 double width_of(const ClothMesh& mesh) {
   return mesh.rest_positions.row(2).maxCoeff() - mesh.rest_positions.row(2).minCoeff();
 }
@@ -241,9 +267,11 @@ double width_of(const ClothMesh& mesh) {
 }  // namespace
 
 ClothMesh make_strip(const Strip& strip) {
-  ClothMesh mesh = strip.angle == 45 ? diagonal_strip(strip) : straight_strip(strip);
+  ClothMesh mesh = is_odd(strip)        ? odd_strip(strip)
+                   : strip.angle == 45 ? diagonal_strip(strip)
+                                       : straight_strip(strip);
   const double near = 1e-3 * strip.length / strip.num_cells;
-  for (int node = 0; node < mesh.num_nodes(); ++node) {
+  for (int node = 0; node < mesh.num_nodes() && !is_odd(strip); ++node) {
     if (mesh.rest_positions(0, node) < near) mesh.pinned.push_back(node);
   }
   if (strip.jitter > 0) jitter(strip, mesh);
@@ -316,14 +344,16 @@ BentStrip bend_strip(const StripModel& model, const Matrix3X<double>& start) {
   Matrix3X<double> positions = start.cols() > 0 ? start : body.mesh.rest_positions;
   if (model.is_endless) {
     // The period in the middle; the rest is there so that it has neighbours.
-    const double spacing = strip.angle == 45 ? strip.length / num_diagonals(strip)
-                                             : 2 * strip.length / strip.num_cells;
+    const double spacing = repeat_of(strip, body.mesh);
     const double middle =
         (body.mesh.rest_positions.row(2).minCoeff() + body.mesh.rest_positions.row(2).maxCoeff()) /
         2;
     const double begin =
         body.mesh.rest_positions.row(2).minCoeff() +
-        std::floor((middle - body.mesh.rest_positions.row(2).minCoeff()) / spacing) * spacing;
+        (is_odd(strip)
+             ? middle - body.mesh.rest_positions.row(2).minCoeff() - spacing / 2
+             : std::floor((middle - body.mesh.rest_positions.row(2).minCoeff()) / spacing) *
+                   spacing);
     const Periodicity period = periodicity_of(body.mesh, spacing, begin);
     const reference::StaticProblem problem = endless(whole, period);
     Matrix3X<double> unknowns = fold(period, positions);

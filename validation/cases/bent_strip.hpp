@@ -8,8 +8,9 @@ namespace weft::validation {
 /// A strip of cloth along x, clamped left of x = 0, that hangs down under gravity along -y.
 struct Strip {
   /// Direction of the grid's lines to the strip [deg]: 0, 90, or 45, where the strip is cut along
-  /// the diagonals.
-  int angle = 0;
+  /// the diagonals; any other is for an endless sheet (is_endless), in the nearest direction in which a grid
+  /// repeats (lattice_strip.hpp).
+  double angle = 0.0;
   int num_cells = 40;   ///< N: length over the spacing of the grid's nodes; even for 45 degrees,
                         ///< where the nearest whole number of diagonals is taken
   int width_cells = 2;  ///< across the strip, in cells or diagonals
