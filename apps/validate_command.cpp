@@ -51,7 +51,8 @@ void print_table(const validation::Report& report) {
     fmt::print("{:<16} {:<22} {:<52} {:>11.3g} {:>11} {:>9}  {}{}\n", check.case_id, check.engine,
                metric, check.measured,
                check.tolerance ? fmt::format("{:.3g}", check.tolerance->value) : std::string("-"),
-               part ? fmt::format("{:.2g}", *part) : std::string("-"), verdict, caught ? "" : " (a sabotage went unnoticed)");
+               part ? fmt::format("{:.2g}", *part) : std::string("-"), verdict,
+               caught ? "" : " (a sabotage went unnoticed)");
   }
 }
 
@@ -118,7 +119,9 @@ void add_parameters(CLI::App& command, validation::CaseValues& values) {
             fmt::format("--{}", name),
             [&values, name = std::string(name)](const double& value) { values[name] = value; },
             "of " + cases)
-        ->group("One point of one case in place of its table (validate CASE --list tells units and ranges)");
+        ->group(
+            "One point of one case in place of its table (validate CASE --list tells units and "
+            "ranges)");
   }
 }
 

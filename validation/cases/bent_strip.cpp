@@ -267,7 +267,7 @@ double width_of(const ClothMesh& mesh) {
 }  // namespace
 
 ClothMesh make_strip(const Strip& strip) {
-  ClothMesh mesh = is_odd(strip)        ? odd_strip(strip)
+  ClothMesh mesh = is_odd(strip)       ? odd_strip(strip)
                    : strip.angle == 45 ? diagonal_strip(strip)
                                        : straight_strip(strip);
   const double near = 1e-3 * strip.length / strip.num_cells;

@@ -13,8 +13,8 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kColumn = 7.8373;   ///< rho g L^3 / D of a column: (9/4) j(-1/3, 1)^2
-constexpr double kLateral = 12.8538; ///< q L^3 / sqrt(EI GJ): 6 x first zero of J_(-1/6)
+constexpr double kColumn = 7.8373;    ///< rho g L^3 / D of a column: (9/4) j(-1/3, 1)^2
+constexpr double kLateral = 12.8538;  ///< q L^3 / sqrt(EI GJ): 6 x first zero of J_(-1/6)
 
 struct Buckling {
   bool is_lateral = false;  ///< else a column
@@ -24,7 +24,9 @@ struct Buckling {
   double rigidity_factor = 1.0;  ///< sabotage
 
   /// A strip of hinges has EI = D w and, its Poisson's ratio being 0, GJ = 2 D w.
-  [[nodiscard]] double exact() const { return is_lateral ? kLateral * std::numbers::sqrt2 : kColumn; }
+  [[nodiscard]] double exact() const {
+    return is_lateral ? kLateral * std::numbers::sqrt2 : kColumn;
+  }
 };
 
 /// Where the strip goes under a push of this share of its weight across it: the tip's way over the push and
@@ -83,9 +85,7 @@ double response(const Buckling& buckling, double gamma) {
 /// point comes closer than a hundredth: above the load the strip goes elsewhere.
 double critical_gamma(const Buckling& buckling) {
   const auto gamma_of = [&](double x) { return buckling.is_lateral ? std::sqrt(x) : x; };
-  const auto stiffness = [&](double x) {
-    return gamma_of(x) / response(buckling, gamma_of(x));
-  };
+  const auto stiffness = [&](double x) { return gamma_of(x) / response(buckling, gamma_of(x)); };
   const double exact = buckling.is_lateral ? std::pow(buckling.exact(), 2) : buckling.exact();
   double a = 0.4 * exact;
   double b = 0.6 * exact;
@@ -116,8 +116,9 @@ void add_check(const CaseInfo& info, const Buckling& buckling, Report& report) {
     form.claim = "a strip on its edge tips sideways at the load of a beam";
     form.formula = "q L^3 / sqrt(EI GJ) = 12.8538, EI = D w, GJ = 2 D w";
     form.source = "Prandtl 1899, Michell 1899; Poisson's ratio 0";
-    form.tolerance = {0.05, Basis::kModelGap,
-                      "a strip of w = L / 20 cannot warp at its clamp: as if it were 0.3 w shorter"};
+    form.tolerance = {
+        0.05, Basis::kModelGap,
+        "a strip of w = L / 20 cannot warp at its clamp: as if it were 0.3 w shorter"};
   } else {
     form.claim = "an upright strip falls over at Greenhill's load";
     form.formula = "rho g L^3 / D = (9 / 4) j^2, j = 1.86635 the first zero of J_(-1/3)";
@@ -155,9 +156,10 @@ void evaluate_buckling(const CaseInfo& info, const CaseOptions& options, const E
     return static_cast<int>(value_of(info, options, name));
   };
   add_check(info, {.cells = whole("nodes")}, report);
-  add_check(info,
-            {.is_lateral = true, .cells = whole("lateral-nodes"), .width_cells = whole("width-nodes")},
-            report);
+  add_check(
+      info,
+      {.is_lateral = true, .cells = whole("lateral-nodes"), .width_cells = whole("width-nodes")},
+      report);
 }
 
 }  // namespace weft::validation

@@ -215,9 +215,9 @@ void add_point_check(const CaseInfo& info, const Point& point, Report& report) {
       info, fmt::format("a heavy strip hangs as the elastica, Gamma = {}, grid at {} degrees{}",
                         point.gamma, point.angle,
                         point.tilt == 0 ? "" : fmt::format(", clamp {} degrees down", point.tilt)));
-  check.metric = fmt::format("relative error of {}, N = {}, grid at {:.1f} degrees",
-                             point.tilt == 0 ? "H / W" : "the tip's way", point.cells,
-                             direction.angle());
+  check.metric =
+      fmt::format("relative error of {}, N = {}, grid at {:.1f} degrees",
+                  point.tilt == 0 ? "H / W" : "the tip's way", point.cells, direction.angle());
   if (point.tilt != 0) {
     check.formula = "theta'' + Gamma (1 - s) cos(theta) = 0, theta(0) = tilt, theta'(1) = 0";
   }
@@ -238,7 +238,8 @@ void add_point_check(const CaseInfo& info, const Point& point, Report& report) {
 constexpr std::array kParameters = {
     CaseParameter{"gamma", "1", "rho g L^3 / D", 0.05, 500.0, 1.0},
     CaseParameter{"nodes", "1", "cells along the strip", 10, 240, std::nullopt, true},
-    CaseParameter{"angle", "deg", "of the grid's lines to the strip; the nearest at which a grid repeats is taken",
+    CaseParameter{"angle", "deg",
+                  "of the grid's lines to the strip; the nearest at which a grid repeats is taken",
                   0.0, 90.0, 0.0},
     CaseParameter{"tilt", "deg", "of the clamp below the horizontal", -80.0, 60.0, 0.0},
 };

@@ -14,15 +14,15 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kRadius = 1.0;  // [m]
-constexpr double kPull = 1.0;    // T1 [N]
-constexpr double kMass = 1.0;    // of a node [kg]
-constexpr double kStrain = 1e-4; // of the springs under T1 [-]
+constexpr double kRadius = 1.0;   // [m]
+constexpr double kPull = 1.0;     // T1 [N]
+constexpr double kMass = 1.0;     // of a node [kg]
+constexpr double kStrain = 1e-4;  // of the springs under T1 [-]
 
 struct Capstan {
   double friction = 0.3;
-  double wrap = 180.0;  ///< [deg]
-  int nodes = 16;       ///< that touch: each turns the chain by wrap / nodes
+  double wrap = 180.0;           ///< [deg]
+  int nodes = 16;                ///< that touch: each turns the chain by wrap / nodes
   double friction_factor = 1.0;  ///< sabotage
 
   [[nodiscard]] double turn() const { return wrap * std::numbers::pi / 180 / nodes; }
@@ -100,8 +100,7 @@ void add_check(const CaseInfo& info, const Capstan& capstan, Report& report) {
   const auto error = [](const Capstan& each) {
     return std::abs(largest_ratio(each) / each.exact() - 1);
   };
-  const double rope =
-      std::exp(capstan.friction * capstan.wrap * std::numbers::pi / 180);
+  const double rope = std::exp(capstan.friction * capstan.wrap * std::numbers::pi / 180);
   CheckResult check = judged(
       info,
       {fmt::format("a chain round a body holds as a polygon of {} turns, mu = {}, {} degrees",

@@ -14,8 +14,8 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kSpan = 1.0;     // d [m]
-constexpr double kGravity = 9.81;  // [m/s^2]
+constexpr double kSpan = 1.0;          // d [m]
+constexpr double kGravity = 9.81;      // [m/s^2]
 constexpr double kInextensible = 1e6;  ///< EA / (w d) of a chain that counts as inextensible [-]
 
 struct Cable {
@@ -102,10 +102,12 @@ CheckResult add_check(const CaseInfo& info, const Cable& cable, const Shape& exa
       info,
       {what + " hangs as the catenary",
        fmt::format("relative errors of pull, sag and largest tension, sum, N = {}", cable.springs),
-       "d = H L0 / EA + (2 H / w) asinh(w L0 / (2 H))", source,
+       "d = H L0 / EA + (2 H / w) asinh(w L0 / (2 H))",
+       source,
        {1e-3 * std::max(1.0, std::pow(100.0 / cable.springs, 2)), Basis::kTruncation,
         "second order in the springs: 1e-3 for 100"},
-       "the tension law, the masses, or the static solver", "reference statics"},
+       "the tension law, the masses, or the static solver",
+       "reference statics"},
       largest_error(hang(cable, 1.0), exact));
   add_sabotage(check, "masses +1 %", largest_error(hang(cable, 1.01), exact));
   Cable softer = cable;
@@ -120,19 +122,23 @@ struct Row {
   Cable cable;
   Shape exact;
 };
-constexpr std::array kTable = {
-    Row{{1.2, 1200}, {.468698, .292818, .761366}},   Row{{1.2, 120}, {.461352, .297014, .756866}},
-    Row{{1.2, 12}, {.405121, .333842, .723963}},     Row{{1.0, 1000}, {3.456022, .036106, 3.492004}},
-    Row{{1.0, 100}, {1.586167, .078190, 1.663107}},  Row{{1.0, 10}, {.699764, .172777, .860040}},
-    Row{{1.05, kInextensible}, {.919640, .139304, 1.058944}},
-    Row{{1.2, kInextensible}, {.469542, .292344, .761885}},
-    Row{{2.0, kInextensible}, {.229640, .796388, 1.026029}},
-    Row{{3.0, kInextensible}, {.176153, 1.334155, 1.510308}}};
+constexpr std::array kTable = {Row{{1.2, 1200}, {.468698, .292818, .761366}},
+                               Row{{1.2, 120}, {.461352, .297014, .756866}},
+                               Row{{1.2, 12}, {.405121, .333842, .723963}},
+                               Row{{1.0, 1000}, {3.456022, .036106, 3.492004}},
+                               Row{{1.0, 100}, {1.586167, .078190, 1.663107}},
+                               Row{{1.0, 10}, {.699764, .172777, .860040}},
+                               Row{{1.05, kInextensible}, {.919640, .139304, 1.058944}},
+                               Row{{1.2, kInextensible}, {.469542, .292344, .761885}},
+                               Row{{2.0, kInextensible}, {.229640, .796388, 1.026029}},
+                               Row{{3.0, kInextensible}, {.176153, 1.334155, 1.510308}}};
 
 constexpr std::array kParameters = {
     CaseParameter{"length", "1", "unstretched length over the span", 0.8, 5.0, 1.2},
-    CaseParameter{"stiffness", "1", "EA over weight per length times span; from 1e6 on the chain counts as inextensible",
-                  5.0, 1e7, 120.0},
+    CaseParameter{
+        "stiffness", "1",
+        "EA over weight per length times span; from 1e6 on the chain counts as inextensible", 5.0,
+        1e7, 120.0},
     CaseParameter{"nodes", "1", "springs of the chain", 10, 1000, 100, true},
 };
 

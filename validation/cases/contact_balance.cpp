@@ -14,22 +14,22 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kGravity = 9.81;        // [m/s^2]
-constexpr double kSide = 0.5;            // [m]
-constexpr double kMass = 0.05;           // [kg]
-constexpr double kMargin = 0.005;        // [m]
-constexpr double kStep = 1.0 / 240;      // [s], of the falls
-constexpr double kSmallStep = 1e-3;      // [s], of the cloth at rest
-constexpr double kHalf = 0.1;            // [m] of the box: thickness / 2
-constexpr double kRadius = 0.2;          // [m]
+constexpr double kGravity = 9.81;    // [m/s^2]
+constexpr double kSide = 0.5;        // [m]
+constexpr double kMass = 0.05;       // [kg]
+constexpr double kMargin = 0.005;    // [m]
+constexpr double kStep = 1.0 / 240;  // [s], of the falls
+constexpr double kSmallStep = 1e-3;  // [s], of the cloth at rest
+constexpr double kHalf = 0.1;        // [m] of the box: thickness / 2
+constexpr double kRadius = 0.2;      // [m]
 
 enum class Under { kNothing, kPlane, kBox, kSphere };
 
 struct Fall {
   Under under = Under::kNothing;
-  double height = 0.0;  ///< of the cloth above the surface's top [m]
-  double speed = 0.0;   ///< downward [m/s]
-  double damping = 0.0;  ///< velocity_damping [1/s]
+  double height = 0.0;      ///< of the cloth above the surface's top [m]
+  double speed = 0.0;       ///< downward [m/s]
+  double damping = 0.0;     ///< velocity_damping [1/s]
   bool no_contact = false;  ///< sabotage: the collider is out of reach
 };
 
@@ -111,8 +111,8 @@ Passage throw_down(Under under, bool no_contact) {
   Passage passage;
   for (const double speed : {1.0, 2.0, 5.0, 10.0, 20.0, 40.0}) {
     // A step's way at 40 m/s is 0.17 m: less than the box and the sphere are thick.
-    reference::SpringSolver solver = make_fall(
-        {.under = under, .height = 0.1, .speed = speed, .no_contact = no_contact});
+    reference::SpringSolver solver =
+        make_fall({.under = under, .height = 0.1, .speed = speed, .no_contact = no_contact});
     constexpr int kSteps = 60;
     for (int i = 0; i < kSteps; ++i) {
       (void)solver.step(kStep);
@@ -152,35 +152,40 @@ void evaluate_contact_balance(const CaseInfo& info, const CaseOptions&, const En
                               Report& report) {
   CheckResult fall = judged(
       info,
-      {"a cloth falls freely as its scheme says", "largest relative error of the way, 100 steps",
-       "g h^2 n (n + 1) / 2", "recurrence of modified Euler",
+      {"a cloth falls freely as its scheme says",
+       "largest relative error of the way, 100 steps",
+       "g h^2 n (n + 1) / 2",
+       "recurrence of modified Euler",
        {1e-13, Basis::kRoundoff, "100 steps, each with a rounding of a place of 1 m by 1e-16"},
        "gravity, or an order of operations"},
       fall_error(kGravity));
   add_sabotage(fall, "the continuum's g t^2 / 2", fall_error(kGravity * 100 / 101));
   report.checks.push_back(std::move(fall));
   for (const Under under : {Under::kPlane, Under::kBox}) {
-    CheckResult carried = judged(
-        info,
-        {fmt::format("{} carries the weight of the cloth on it", name_of(under)),
-         "|normal impulses of a step / h - weight| / weight, after 2 s", "sum of N = m g",
-         "balance of forces",
-         {1e-11, Basis::kTruncation, "what exp(-20 t / 1 s) leaves of the motion after 2 s"},
-         "an impulse that is not counted, or a cloth that is not at rest"},
-        carried_error(under, false));
+    CheckResult carried =
+        judged(info,
+               {fmt::format("{} carries the weight of the cloth on it", name_of(under)),
+                "|normal impulses of a step / h - weight| / weight, after 2 s",
+                "sum of N = m g",
+                "balance of forces",
+                {1e-11, Basis::kTruncation, "what exp(-20 t / 1 s) leaves of the motion after 2 s"},
+                "an impulse that is not counted, or a cloth that is not at rest"},
+               carried_error(under, false));
     add_sabotage(carried, "contact switched off", carried_error(under, true));
     report.checks.push_back(std::move(carried));
   }
   for (const Under under : {Under::kPlane, Under::kBox, Under::kSphere}) {
     const Passage right = throw_down(under, false);
     const Passage wrong = throw_down(under, true);
-    CheckResult deepest = judged(
-        info,
-        {fmt::format("no node ends a step inside {}", name_of(under)),
-         "deepest node at 1, 2, 5, 10, 20 and 40 m/s", "0", "exact signed distance",
-         {1e-15, Basis::kRoundoff, "rounding of a distance of up to 0.2 m"},
-         "a contact that is missed or not solved to its end"},
-        right.deepest);
+    CheckResult deepest =
+        judged(info,
+               {fmt::format("no node ends a step inside {}", name_of(under)),
+                "deepest node at 1, 2, 5, 10, 20 and 40 m/s",
+                "0",
+                "exact signed distance",
+                {1e-15, Basis::kRoundoff, "rounding of a distance of up to 0.2 m"},
+                "a contact that is missed or not solved to its end"},
+               right.deepest);
     deepest.unit = "m";
     add_sabotage(deepest, "contact switched off", wrong.deepest);
     report.checks.push_back(std::move(deepest));
@@ -188,9 +193,11 @@ void evaluate_contact_balance(const CaseInfo& info, const CaseOptions&, const En
     if (under == Under::kSphere) continue;
     CheckResult passed = judged(info,
                                 {fmt::format("no node passes through {}", name_of(under)),
-                                 "nodes below it at 1, 2, 5, 10, 20 and 40 m/s", "0",
+                                 "nodes below it at 1, 2, 5, 10, 20 and 40 m/s",
+                                 "0",
                                  "a step's way is less than its thickness",
-                                 {0, Basis::kExact, "a count"}, "a contact that is missed"},
+                                 {0, Basis::kExact, "a count"},
+                                 "a contact that is missed"},
                                 right.passed);
     add_sabotage(passed, "contact switched off", wrong.passed);
     report.checks.push_back(std::move(passed));

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Core>
 #include <fmt/format.h>
+#include <Eigen/Core>
 
 #include <weft/custom_forces/core/error.hpp>
 
@@ -40,7 +40,8 @@ State shoot(double tip, double end, const ElasticaLoad& load) {
 void check(const ElasticaLoad& load) {
   const auto require = [](const char* name, double value, double low, double high) {
     if (value >= low && value <= high) return;
-    throw InvalidArgument(fmt::format("elastica: {} = {}, expected {} to {}", name, value, low, high));
+    throw InvalidArgument(
+        fmt::format("elastica: {} = {}, expected {} to {}", name, value, low, high));
   };
   require("gamma [1]", load.gamma, 0, 1e4);
   require("tip load [1]", load.tip_load, 0, 1e3);

@@ -18,18 +18,18 @@ namespace {
 using reference::IntegratorKind;
 
 constexpr int kNodes = 9;
-constexpr double kSide = 0.8;     // [m]
-constexpr double kMass = 0.13;    // [kg]
-constexpr double kGravity = 9.81; // [m/s^2]
-constexpr double kEndTime = 2.0;  // [s]
+constexpr double kSide = 0.8;      // [m]
+constexpr double kMass = 0.13;     // [kg]
+constexpr double kGravity = 9.81;  // [m/s^2]
+constexpr double kEndTime = 2.0;   // [s]
 
 struct Setting {
   IntegratorKind integrator = IntegratorKind::kVelocityVerlet;
-  double damping = 0.01;     ///< of springs [N s/m]
-  double drag = 0.3;         ///< velocity_damping [1/s]
-  double time_step = 1e-3;   ///< [s]
+  double damping = 0.01;      ///< of springs [N s/m]
+  double drag = 0.3;          ///< velocity_damping [1/s]
+  double time_step = 1e-3;    ///< [s]
   bool flip_damping = false;  ///< sabotage
-  double hidden = 0.0;  ///< sabotage: sideways acceleration that no ledger knows of [m/s^2]
+  double hidden = 0.0;        ///< sabotage: sideways acceleration that no ledger knows of [m/s^2]
 };
 
 reference::Body make_cloth(bool is_free, const Setting& setting) {
@@ -42,11 +42,10 @@ reference::Body make_cloth(bool is_free, const Setting& setting) {
   body.name = "cloth";
   body.mesh = make_cloth_grid(grid);
   if (!is_free) body.mesh.pinned = {0, kNodes - 1};
-  std::vector<forces::LawSpecification> laws = {
-      tension_law(120),
-      spring_damping_law(setting.damping),
-      {"hinge_torsion", {}, {{"rigidity", {2e-3}}}},
-      {"torsion", {}, {{"stiffness", {0.05}}}}};
+  std::vector<forces::LawSpecification> laws = {tension_law(120),
+                                                spring_damping_law(setting.damping),
+                                                {"hinge_torsion", {}, {{"rigidity", {2e-3}}}},
+                                                {"torsion", {}, {{"stiffness", {0.05}}}}};
   if (!is_free) {
     laws.push_back(gravity_law({0, -kGravity, 0}));
     laws.push_back(velocity_damping_law(setting.drag));
@@ -109,8 +108,7 @@ Drift drift(double hidden) {
     body.positions(0, node) *= 1.1;
     body.velocities.col(node) << 0.3 * v, 1.0 - 0.2 * u, 0.4 - 0.3 * u;
   }
-  reference::SpringSolver solver =
-      make_solver(std::move(body), IntegratorKind::kVelocityVerlet);
+  reference::SpringSolver solver = make_solver(std::move(body), IntegratorKind::kVelocityVerlet);
   const Vector3<double> linear = reference::linear_momentum(solver.system());
   const Vector3<double> angular = reference::angular_momentum(solver.system());
   const reference::Body& now = solver.system().bodies[0];
@@ -119,11 +117,11 @@ Drift drift(double hidden) {
   constexpr int kSteps = 1000;
   for (int step = 0; step < kSteps; ++step) {
     (void)solver.step(1e-3);
-    result.linear = std::max(
-        result.linear, (reference::linear_momentum(solver.system()) - linear).norm() / scale);
+    result.linear = std::max(result.linear,
+                             (reference::linear_momentum(solver.system()) - linear).norm() / scale);
     result.angular =
-        std::max(result.angular, (reference::angular_momentum(solver.system()) - angular).norm() /
-                                     (scale * kSide));
+        std::max(result.angular,
+                 (reference::angular_momentum(solver.system()) - angular).norm() / (scale * kSide));
   }
   return result;
 }
@@ -157,13 +155,15 @@ void evaluate_energy_ledger(const CaseInfo& info, const CaseOptions&, const Engi
   // Dampers that drive are in the ledger as well, so order is what tells whether it is more than small.
   const Setting fine{.time_step = 5e-4};
   const double order = std::log2(keep_ledger({}).gap / keep_ledger(fine).gap);
-  CheckResult second = judged(
-      info,
-      {"the gap falls with the square of the step", "|observed order - 2|, steps 1 ms and 0.5 ms",
-       "p = log2(e(h) / e(h / 2))", "velocity Verlet",
-       {0.3, Basis::kTruncation, "two levels only, of a largest value over time"},
-       "a work that is summed at the wrong time"},
-      std::abs(order - 2));
+  CheckResult second =
+      judged(info,
+             {"the gap falls with the square of the step",
+              "|observed order - 2|, steps 1 ms and 0.5 ms",
+              "p = log2(e(h) / e(h / 2))",
+              "velocity Verlet",
+              {0.3, Basis::kTruncation, "two levels only, of a largest value over time"},
+              "a work that is summed at the wrong time"},
+             std::abs(order - 2));
   const Setting euler{.integrator = IntegratorKind::kModifiedEuler};
   const Setting fine_euler{.integrator = IntegratorKind::kModifiedEuler, .time_step = 5e-4};
   add_sabotage(second, "modified Euler instead",
@@ -172,22 +172,26 @@ void evaluate_energy_ledger(const CaseInfo& info, const CaseOptions&, const Engi
 
   const Drift right = drift(0);
   const Drift wrong = drift(1e-6);
-  CheckResult linear = judged(
-      info,
-      {"a free cloth keeps its momentum", "largest change over sum m |v|, 1000 steps",
-       "sum m v = const", "Newton's third law",
-       {1e-13, Basis::kRoundoff, "1000 steps, each with a rounding of 1e-16"},
-       "a force that is not given back"},
-      right.linear);
+  CheckResult linear =
+      judged(info,
+             {"a free cloth keeps its momentum",
+              "largest change over sum m |v|, 1000 steps",
+              "sum m v = const",
+              "Newton's third law",
+              {1e-13, Basis::kRoundoff, "1000 steps, each with a rounding of 1e-16"},
+              "a force that is not given back"},
+             right.linear);
   add_sabotage(linear, "a field of 1e-6 m/s^2", wrong.linear);
   report.checks.push_back(std::move(linear));
-  CheckResult angular = judged(
-      info,
-      {"a free cloth keeps its angular momentum", "largest change over sum m |v| L, 1000 steps",
-       "sum x cross m v = const", "internal forces without torque",
-       {1e-13, Basis::kRoundoff, "1000 steps, each with a rounding of 1e-16"},
-       "a hinge or a spring with a torque of its own"},
-      right.angular);
+  CheckResult angular =
+      judged(info,
+             {"a free cloth keeps its angular momentum",
+              "largest change over sum m |v| L, 1000 steps",
+              "sum x cross m v = const",
+              "internal forces without torque",
+              {1e-13, Basis::kRoundoff, "1000 steps, each with a rounding of 1e-16"},
+              "a hinge or a spring with a torque of its own"},
+             right.angular);
   add_sabotage(angular, "a field of 1e-6 m/s^2", wrong.angular);
   report.checks.push_back(std::move(angular));
 }

@@ -23,9 +23,10 @@ constexpr int kSteps = 2000;
 constexpr double kPhase = 0.02;  ///< omega h of the mode that is watched [rad]
 
 Tolerance discrete_tolerance() {
-  return {2e-10, Basis::kRoundoff,
-          "displacements of 1e-5 of a spacing: their squares, and the rounding of positions over the "
-          "(w h)^2 of the fit"};
+  return {
+      2e-10, Basis::kRoundoff,
+      "displacements of 1e-5 of a spacing: their squares, and the rounding of positions over the "
+      "(w h)^2 of the fit"};
 }
 Tolerance continuum_tolerance() {
   return {1e-3, Basis::kTruncation, "second order in the spacing, with nodes enough for 0.1 %"};
@@ -35,10 +36,10 @@ Tolerance continuum_tolerance() {
 struct Row {
   int masses = 20;
   int mode = 1;
-  double mass = 0.1;         ///< of a node [kg]
-  double stiffness = 400.0;  ///< of a spring [N/m]
-  double strain = 0.0;       ///< at rest, of the spacing [-]
-  bool is_free = false;      ///< the far end
+  double mass = 0.1;                       ///< of a node [kg]
+  double stiffness = 400.0;                ///< of a spring [N/m]
+  double strain = 0.0;                     ///< at rest, of the spacing [-]
+  bool is_free = false;                    ///< the far end
   static constexpr double kSpacing = 0.1;  // a [m]
 
   [[nodiscard]] double tension() const { return stiffness * kSpacing * strain; }
@@ -91,15 +92,16 @@ void add_string_check(const CaseInfo& info, const Row& row, Report& report) {
   const double length = Row::kSpacing * (row.masses + 1);
   const double exact =
       row.mode * kPi / length * std::sqrt(row.tension() * Row::kSpacing / row.mass);
-  CheckResult check =
-      judged(info,
-             {fmt::format("a chain of {} masses vibrates as a string, mode {}", row.masses, row.mode),
-              "relative error of its frequency", "w = j pi c / L, c = sqrt(T / rho)",
-              "vibrating string",
-              {1e-3 * std::max(1.0, std::pow(row.phase() / 0.12, 2)), Basis::kTruncation,
-               "(q a)^2 / 24, 0.06 % for q a = 0.12"},
-              "the tension law, the masses, or the integrator"},
-             std::abs(measured_frequency(row, 1.0) / exact - 1));
+  CheckResult check = judged(
+      info,
+      {fmt::format("a chain of {} masses vibrates as a string, mode {}", row.masses, row.mode),
+       "relative error of its frequency",
+       "w = j pi c / L, c = sqrt(T / rho)",
+       "vibrating string",
+       {1e-3 * std::max(1.0, std::pow(row.phase() / 0.12, 2)), Basis::kTruncation,
+        "(q a)^2 / 24, 0.06 % for q a = 0.12"},
+       "the tension law, the masses, or the integrator"},
+      std::abs(measured_frequency(row, 1.0) / exact - 1));
   add_sabotage(check, "masses +1 %", std::abs(measured_frequency(row, 1.01) / exact - 1));
   report.checks.push_back(std::move(check));
 }
@@ -143,8 +145,8 @@ double measured_frequency(const Net& net, double mass_factor) {
       }
     }
     std::sort(body.mesh.pinned.begin(), body.mesh.pinned.end());
-    body.laws.add(forces::make_law<double>(
-        {"tension", {"stretch"}, {{"stiffness", {stiffness}}}}, body.mesh));
+    body.laws.add(forces::make_law<double>({"tension", {"stretch"}, {{"stiffness", {stiffness}}}},
+                                           body.mesh));
     body.positions = body.mesh.rest_positions / (1 - Net::kStrain);
     body.velocities.setZero(3, body.mesh.num_nodes());
     return body;
@@ -167,12 +169,12 @@ void add_net_checks(const CaseInfo& info, const Net& net, Report& report) {
   const double sabotaged = measured_frequency(net, 1.01);
   const auto add = [&](const std::string& claim, const std::string& formula, double exact,
                        const Tolerance& tolerance) {
-    CheckResult check = judged(info,
-                               {fmt::format("{}, {} x {} cells, mode ({}, {})", claim, net.cells,
-                                            net.cells, net.m, net.n),
-                                "relative error of its frequency", formula, "vibrating membrane",
-                                tolerance, "the tension law, the masses, or the integrator"},
-                               std::abs(measured / exact - 1));
+    CheckResult check = judged(
+        info,
+        {fmt::format("{}, {} x {} cells, mode ({}, {})", claim, net.cells, net.cells, net.m, net.n),
+         "relative error of its frequency", formula, "vibrating membrane", tolerance,
+         "the tension law, the masses, or the integrator"},
+        std::abs(measured / exact - 1));
     add_sabotage(check, "masses +1 %", std::abs(sabotaged / exact - 1));
     report.checks.push_back(std::move(check));
   };
@@ -205,8 +207,8 @@ std::vector<double> strip_modes(int cells, double clamp_factor, int count) {
   const reference::StaticProblem problem = reference::static_problem(body, weight);
   std::vector<double> frequencies;
   const double unit = std::sqrt(kRigidity / strip.area_density) / (strip.length * strip.length);
-  for (const Mode& mode : slowest_modes(problem, body.mesh.rest_positions, body.mesh.masses, count,
-                                        strip.length)) {
+  for (const Mode& mode :
+       slowest_modes(problem, body.mesh.rest_positions, body.mesh.masses, count, strip.length)) {
     frequencies.push_back(std::sqrt(mode.omega_squared) / unit);
   }
   return frequencies;
@@ -223,11 +225,13 @@ void add_strip_checks(const CaseInfo& info, int cells, int count, Report& report
     CheckResult check = judged(
         info,
         {fmt::format("a clamped strip of {} cells vibrates as a beam, mode {}", cells, mode + 1),
-         "relative error of its frequency", "w = beta^2 sqrt(D / (rho L^4)), cos beta cosh beta = -1",
+         "relative error of its frequency",
+         "w = beta^2 sqrt(D / (rho L^4)), cos beta cosh beta = -1",
          "Euler-Bernoulli cantilever; the strip's mode by inverse iteration",
          {1e-3 * std::max(1.0, std::pow(80.0 / cells, 2)), Basis::kTruncation,
           "second order in the cells: 0.1 % from 80 cells on"},
-         "hinge_torsion and its clamp, or the masses", "reference statics"},
+         "hinge_torsion and its clamp, or the masses",
+         "reference statics"},
         error(right));
     add_sabotage(check, "hinges at the clamp not doubled", error(wrong));
     report.checks.push_back(std::move(check));

@@ -29,8 +29,7 @@ double tip_drop(const Chain& chain) {
   row.direction = {0, -1, 0};
   // Twice the slowest mode's frequency: near-critical damping, the fastest way to rest.
   const double rate = std::sqrt(chain.stiffness / chain.mass);  // [1/s]
-  const double slowest =
-      2 * rate * std::sin(std::numbers::pi / (2 * (2 * chain.masses + 1)));
+  const double slowest = 2 * rate * std::sin(std::numbers::pi / (2 * (2 * chain.masses + 1)));
   row.laws = {tension_law(chain.stiffness), gravity_law({0, -kGravity, 0}),
               velocity_damping_law(2 * slowest)};
   reference::SpringSolver solver =
@@ -79,8 +78,8 @@ void evaluate_hanging_chain(const CaseInfo& info, const CaseOptions& options, co
                             Report& report) {
   if (asks_for_point(options)) {
     add_check(info,
-              {static_cast<int>(value_of(info, options, "masses")),
-               value_of(info, options, "mass"), value_of(info, options, "stiffness")},
+              {static_cast<int>(value_of(info, options, "masses")), value_of(info, options, "mass"),
+               value_of(info, options, "stiffness")},
               report);
     return;
   }

@@ -24,8 +24,8 @@ struct Setting {
   double meter = 1.0;       ///< new units per m, kg, s [-]
   double kilogram = 1.0;
   double second = 1.0;
-  double stiffness_slip = 1.0;  ///< sabotage: factor of the stiffness [-]
-  std::vector<int> order = {};  ///< new number of each node; empty: as they are
+  double stiffness_slip = 1.0;    ///< sabotage: factor of the stiffness [-]
+  std::vector<int> order = {};    ///< new number of each node; empty: as they are
   bool crossed_left_out = false;  ///< sabotage
 };
 
@@ -71,8 +71,7 @@ ClothMesh make_mesh(const Setting& setting) {
   if (!setting.order.empty()) renumber(mesh, setting.order);
   mesh.rest_positions = setting.meter * setting.turn * mesh.rest_positions;
   mesh.masses *= setting.kilogram;
-  const Vector3<double> speed =
-      setting.turn * setting.velocity * (setting.meter / setting.second);
+  const Vector3<double> speed = setting.turn * setting.velocity * (setting.meter / setting.second);
   mesh.pinned_velocities = speed.replicate(1, 2);
   return mesh;
 }
@@ -112,8 +111,7 @@ reference::System make_system(const Setting& s) {
 Matrix3X<double> end_places(const Setting& s) {
   reference::SpringSolver solver(make_system(s), {});
   for (int step = 0; step < kSteps; ++step) (void)solver.step(kStep * s.second);
-  const Matrix3X<double> moved =
-      s.turn.transpose() * solver.system().bodies[0].positions / s.meter;
+  const Matrix3X<double> moved = s.turn.transpose() * solver.system().bodies[0].positions / s.meter;
   Matrix3X<double> places = moved.colwise() - s.velocity * (kSteps * kStep);
   if (s.order.empty()) return places;
   Matrix3X<double> in_order(3, places.cols());
@@ -161,12 +159,12 @@ void evaluate_invariances(const CaseInfo& info, const CaseOptions&, const Engine
                             "the cloth's motion does"};
   const auto add = [&](const std::string& claim, const std::string& formula, double measured,
                        const std::string& mistake, double sabotaged) {
-    CheckResult check = judged(
-        info,
-        {claim, "largest way between the two cloths after 0.4 s over their side", formula,
-         "invariance of mechanics", tolerance,
-         "a law, a contact or a damper that knows the world's axes, origin or units"},
-        measured);
+    CheckResult check =
+        judged(info,
+               {claim, "largest way between the two cloths after 0.4 s over their side", formula,
+                "invariance of mechanics", tolerance,
+                "a law, a contact or a damper that knows the world's axes, origin or units"},
+               measured);
     add_sabotage(check, mistake, sabotaged);
     report.checks.push_back(std::move(check));
   };
@@ -193,7 +191,8 @@ void evaluate_invariances(const CaseInfo& info, const CaseOptions&, const Engine
 
   std::vector<int> order(kNodes * kNodes);
   std::iota(order.begin(), order.end(), 0);
-  for (std::size_t i = order.size() - 1; i > 0; --i) std::swap(order[i], order[(i * 7919 + 13) % (i + 1)]);
+  for (std::size_t i = order.size() - 1; i > 0; --i)
+    std::swap(order[i], order[(i * 7919 + 13) % (i + 1)]);
   Setting mixed;
   mixed.order = order;
   const double in_any_order = difference(mixed, original);
@@ -206,8 +205,7 @@ void evaluate_invariances(const CaseInfo& info, const CaseOptions&, const Engine
   slipped = turned(mirror);
   slipped.stiffness_slip = 1 + 1e-6;
   add("a cloth in a mirror falls as the mirror shows it", "x' = diag(-1, 1, 1) x",
-      difference(turned(mirror), original), "spring constant +1e-6",
-      difference(slipped, original));
+      difference(turned(mirror), original), "spring constant +1e-6", difference(slipped, original));
 }
 
 }  // namespace weft::validation

@@ -15,8 +15,8 @@
 namespace weft::validation {
 namespace {
 
-using Strain = Eigen::Vector3d;   ///< e11, e22, 2 e12
-using Moduli = Eigen::Matrix3d;   ///< C of energy per area e . C e / 2 [N/m]
+using Strain = Eigen::Vector3d;  ///< e11, e22, 2 e12
+using Moduli = Eigen::Matrix3d;  ///< C of energy per area e . C e / 2 [N/m]
 
 constexpr double kSpacing = 0.02;  // a [m]
 
@@ -160,33 +160,35 @@ double largest_error(const Moduli& measured, const Patch& patch) {
 }
 
 void add_regular_checks(const CaseInfo& info, const Patch& patch, Report& report) {
-  const std::string what =
-      fmt::format("k1 = {} N/m, k2 = {} N/m, {} x {} cells", patch.leg, patch.diagonal, patch.cells,
-                  patch.cells);
+  const std::string what = fmt::format("k1 = {} N/m, k2 = {} N/m, {} x {} cells", patch.leg,
+                                       patch.diagonal, patch.cells, patch.cells);
   Patch full_rim = patch;
   full_rim.full_rim = true;
-  CheckResult moduli = judged(
-      info,
-      {"a square lattice has the moduli of its springs, " + what,
-       "largest relative error of C and of the moduli along 0, 15, ... 90 degrees",
-       "C11 = k1 + k2, C12 = C66 = k2; 1 / E45 = (2 / (k1 + 2 k2) + 1 / k2) / 4",
-       "energy of an affine displacement; springs of the rim belong to half a cell",
-       {1e-14 * std::max(patch.leg / patch.diagonal, patch.diagonal / patch.leg),
-        Basis::kRoundoff, "a linear system of some hundred springs"},
-       "the tension law's stiffness, or the rim", "reference statics"},
-      largest_error(test_patch(patch).moduli, patch));
-  add_sabotage(moduli, "rim of whole springs",
-               largest_error(test_patch(full_rim).moduli, patch));
+  CheckResult moduli =
+      judged(info,
+             {"a square lattice has the moduli of its springs, " + what,
+              "largest relative error of C and of the moduli along 0, 15, ... 90 degrees",
+              "C11 = k1 + k2, C12 = C66 = k2; 1 / E45 = (2 / (k1 + 2 k2) + 1 / k2) / 4",
+              "energy of an affine displacement; springs of the rim belong to half a cell",
+              {1e-14 * std::max(patch.leg / patch.diagonal, patch.diagonal / patch.leg),
+               Basis::kRoundoff, "a linear system of some hundred springs"},
+              "the tension law's stiffness, or the rim",
+              "reference statics"},
+             largest_error(test_patch(patch).moduli, patch));
+  add_sabotage(moduli, "rim of whole springs", largest_error(test_patch(full_rim).moduli, patch));
   report.checks.push_back(std::move(moduli));
   Patch moved = patch;
   moved.jitter = 1e-6;
-  CheckResult balance = judged(
-      info,
-      {"a uniform strain leaves every inner node in balance, " + what,
-       "largest force on an inner node over k1 a, unit strains", "0", "patch test",
-       {1e-13 * std::max(1.0, patch.diagonal / patch.leg), Basis::kRoundoff, "a sum of eight forces"}, "the tension law's stiffness",
-       "reference statics"},
-      test_patch(patch).unbalance);
+  CheckResult balance = judged(info,
+                               {"a uniform strain leaves every inner node in balance, " + what,
+                                "largest force on an inner node over k1 a, unit strains",
+                                "0",
+                                "patch test",
+                                {1e-13 * std::max(1.0, patch.diagonal / patch.leg),
+                                 Basis::kRoundoff, "a sum of eight forces"},
+                                "the tension law's stiffness",
+                                "reference statics"},
+                               test_patch(patch).unbalance);
   add_sabotage(balance, "nodes off by 1e-6 of a spacing", test_patch(moved).unbalance);
   report.checks.push_back(std::move(balance));
 }
@@ -196,18 +198,19 @@ void add_isotropy_check(const CaseInfo& info, Report& report) {
     const Moduli measured = test_patch(patch).moduli;
     double largest = 0;
     for (int degrees = 0; degrees <= 90; degrees += 15) {
-      largest =
-          std::max(largest, std::abs(along(measured, degrees) / (4.0 / 3 * patch.leg) - 1));
+      largest = std::max(largest, std::abs(along(measured, degrees) / (4.0 / 3 * patch.leg) - 1));
     }
     return largest;
   };
-  CheckResult check =
-      judged(info,
-             {"with k1 = 2 k2 the lattice is isotropic", "largest relative error of E = 4 k1 / 3",
-              "E = 4 k1 / 3 in every direction, Poisson's ratio 1 / 3", "C11 - C12 = 2 C66",
-              {1e-14, Basis::kRoundoff, "a linear system of some hundred springs"},
-              "the stiffness of legs or diagonals", "reference statics"},
-             spread({}));
+  CheckResult check = judged(info,
+                             {"with k1 = 2 k2 the lattice is isotropic",
+                              "largest relative error of E = 4 k1 / 3",
+                              "E = 4 k1 / 3 in every direction, Poisson's ratio 1 / 3",
+                              "C11 - C12 = 2 C66",
+                              {1e-14, Basis::kRoundoff, "a linear system of some hundred springs"},
+                              "the stiffness of legs or diagonals",
+                              "reference statics"},
+                             spread({}));
   add_sabotage(check, "k1 = 2.02 k2", spread({.leg = 101}));
   report.checks.push_back(std::move(check));
 }
@@ -221,9 +224,11 @@ void add_jittered_check(const CaseInfo& info, double jitter, Report& report) {
       {"an irregular lattice is nearly the same sheet",
        fmt::format("largest relative error of C and of the moduli, nodes off by up to {:.0f} %",
                    100 * jitter),
-       "moduli of the regular lattice", "energy of the equilibrium under an affine rim",
+       "moduli of the regular lattice",
+       "energy of the equilibrium under an affine rim",
        {0.05, Basis::kModelGap, "no constant of springs is exact on irregular cells"},
-       "the equilibrium of inner nodes", "reference statics"},
+       "the equilibrium of inner nodes",
+       "reference statics"},
       largest_error(test_patch(patch).moduli, patch));
   add_sabotage(check, "diagonals 10 % stiffer", largest_error(test_patch(wrong).moduli, patch));
   report.checks.push_back(std::move(check));
@@ -237,12 +242,12 @@ Moduli triangular_star(double stiffness, int springs) {
   Edges edges(2, springs);
   for (int i = 0; i < springs; ++i) {
     const double angle = i * std::numbers::pi / 3;
-    body.mesh.rest_positions.col(i + 1) << kSpacing * std::cos(angle), kSpacing * std::sin(angle), 0;
+    body.mesh.rest_positions.col(i + 1) << kSpacing * std::cos(angle), kSpacing * std::sin(angle),
+        0;
     edges.col(i) << 0, i + 1;
   }
   body.mesh.edge_sets.push_back({"star", edges});
-  body.laws.add(
-      forces::make_law<double>({"tension", {}, {{"stiffness", {stiffness}}}}, body.mesh));
+  body.laws.add(forces::make_law<double>({"tension", {}, {{"stiffness", {stiffness}}}}, body.mesh));
   const reference::StaticProblem problem = reference::static_problem(body, 1.0);
   const double area = std::sqrt(3.0) / 2 * kSpacing * kSpacing;
   Moduli moduli;
@@ -250,8 +255,7 @@ Moduli triangular_star(double stiffness, int springs) {
     Matrix3X<double> force(3, springs + 1);
     problem.stiffness_product(body.mesh.rest_positions, affine(body.mesh, Strain::Unit(a)), force);
     for (int b = 0; b < 3; ++b) {
-      moduli(a, b) =
-          -0.5 * force.cwiseProduct(affine(body.mesh, Strain::Unit(b))).sum() / area;
+      moduli(a, b) = -0.5 * force.cwiseProduct(affine(body.mesh, Strain::Unit(b))).sum() / area;
     }
   }
   return moduli;
@@ -265,14 +269,15 @@ void add_triangular_check(const CaseInfo& info, Report& report) {
     exact(0, 1) = exact(1, 0) = exact(2, 2) = 1;
     return (measured / (std::sqrt(3.0) / 4 * kStiffness) - exact).cwiseAbs().maxCoeff();
   };
-  CheckResult check =
-      judged(info,
-             {"a triangular lattice is isotropic with E = 2 k / sqrt(3)",
-              "largest error of C over sqrt(3) k / 4", "C11 = 3 sqrt(3) k / 4, C12 = C66 = sqrt(3) k / 4",
-              "Ostoja-Starzewski 2002; energy of an affine displacement",
-              {3e-14, Basis::kRoundoff, "a sum of six springs"}, "the tension law's stiffness",
-              "reference statics"},
-             error(triangular_star(kStiffness, 6)));
+  CheckResult check = judged(info,
+                             {"a triangular lattice is isotropic with E = 2 k / sqrt(3)",
+                              "largest error of C over sqrt(3) k / 4",
+                              "C11 = 3 sqrt(3) k / 4, C12 = C66 = sqrt(3) k / 4",
+                              "Ostoja-Starzewski 2002; energy of an affine displacement",
+                              {3e-14, Basis::kRoundoff, "a sum of six springs"},
+                              "the tension law's stiffness",
+                              "reference statics"},
+                             error(triangular_star(kStiffness, 6)));
   add_sabotage(check, "a spring is missing", error(triangular_star(kStiffness, 5)));
   report.checks.push_back(std::move(check));
 }

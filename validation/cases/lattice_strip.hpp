@@ -8,7 +8,7 @@ namespace weft::validation {
 struct LatticeDirection {
   int p = 0;
   int q = 1;
-  [[nodiscard]] double angle() const;  ///< [deg]
+  [[nodiscard]] double angle() const;   ///< [deg]
   [[nodiscard]] double period() const;  ///< in cells: sqrt(p^2 + q^2)
 };
 

@@ -80,8 +80,7 @@ std::vector<Mode> slowest_modes(const reference::StaticProblem& problem,
       options.max_move = length;
       (void)reference::solve_statics(loaded, moved, options);
       response = (moved - positions) / (scale * guess);
-      const double omega_squared =
-          product(mode.shape, mode.shape) / product(mode.shape, response);
+      const double omega_squared = product(mode.shape, mode.shape) / product(mode.shape, response);
       if (!std::isfinite(omega_squared)) return modes;
       mode.shape = response;
       const bool is_done = std::abs(omega_squared / last - 1) < kConverged;

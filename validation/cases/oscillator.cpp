@@ -35,7 +35,9 @@ Matrix2 step_matrix(IntegratorKind integrator, const Oscillator& oscillator) {
   const double w2 = oscillator.stiffness / oscillator.mass;
   const double c = oscillator.damping / oscillator.mass;
   const Matrix2 identity = Matrix2::Identity();
-  const auto decay = [&](double time) { return Matrix2{{1, 0}, {0, std::exp(-oscillator.rate * time)}}; };
+  const auto decay = [&](double time) {
+    return Matrix2{{1, 0}, {0, std::exp(-oscillator.rate * time)}};
+  };
   const Matrix2 continuous{{0, 1}, {-w2, -(c + oscillator.rate)}};
   switch (integrator) {
     case IntegratorKind::kExplicitEuler:
@@ -123,15 +125,16 @@ void evaluate_oscillator(const CaseInfo& info, const CaseOptions& options, const
   Oscillator oscillator;
   if (asks_for_point(options)) {
     const auto value = [&](const char* name) { return value_of(info, options, name); };
-    oscillator = {value("mass"), value("stiffness"), value("damping"), value("rate"),
-                  value("time-step"), static_cast<int>(value("steps"))};
+    oscillator = {value("mass"), value("stiffness"), value("damping"),
+                  value("rate"), value("time-step"), static_cast<int>(value("steps"))};
   }
   // What is left of the amplitude at the end is what roundings are measured against.
   const double decay = oscillator.rate + oscillator.damping / oscillator.mass;
   const double left = std::exp(-decay / 2 * oscillator.time_step * oscillator.steps);
-  const Tolerance tolerance{std::min(2e-12 / left, 1e-4), Basis::kRoundoff,
-                            "up to 1000 steps, each with a rounding of 1e-16 of the spring's length, 10 "
-                            "times the displacement; a wrong term shows at 1e-4 and above"};
+  const Tolerance tolerance{
+      std::min(2e-12 / left, 1e-4), Basis::kRoundoff,
+      "up to 1000 steps, each with a rounding of 1e-16 of the spring's length, 10 "
+      "times the displacement; a wrong term shows at 1e-4 and above"};
   for (const IntegratorKind integrator :
        {IntegratorKind::kExplicitEuler, IntegratorKind::kModifiedEuler,
         IntegratorKind::kVelocityVerlet, IntegratorKind::kRungeKutta4}) {
@@ -148,7 +151,7 @@ void evaluate_oscillator(const CaseInfo& info, const CaseOptions& options, const
     check.measured = measure(integrator, oscillator, {});
     check.tolerance = tolerance;
     check.note = "a force, its sign, or the order of operations within the step";
-  const auto add = [&](const char* name, const Mistake& mistake) {
+    const auto add = [&](const char* name, const Mistake& mistake) {
       const double measured = measure(integrator, oscillator, mistake);
       check.sabotages.push_back({name, measured, judge(measured, tolerance) == Verdict::kFail});
     };

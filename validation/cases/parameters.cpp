@@ -37,23 +37,22 @@ void check_values(const CaseInfo& info, const CaseOptions& options) {
     }
     const bool is_inside = value >= parameter->minimum && value <= parameter->maximum;
     if (!is_inside || (parameter->is_whole && value != std::floor(value))) {
-      throw InvalidArgument(fmt::format(
-          "validate: case '{}': {} = {} [{}], expected {}{} to {}", info.id, name, value,
-          parameter->unit, parameter->is_whole ? "a whole number, " : "", parameter->minimum,
-          parameter->maximum));
+      throw InvalidArgument(fmt::format("validate: case '{}': {} = {} [{}], expected {}{} to {}",
+                                        info.id, name, value, parameter->unit,
+                                        parameter->is_whole ? "a whole number, " : "",
+                                        parameter->minimum, parameter->maximum));
     }
   }
   if (options.engine.empty() || options.engine == "reference") return;
-  throw InvalidArgument(
-      fmt::format("validate: case '{}' runs with the engine 'reference' where one is asked for, not '{}'",
-                  info.id, options.engine));
+  throw InvalidArgument(fmt::format(
+      "validate: case '{}' runs with the engine 'reference' where one is asked for, not '{}'",
+      info.id, options.engine));
 }
 
 double value_of(const CaseInfo& info, const CaseOptions& options, std::string_view name) {
   const CaseParameter* parameter = find(info, name);
   if (parameter == nullptr || (!parameter->default_value && !options.values.contains(name))) {
-    throw InvalidArgument(
-        fmt::format("validate: case '{}' needs a value for '{}'", info.id, name));
+    throw InvalidArgument(fmt::format("validate: case '{}' needs a value for '{}'", info.id, name));
   }
   return value_or(options, name, parameter->default_value.value_or(0.0));
 }

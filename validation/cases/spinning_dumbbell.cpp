@@ -81,9 +81,8 @@ double change(double length, const std::vector<forces::LawSpecification>& laws, 
 
 void evaluate_spinning_dumbbell(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                                 Report& report) {
-  const std::vector<forces::LawSpecification> laws = {tension_law(kStiffness),
-                                                      spring_damping_law(kDamping),
-                                                      torsional_rotation_damping_law(2.0)};
+  const std::vector<forces::LawSpecification> laws = {
+      tension_law(kStiffness), spring_damping_law(kDamping), torsional_rotation_damping_law(2.0)};
   CheckResult check = judged(
       info,
       {"a spinning dumbbell with spring and torsional rotation damping on keeps length and spin",

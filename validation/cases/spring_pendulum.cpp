@@ -41,21 +41,20 @@ reference::SpringSolver make_pendulum(const Pendulum& pendulum, IntegratorKind i
 struct Place {
   double time, x, y;
 };
-constexpr std::array kTable = {Place{0.5, -.069627411, -1.217504590},
-                               Place{1, -.348251841, -.821392145},
-                               Place{2, .445570232, -1.005587065},
-                               Place{5, -.526191324, -1.186708980},
-                               Place{10, .347049829, -1.137932779}};
+constexpr std::array kTable = {
+    Place{0.5, -.069627411, -1.217504590}, Place{1, -.348251841, -.821392145},
+    Place{2, .445570232, -1.005587065}, Place{5, -.526191324, -1.186708980},
+    Place{10, .347049829, -1.137932779}};
 
 /// The same equations in polar coordinates, written apart from every law and solver.
 Place exact_place(const Pendulum& p, double time) {
   using State = std::array<double, 4>;  // r, phi (0: hanging), their rates
   const auto slope = [&](const State& s) {
     const double r = s[0];
-    return State{s[2], s[3],
-                 r * s[3] * s[3] + kGravity * std::cos(s[1]) -
-                     p.stiffness / p.mass * (r - p.length),
-                 -(kGravity * std::sin(s[1]) + 2 * s[2] * s[3]) / r};
+    return State{
+        s[2], s[3],
+        r * s[3] * s[3] + kGravity * std::cos(s[1]) - p.stiffness / p.mass * (r - p.length),
+        -(kGravity * std::sin(s[1]) + 2 * s[2] * s[3]) / r};
   };
   const auto moved = [](const State& a, double h, const State& d) {
     return State{a[0] + h * d[0], a[1] + h * d[1], a[2] + h * d[2], a[3] + h * d[3]};
@@ -100,10 +99,12 @@ void add_trajectory_checks(const CaseInfo& info, const Pendulum& pendulum,
   };
   const double end = places.back().time * std::sqrt(pendulum.stiffness / pendulum.mass);
   for (const Method& method :
-       {Method{IntegratorKind::kRungeKutta4, 5e-3,
+       {Method{IntegratorKind::kRungeKutta4,
+               5e-3,
                {2e-8 * std::max(1.0, end / 100), Basis::kTruncation,
                 "(w h)^4 / 120 per radian, 1e-9 for 100 radians, and how far apart two ways grow"}},
-        Method{IntegratorKind::kVelocityVerlet, 4e-4,
+        Method{IntegratorKind::kVelocityVerlet,
+               4e-4,
                {1e-6 * std::max(1.0, end / 100), Basis::kTruncation,
                 "(w h)^2 / 24 per radian: 7e-7 for 100 radians"}}}) {
     const double step = method.step * std::sqrt(pendulum.mass / pendulum.stiffness);
@@ -164,15 +165,16 @@ double measured_ratio(double amplitude, double gravity_factor) {
 void add_period_check(const CaseInfo& info, double degrees, Report& report) {
   const double amplitude = degrees * std::numbers::pi / 180;
   const double exact = period_ratio(amplitude);
-  CheckResult check = judged(
-      info,
-      {fmt::format("a stiff pendulum swings as a rigid one, amplitude {} degrees", degrees),
-       "relative error of its period", "T / T0 = 1 / agm(1, cos(amplitude / 2))",
-       "elliptic integral by the arithmetic-geometric mean (Gauss)",
-       {1e-4, Basis::kModelGap,
-        "the spring stretches by 1e-5 under the weight and by up to 5e-5 at speed"},
-       "gravity, or the step of velocity Verlet"},
-      std::abs(measured_ratio(amplitude, 1.0) / exact - 1));
+  CheckResult check =
+      judged(info,
+             {fmt::format("a stiff pendulum swings as a rigid one, amplitude {} degrees", degrees),
+              "relative error of its period",
+              "T / T0 = 1 / agm(1, cos(amplitude / 2))",
+              "elliptic integral by the arithmetic-geometric mean (Gauss)",
+              {1e-4, Basis::kModelGap,
+               "the spring stretches by 1e-5 under the weight and by up to 5e-5 at speed"},
+              "gravity, or the step of velocity Verlet"},
+             std::abs(measured_ratio(amplitude, 1.0) / exact - 1));
   add_sabotage(check, "a spring that stretches by 0.1 %",
                std::abs(measured_ratio(amplitude, 0.01) / exact - 1));
   report.checks.push_back(std::move(check));
@@ -205,9 +207,9 @@ void evaluate_spring_pendulum(const CaseInfo& info, const CaseOptions& options, 
     add_period_check(info, value("amplitude"), report);
     return;
   }
-  add_trajectory_checks(info, {}, {kTable.begin(), kTable.end()},
-                        "m = 1 kg, k = 100 N/m, l0 = 1 m from (0.6, -1.2) m: tabulated, Runge-Kutta 4",
-                        report);
+  add_trajectory_checks(
+      info, {}, {kTable.begin(), kTable.end()},
+      "m = 1 kg, k = 100 N/m, l0 = 1 m from (0.6, -1.2) m: tabulated, Runge-Kutta 4", report);
   for (const double degrees : {5.0, 10.0, 30.0, 60.0, 90.0, 120.0, 150.0}) {
     add_period_check(info, degrees, report);
   }

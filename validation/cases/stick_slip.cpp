@@ -16,17 +16,17 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kLength = 1.0;     // L [m]
-constexpr double kRigidity = 1.0;   // B [N m^2]
-constexpr double kDensity = 1.0;    // [kg/m]
-constexpr double kTension = 1e5;    // EA [N]: shorter by 2e-4 under the force of buckling
-constexpr double kDamping = 10.0;   // [1/s]: the slowest mode turns by 15 rad/s
-constexpr double kBegin = 0.8;      // compression at the start, over the one at which the tip slips
-constexpr double kEnd = 1.25;       // and at the end
-constexpr double kDuration = 4.0;   // [s]: ten periods of the slowest mode
-constexpr double kSettled = 0.85;   // compression at which what the start has stirred up is gone
-constexpr double kWatched = 0.95;   // and up to which creep is watched
-constexpr double kSlipped = 1e-4;   // [m] way of the tip since then that counts as slipped
+constexpr double kLength = 1.0;    // L [m]
+constexpr double kRigidity = 1.0;  // B [N m^2]
+constexpr double kDensity = 1.0;   // [kg/m]
+constexpr double kTension = 1e5;   // EA [N]: shorter by 2e-4 under the force of buckling
+constexpr double kDamping = 10.0;  // [1/s]: the slowest mode turns by 15 rad/s
+constexpr double kBegin = 0.8;     // compression at the start, over the one at which the tip slips
+constexpr double kEnd = 1.25;      // and at the end
+constexpr double kDuration = 4.0;  // [s]: ten periods of the slowest mode
+constexpr double kSettled = 0.85;  // compression at which what the start has stirred up is gone
+constexpr double kWatched = 0.95;  // and up to which creep is watched
+constexpr double kSlipped = 1e-4;  // [m] way of the tip since then that counts as slipped
 
 struct Press {
   double friction = 0.2;
@@ -155,7 +155,8 @@ void add_checks(const CaseInfo& info, const Press& press, Report& report) {
       {fmt::format("a pressed strip's tip slips where the elastica says, mu = {}", press.friction),
        fmt::format("relative error of the compression delta / L = {:.4f}, N = {}",
                    exact.compression, press.segments),
-       "sideways force / force = mu, theta'' + F sin(theta - beta) = 0, theta(0) = 0, theta'(1) = 0",
+       "sideways force / force = mu, theta'' + F sin(theta - beta) = 0, theta(0) = 0, theta'(1) = "
+       "0",
        "clamped and pinned elastica, solved on the spot; Sano, Yamaguchi and Wada 2017",
        {0.03, Basis::kTruncation,
         "second order in the segments, 2e-4 of compression, and the speed of the press"},
@@ -163,13 +164,15 @@ void add_checks(const CaseInfo& info, const Press& press, Report& report) {
       error(slip));
   add_sabotage(check, "friction +10 %", error(press_down(wrong, exact.compression)));
   report.checks.push_back(std::move(check));
-  CheckResult creep = judged(info,
-                             {fmt::format("a tip that sticks does not creep, mu = {}", press.friction),
-                              "largest speed of the tip from 0.85 to 0.95 of that compression", "0",
-                              "exact Coulomb friction",
-                              {1e-9, Basis::kRoundoff, "rounding of a place over a step"},
-                              "a friction that is smoothed"},
-                             slip.creep);
+  CheckResult creep =
+      judged(info,
+             {fmt::format("a tip that sticks does not creep, mu = {}", press.friction),
+              "largest speed of the tip from 0.85 to 0.95 of that compression",
+              "0",
+              "exact Coulomb friction",
+              {1e-9, Basis::kRoundoff, "rounding of a place over a step"},
+              "a friction that is smoothed"},
+             slip.creep);
   creep.unit = "m/s";
   wrong.friction_factor = 0.8;
   add_sabotage(creep, "friction -20 %", press_down(wrong, exact.compression).creep);

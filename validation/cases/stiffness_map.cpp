@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kStiffness = 200.0;  // of every spring [N/m]
 constexpr double kNodeMass = 0.05;    // [kg]
-constexpr double kSpacing = 0.1;      // [m]
+constexpr double kSpacing = 0.5;      // [m]: a step's fall of 2.7 mm stretches it by 0.5 %
 constexpr double kGravity = 9.81;     // [m/s^2]
 constexpr double kRate = 8.0;         // of velocity_damping [1/s]
 constexpr auto kFloat64 = scenes::StoredPrecision::kFloat64;
@@ -89,8 +89,8 @@ void plan_stiffness_map(const CaseInfo& info, const CaseOptions& options, Engine
   if (!options.bullet) return;
   for (const Setting& setting : settings()) {
     const EngineChoice engine{"bullet_soft", kFloat64};
-    runs.add({engine.label(setting.label(info)), rope_scene(setting), engine.engine,
-              engine.precision});
+    runs.add(
+        {engine.label(setting.label(info)), rope_scene(setting), engine.engine, engine.precision});
   }
 }
 
@@ -128,22 +128,25 @@ void evaluate_stiffness_map(const CaseInfo& info, const CaseOptions& options,
   check.formula = "k = (mu / h^2) ((1 - kLST)^-n - 1)";
   check.source = "n projections of one link per step; statics of a hanging mass";
   check.measured = single;
-  check.tolerance = {0.03, Basis::kTruncation,
-                     "Bullet's link linearises the square of its length: second order in the strain"};
+  check.tolerance = {
+      0.025, Basis::kTruncation,
+      "Bullet's link linearises the square of its length: half the strain before it acts, "
+      "1 % at 1/60 s"};
   check.verdict = judge(check.measured, *check.tolerance);
   Sabotage stiffer = stiffness_scaled(1.1);
   const Setting one{1, 1.0 / 240, 10};
   const scenes::Scene scene = rope_scene(one);
-  const double sabotaged = std::abs(
-      stiffness_ratio(run_sabotaged(scene, stiffer, scene.world.duration), 1) - 1);
-  check.sabotages.push_back(
-      {"spring constant +10 % (in the reference)", sabotaged, judge(sabotaged, *check.tolerance) == Verdict::kFail});
+  const double sabotaged =
+      std::abs(stiffness_ratio(run_sabotaged(scene, stiffer, scene.world.duration), 1) - 1);
+  check.sabotages.push_back({"spring constant +10 % (in the reference)", sabotaged,
+                             judge(sabotaged, *check.tolerance) == Verdict::kFail});
   check.note = "the mapping from N/m to kLST";
   report.checks.push_back(std::move(check));
   report.departures.push_back(
       {engine.title(), "stiffness_map: a spring in a rope of 2, 10 and 30",
        fmt::format("{:.3g} to {:.3g} of the stiffness that was asked for", softest, stiffest),
-       "links are projected one after the other: what a chain of them gives depends on iterations and step"});
+       "links are projected one after the other: what a chain of them gives depends on iterations "
+       "and step"});
   section.tables.push_back(std::move(table));
   report.sections.push_back(std::move(section));
 }

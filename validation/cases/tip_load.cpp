@@ -49,7 +49,8 @@ void add_load_check(const CaseInfo& info, double load, int cells, Matrix3X<doubl
        "theta'' + (P / D) cos(theta) = 0, theta(0) = 0, theta'(L) = 0",
        "elastica with a tip load, solved on the spot",
        {0.01, Basis::kTruncation, "second order in the cells, and what the springs stretch: 1e-3"},
-       "the weights or the clamp rule of hinge_torsion, or the static solver", "reference statics"},
+       "the weights or the clamp rule of hinge_torsion, or the static solver",
+       "reference statics"},
       measured);
   add_sabotage(check, "hinges at the clamp not doubled",
                tip_error(model_of(load, cells, 1.0), start, nullptr));
@@ -115,9 +116,11 @@ void add_test_check(const CaseInfo& info, double degrees, int cells, Report& rep
       info,
       {fmt::format("a bending test at {} degrees recovers the rigidity", degrees),
        fmt::format("relative error of D = rho g L^3 / Gamma, Gamma = {:.4f}, N = {}", exact, cells),
-       "D = rho g L^3 / Gamma(chord)", "heavy elastica, solved on the spot",
+       "D = rho g L^3 / Gamma(chord)",
+       "heavy elastica, solved on the spot",
        {0.02, Basis::kTruncation, "second order in the cells, and what the springs stretch: 1e-3"},
-       "hinge_torsion and its clamp, or the weight of the strip", "reference statics"},
+       "hinge_torsion and its clamp, or the weight of the strip",
+       "reference statics"},
       error(simulated));
   add_sabotage(check, "hinges at the clamp not doubled",
                error(simulated_gamma(degrees, cells, 1.0)));
