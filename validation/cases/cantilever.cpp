@@ -227,7 +227,8 @@ void add_point_check(const CaseInfo& info, const Point& point, Report& report) {
                             "1 % with cells enough for the layer of bending at the clamp"};
   check.tolerance = tolerance;
   check.verdict = judge(check.measured, tolerance);
-  const double stiffer = 1 + 5 * tolerance.value;
+  // Where the clamp hangs down a heavy strip hangs straight, however stiff.
+  const double stiffer = 1 + (point.tilt == 0 ? 5 : 50) * tolerance.value;
   const double sabotaged = way_error(point, stiffer);
   check.sabotages.push_back({fmt::format("rigidity +{:.0f} %", 100 * (stiffer - 1)), sabotaged,
                              judge(sabotaged, tolerance) == Verdict::kFail});
@@ -237,7 +238,7 @@ void add_point_check(const CaseInfo& info, const Point& point, Report& report) {
 
 constexpr std::array kParameters = {
     CaseParameter{"gamma", "1", "rho g L^3 / D", 0.05, 500.0, 1.0},
-    CaseParameter{"nodes", "1", "cells along the strip", 10, 240, std::nullopt, true},
+    CaseParameter{"nodes", "1", "cells along the strip", 10, 160, std::nullopt, true},
     CaseParameter{"angle", "deg",
                   "of the grid's lines to the strip; the nearest at which a grid repeats is taken",
                   0.0, 90.0, 0.0},

@@ -86,14 +86,14 @@ bool slips(const Capstan& capstan, double ratio) {
 }
 
 double largest_ratio(const Capstan& capstan) {
-  double low = 1.0;
-  double high = std::pow(capstan.exact(), 1.5);
+  double low = 0.0;  // logarithms
+  double high = 1.5 * std::log(capstan.exact());
   constexpr int kBisections = 11;
   for (int i = 0; i < kBisections; ++i) {
     const double middle = 0.5 * (low + high);
-    (slips(capstan, middle) ? high : low) = middle;
+    (slips(capstan, std::exp(middle)) ? high : low) = middle;
   }
-  return 0.5 * (low + high);
+  return std::exp(0.5 * (low + high));
 }
 
 void add_check(const CaseInfo& info, const Capstan& capstan, Report& report) {
@@ -122,7 +122,7 @@ void add_check(const CaseInfo& info, const Capstan& capstan, Report& report) {
 constexpr std::array kParameters = {
     CaseParameter{"mu", "1", "friction of chain and body", 0.05, 0.8, 0.3},
     CaseParameter{"wrap", "deg", "angle round the body", 45.0, 270.0, 180.0},
-    CaseParameter{"nodes", "1", "nodes that touch", 4, 48, 16, true},
+    CaseParameter{"nodes", "1", "nodes that touch", 8, 48, 16, true},
 };
 
 }  // namespace

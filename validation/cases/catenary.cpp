@@ -111,8 +111,8 @@ CheckResult add_check(const CaseInfo& info, const Cable& cable, const Shape& exa
       largest_error(hang(cable, 1.0), exact));
   add_sabotage(check, "masses +1 %", largest_error(hang(cable, 1.01), exact));
   Cable softer = cable;
-  softer.length *= 1.002;
-  add_sabotage(check, "springs 0.2 % longer", largest_error(hang(softer, 1.0), exact));
+  softer.length *= 1.01;
+  add_sabotage(check, "springs 1 % longer", largest_error(hang(softer, 1.0), exact));
   report.checks.push_back(check);
   return check;
 }
@@ -138,8 +138,8 @@ constexpr std::array kParameters = {
     CaseParameter{
         "stiffness", "1",
         "EA over weight per length times span; from 1e6 on the chain counts as inextensible", 5.0,
-        1e7, 120.0},
-    CaseParameter{"nodes", "1", "springs of the chain", 10, 1000, 100, true},
+        1e6, 120.0},
+    CaseParameter{"nodes", "1", "springs of the chain", 50, 1000, 100, true},
 };
 
 }  // namespace
