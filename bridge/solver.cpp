@@ -32,6 +32,7 @@ struct SoftBodySolver::Attachment {
   std::optional<BodyBlowUp> blow_up;
   PositionLimits limits;
   bool was_in_world = false;
+  bool is_suspended = false;
   double time = 0.0;  // [s] of the steps since the body was attached
 
   [[nodiscard]] bool acts_after_projection(Level level) const;
@@ -190,13 +191,14 @@ void SoftBodySolver::replace_laws(btSoftBody& body, LawSet laws, VectorX<btScala
   attachment->damping = old->damping;
   attachment->blow_up = old->blow_up;
   attachment->was_in_world = old->was_in_world;
+  attachment->is_suspended = old->is_suspended;
   attachment->time = old->time;
   attachment->check_laws();
   const bool was_begun = old->deferred.is_in_flight();
   for (auto& entry : attachments_->list) {
     if (entry.get() == old) entry = std::move(attachment);
   }
-  if (was_begun && !is_frozen(body)) find(body)->begin_forces();
+  if (was_begun && !is_still(body)) find(body)->begin_forces();
 }
 
 void SoftBodySolver::detach(btSoftBody& body) {
@@ -214,6 +216,26 @@ void SoftBodySolver::set_position_limits(btSoftBody& body, PositionLimits limits
   }
   check_position_limits(limits, body.m_nodes.size());
   attachment->limits = std::move(limits);
+}
+
+void SoftBodySolver::set_suspended(btSoftBody& body, bool is_suspended) {
+  Attachment* attachment = find(body);
+  if (!attachment) {
+    throw InvalidArgument(
+        "soft body solver: suspends a body without laws, expected attach() first");
+  }
+  if (attachment->is_suspended == is_suspended) return;
+  attachment->is_suspended = is_suspended;
+  attachment->deferred.drop();
+  // Those of the last step with it would be solved once more, and it may be elsewhere now.
+  body.m_rcontacts.resizeNoInitialize(0);
+  body.m_scontacts.resizeNoInitialize(0);
+  if (!is_suspended) body.updateNormals();
+}
+
+bool SoftBodySolver::is_suspended(const btSoftBody& body) const {
+  const Attachment* attachment = find(body);
+  return attachment && attachment->is_suspended;
 }
 
 void SoftBodySolver::set_cloth_contact(btSoftBody& body, const ClothContactSettings& settings) {
@@ -257,9 +279,9 @@ std::optional<BodyBlowUp> SoftBodySolver::blow_up(const btSoftBody& body) const 
   return attachment ? attachment->blow_up : std::nullopt;
 }
 
-bool SoftBodySolver::is_frozen(const btSoftBody& body) const {
+bool SoftBodySolver::is_still(const btSoftBody& body) const {
   const Attachment* attachment = find(body);
-  return attachment && attachment->blow_up;
+  return attachment && (attachment->blow_up || attachment->is_suspended);
 }
 
 // The world hands over its bodies at the start of every step.
@@ -275,9 +297,9 @@ void SoftBodySolver::predictMotion(btScalar time_step) {
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
     if (!body.isActive()) continue;
-    Attachment* attachment = find(body);
-    if (attachment && !attachment->blow_up) attachment->add_forces(time_step);
-    if (!is_frozen(body)) body.predictMotion(time_step);
+    if (is_still(body)) continue;
+    if (Attachment* attachment = find(body)) attachment->add_forces(time_step);
+    if (!is_still(body)) body.predictMotion(time_step);  // the forces may have exploded
   }
 }
 
@@ -287,14 +309,14 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
   // before Bullet rounds it to single precision; to use it would mix two clocks in one step.
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
-    if (!body.isActive() || is_frozen(body)) continue;
+    if (!body.isActive() || is_still(body)) continue;
     if (ClothContact* contact = find_contact(body)) contact->add_self_contacts(body, time_step_);
     body.solveConstraints();
   }
   settle_contact_velocities();
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
-    if (!body.isActive() || is_frozen(body)) continue;
+    if (!body.isActive() || is_still(body)) continue;
     Attachment* attachment = find(body);
     if (!attachment) continue;
     apply_position_limits(attachment->limits, static_cast<double>(time_step_), body);
@@ -311,7 +333,7 @@ void SoftBodySolver::settle_contact_velocities() {
   for (const auto& entry : attachments_->contacts) {
     btSoftBody& body = *entry->body;
     if (!entry->was_in_world || !entry->contact.settings().with_others) continue;
-    if (!body.isActive() || is_frozen(body)) continue;
+    if (!body.isActive() || is_still(body)) continue;
     for (int i = 0; i < body.m_nodes.size(); ++i) {
       btSoftBody::Node& node = body.m_nodes[i];
       node.m_v = (node.m_x - node.m_q) * body.m_sst.isdt;
@@ -324,18 +346,18 @@ void SoftBodySolver::updateSoftBodies() {
   const TraceScope trace("update soft bodies");
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
-    if (!body.isActive() || is_frozen(body)) continue;
+    if (!body.isActive() || is_still(body)) continue;
     body.integrateMotion();
     if (Attachment* attachment = is_deferred_ ? find(body) : nullptr) attachment->begin_forces();
   }
 }
 
 void SoftBodySolver::processCollision(btSoftBody* body, const btCollisionObjectWrapper* object) {
-  if (!is_frozen(*body)) btDefaultSoftBodySolver::processCollision(body, object);
+  if (!is_still(*body)) btDefaultSoftBodySolver::processCollision(body, object);
 }
 
 void SoftBodySolver::processCollision(btSoftBody* body, btSoftBody* other) {
-  if (is_frozen(*body) || is_frozen(*other)) return;
+  if (is_still(*body) || is_still(*other)) return;
   const ClothContact* contact = find_contact(*body);
   const ClothContact* other_contact = find_contact(*other);
   if (contact && other_contact && contact->settings().with_others &&

@@ -181,6 +181,7 @@ void read_bodies(const TomlTable& root, Scene& scene) {
     scene.colliders.push_back(read_collider(table));
     claim(table, scene.colliders.back().name);
   }
+  for (const TomlTable& table : root.tables("cloth")) check_carriers(table, scene);
   for (const TomlTable& table : root.tables("controller")) {
     scene.controllers.push_back(read_controller(table, scene));
   }

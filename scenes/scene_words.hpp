@@ -28,7 +28,9 @@ inline constexpr std::array<std::string_view, 2> kConcaveWords = {"prisms", "tri
 inline constexpr std::array<std::string_view, 4> kCornerWords = {"-u-v", "+u-v", "-u+v", "+u+v"};
 inline constexpr std::array<std::string_view, 4> kEdgeWords = {"-u", "+u", "-v", "+v"};
 inline constexpr std::array<std::string_view, 3> kFollowWords = {"fixed", "heading", "banked"};
-inline constexpr std::array<std::string_view, 2> kControllerWords = {"seek", "roll"};
+inline constexpr std::array<std::string_view, 4> kControllerWords = {"seek", "roll", "attach",
+                                                                     "detail"};
+inline constexpr std::array<std::string_view, 3> kDetailWords = {"full", "simplified", "skin"};
 
 inline constexpr std::array<std::string_view, 4> kChannelWords = {"red", "green", "blue", "alpha"};
 

@@ -86,6 +86,7 @@ std::string path_text(const Path& path) {
 }
 
 std::string motion_text(const MovingPin& pin) {
+  if (!pin.to.empty()) return "to = " + toml_string(pin.to);
   return pin.path ? "path = " + path_text(*pin.path)
                   : "velocity = " + vector_text(pin.velocity, "m/s");
 }
@@ -231,6 +232,29 @@ void write_controller(std::string& out, const Roll& roll) {
   line(out, "turn_rate", value_text(roll.turn_rate, "rad/s"));
   line(out, "torque", value_text(roll.torque, "N*m"));
   line(out, "arrival", value_text(roll.arrival, "m"));
+}
+
+void write_controller(std::string& out, const Attach& attach) {
+  line(out, "kind", toml_string("attach"));
+  line(out, "cloth", toml_string(attach.cloth));
+  line(out, "region", toml_string(attach.region));
+  line(out, "to", toml_string(attach.to));
+  line(out, "stiffness", value_text(attach.stiffness, "N/m"));
+  line(out, "damping", value_text(attach.damping, "N*s/m"));
+}
+
+void write_controller(std::string& out, const Detail& detail) {
+  line(out, "kind", toml_string("detail"));
+  line(out, "cloth", toml_string(detail.cloth));
+  std::string levels;
+  for (const DetailSwitch& entry : detail.levels) {
+    levels += (levels.empty() ? "" : ", ");
+    levels += "{ time = " + value_text(entry.time, "s") +
+              ", level = " + word(kDetailWords, entry.level) + " }";
+  }
+  line(out, "levels", "[" + levels + "]");
+  line(out, "blend", value_text(detail.blend, "s"));
+  line(out, "follow", value_text(detail.follow, "Hz"));
 }
 
 void write_settings(std::string& out, const Scene& scene) {

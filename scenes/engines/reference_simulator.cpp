@@ -144,6 +144,12 @@ void ReferenceSimulator::load(const Scene& scene) {
 void ReferenceSimulator::begin_step(const Steering& steering, double time_step) {
   for (std::size_t c = 0; c < steering.cloths.size(); ++c) {
     const ClothSteering& cloth = steering.cloths[c];
+    if (cloth.placement) {
+      throw InvalidArgument(
+          "reference: cloth '" + solver_->system().bodies[c].name +
+          "' shall be placed and not simulated, expected the level of detail full, "
+          "or an engine of Bullet's classic world");
+    }
     if (cloth.pinned_positions.cols() > 0) {
       solver_->lead_pins(c, cloth.pinned_positions, time_step);
     }
@@ -152,6 +158,7 @@ void ReferenceSimulator::begin_step(const Steering& steering, double time_step) 
   for (std::size_t k = 0; k < steering.colliders.size(); ++k) {
     const auto& pose = steering.colliders[k];
     if (pose) solver_->lead_collider(k, pose->position, pose->orientation, time_step);
+    solver_->push_collider(k, steering.pushes[k].force, steering.pushes[k].torque, time_step);
   }
 }
 

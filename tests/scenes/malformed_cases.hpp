@@ -15,6 +15,12 @@ struct MalformedCase {
 
 // clang-format off
 inline constexpr auto kMalformedCases = std::to_array<MalformedCase>({
+    {"attached_to_nobody", 16, 6, "expected the name of a collider of this scene"},
+    {"levels_at_once", 14, 45, "expected growing times"},
+    {"pin_to_a_free_body", 11, 32, "expected a collider without one"},
+    {"pin_to_nobody", 11, 32, "expected the name of a collider of this scene"},
+    {"pin_with_two_leads", 11, 51, "expected at most one of velocity, path, to"},
+    {"unknown_level", 14, 35, "expected one of full, simplified, skin"},
     {"axis_of_a_rope", 11, 1, "cloth.u_axis: unknown key"},
     {"backward_torque", 15, 10, ">= 0"},
     {"bulge_of_a_sphere", 11, 9, "expected a grid to raise"},

@@ -68,6 +68,10 @@ class SpringSolver {
   /// After that step: puts it there exactly.
   void place_collider(std::size_t collider, const Vector3<double>& position,
                       const Eigen::Quaterniond& orientation);
+  /// An impulse on a collider with a mass before the step of time_step [s]: force [N] and torque [N m]
+  /// about its position. Does nothing to one without.
+  void push_collider(std::size_t collider, const Vector3<double>& force,
+                     const Vector3<double>& torque, double time_step);
 
   [[nodiscard]] const SolverOptions& options() const { return options_; }
   [[nodiscard]] double time() const { return time_; }  ///< [s]
