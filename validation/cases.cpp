@@ -75,7 +75,7 @@ const std::array kCases = {
     CaseInfo{"hover", "A sheet hovers in the wind that carries its weight", nullptr,
              &evaluate_hover},
     CaseInfo{"balloon", "Pressure curve of a balloon of springs, and where it bursts", nullptr,
-             &evaluate_balloon},
+             &evaluate_balloon, Tier::kCommit, balloon_parameters()},
     CaseInfo{"materials", "Four materials that differ by their damping alone", &plan_materials,
              &evaluate_materials, Tier::kNightly},
     CaseInfo{"contact_balance", "A cloth falls, is carried, and does not pass through", nullptr,

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <weft/custom_forces/core/error.hpp>
 #include <weft/validation/cases/analytic_cases.hpp>
 #include <weft/validation/cases/parameters.hpp>
 #include <weft/validation/cases/small_systems.hpp>
@@ -26,6 +27,7 @@ struct Oscillator {
   double time_step = 1.0 / 200;  ///< [s]: omega h = 0.06
   int steps = 1000;
 };
+constexpr double kLargestPhase = 1.4;       // w h, so that no method but explicit Euler grows
 constexpr double kStartDisplacement = 0.1;  // [m]
 constexpr double kStartVelocity = 0.4;      // [m/s]
 
@@ -108,8 +110,8 @@ double measure(IntegratorKind integrator, const Oscillator& oscillator, const Mi
 constexpr std::array kParameters = {
     CaseParameter{"mass", "kg", "of the mass", 1e-3, 1e3, 0.3},
     CaseParameter{"stiffness", "N/m", "of the spring", 0.1, 1e4, 40.0},
-    CaseParameter{"damping", "N s/m", "of the spring's damper", 0.0, 10.0, 0.02},
-    CaseParameter{"rate", "1/s", "of velocity_damping", 0.0, 10.0, 0.05},
+    CaseParameter{"damping", "N s/m", "of the spring's damper", 0.0, 0.1, 0.02},
+    CaseParameter{"rate", "1/s", "of velocity_damping", 0.0, 2.0, 0.05},
     CaseParameter{"time-step", "s", "w h must be below 1.4", 1e-5, 1.0, 0.005},
     CaseParameter{"steps", "1", "number of them", 10, 1000, 1000.0, true},
 };

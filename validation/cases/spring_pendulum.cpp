@@ -181,12 +181,12 @@ void add_period_check(const CaseInfo& info, double degrees, Report& report) {
 }
 
 constexpr std::array kParameters = {
-    CaseParameter{"mass", "kg", "of the bob", 1e-3, 1e3, 1.0},
-    CaseParameter{"stiffness", "N/m", "of the spring", 1.0, 1e5, 100.0},
-    CaseParameter{"length", "m", "of the spring at rest", 0.1, 10.0, 1.0},
-    CaseParameter{"x", "m", "start, sideways from the pivot", -5.0, 5.0, 0.6},
-    CaseParameter{"y", "m", "start, above the pivot", -5.0, -0.2, -1.2},
-    CaseParameter{"time", "s", "end of the way", 0.1, 10.0, 2.0},
+    CaseParameter{"mass", "kg", "of the bob", 0.1, 10.0, 1.0},
+    CaseParameter{"stiffness", "N/m", "of the spring", 20.0, 1000.0, 100.0},
+    CaseParameter{"length", "m", "of the spring at rest", 0.5, 2.0, 1.0},
+    CaseParameter{"x", "m", "start, sideways from the pivot", -1.5, 1.5, 0.6},
+    CaseParameter{"y", "m", "start, above the pivot", -3.0, -0.8, -1.2},
+    CaseParameter{"time", "s", "end of the way", 0.1, 5.0, 2.0},
     CaseParameter{"amplitude", "deg", "of the stiff pendulum", 1.0, 170.0, 60.0},
 };
 
