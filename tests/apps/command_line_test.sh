@@ -158,6 +158,16 @@ fi
 # A report
 check "validate" exits 0 validate oscillator hanging_chain -o report --no-pictures
 for file in index.html report.json junit.xml; do check "$file" test -s report/$file; done
+check "one point of a case" exits 0 validate cantilever --gamma 3.7 --nodes 60 --angle 17 --engine reference -o report --no-pictures
+check "one point: says where" grep -q "N = 60, grid at 16.7 degrees" out
+check "a value out of range" exits 2 validate cantilever --gamma 900 -o none
+check "a value out of range: says what is expected" grep -q "gamma = 900 \[1\], expected 0.05 to 500" err
+check "a parameter of another case" exits 2 validate catenary --gamma 1 -o none
+check "a parameter without a case" exits 2 validate --gamma 1 -o none
+check "no report from bad input" test ! -e none
+check "quick and a case" exits 2 validate catenary --quick -o none
+check "list of the cases" exits 0 validate --list
+check "list: parameters with unit and range" grep -q -- "--gamma \[1\].*0.05 to 500" out
 
 echo "$((checks - failures)) passed, $failures failed"
 [ "$failures" -eq 0 ]
