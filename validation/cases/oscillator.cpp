@@ -31,6 +31,13 @@ constexpr double kLargestPhase = 1.4;       // w h, so that no method but explic
 constexpr double kStartDisplacement = 0.1;  // [m]
 constexpr double kStartVelocity = 0.4;      // [m/s]
 
+/// left^-1 right, by Cramer's rule.
+Matrix2 solved(const Matrix2& left, const Matrix2& right) {
+  const double determinant = left(0, 0) * left(1, 1) - left(0, 1) * left(1, 0);
+  const Matrix2 adjoint{{left(1, 1), -left(0, 1)}, {-left(1, 0), left(0, 0)}};
+  return adjoint * right / determinant;
+}
+
 /// One step of an integrator for x'' = -w^2 x - c x' - gamma x' as a matrix.
 Matrix2 step_matrix(IntegratorKind integrator, const Oscillator& oscillator) {
   const double h = oscillator.time_step;
@@ -58,7 +65,32 @@ Matrix2 step_matrix(IntegratorKind integrator, const Oscillator& oscillator) {
       middle << x1, Eigen::RowVector2d(0, 1) + 0.5 * h * (a0 + a1);
       return decay(h / 2) * middle * decay(h / 2);
     }
-    default:  // only the four of kIntegrators are asked for here
+    case IntegratorKind::kYoshida4: {
+      // Three steps of kick, drift, kick; a kick is an implicit midpoint rule in the velocity.
+      Matrix2 step = identity;
+      const double outer = 1 / (2 - std::cbrt(2.0));
+      for (const double part : {outer, 1 - 2 * outer, outer}) {
+        const double half = part * h / 2;
+        const double drag = half * (c + oscillator.rate) / 2;
+        const Matrix2 kick{{1, 0}, {-half * w2 / (1 + drag), (1 - drag) / (1 + drag)}};
+        const Matrix2 drift{{1, 2 * half}, {0, 1}};
+        step = kick * drift * kick * step;
+      }
+      return step;
+    }
+    case IntegratorKind::kImplicitEuler:
+      return solved(identity - h * continuous, identity);
+    case IntegratorKind::kImplicitMidpoint:
+      return solved(identity - h / 2 * continuous, identity + h / 2 * continuous);
+    case IntegratorKind::kTrBdf2: {
+      // Trapezoid over a part of the step, then the backward formula through its start and its end.
+      const double part = 2 - std::sqrt(2.0);
+      const Matrix2 left = identity - part / 2 * h * continuous;
+      const Matrix2 middle = solved(left, identity + part / 2 * h * continuous);
+      const double old = (1 - part) * (1 - part);
+      return solved(left, (middle - old * identity) / (part * (2 - part)));
+    }
+    default:  // Runge-Kutta 4; no other is asked for here
       break;
   }
   const Matrix2 z = h * continuous;
@@ -139,7 +171,9 @@ void evaluate_oscillator(const CaseInfo& info, const CaseOptions& options, const
       "times the displacement; a wrong term shows at 1e-4 and above"};
   for (const IntegratorKind integrator :
        {IntegratorKind::kExplicitEuler, IntegratorKind::kModifiedEuler,
-        IntegratorKind::kVelocityVerlet, IntegratorKind::kRungeKutta4}) {
+        IntegratorKind::kVelocityVerlet, IntegratorKind::kRungeKutta4, IntegratorKind::kYoshida4,
+        IntegratorKind::kImplicitEuler, IntegratorKind::kImplicitMidpoint,
+        IntegratorKind::kTrBdf2}) {
     CheckResult check;
     check.case_id = info.id;
     check.engine = "reference";
