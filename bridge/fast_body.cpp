@@ -20,6 +20,8 @@ constexpr btScalar kInertiaStep = btScalar(0.816496580927726);  // sqrt(2 / 3)
 constexpr btScalar kStepRatio = btScalar(1.3);
 /// How often contacts between cloths are projected at the end of a step.
 constexpr int kClothContactSweeps = 8;
+/// How often contacts that the solution needs are looked for after it.
+constexpr int kMostLooks = 2;
 
 Vector3<btScalar> from_bullet(const btVector3& v) {
   return {v.x(), v.y(), v.z()};
@@ -43,6 +45,14 @@ void check(const FastSettings& settings) {
 btRigidBody* movable(const btCollisionObject* object) {
   auto* rigid = const_cast<btRigidBody*>(btRigidBody::upcast(object));
   return rigid != nullptr && !rigid->isStaticOrKinematicObject() ? rigid : nullptr;
+}
+
+/// What a force at a place has to move, in the direction in which that is easiest [kg].
+btScalar mass_at(const btRigidBody& rigid, const btVector3& place) {
+  const btVector3 arm = place - rigid.getCenterOfMassPosition();
+  const btVector3 inverse_inertia = rigid.getInvInertiaDiagLocal();
+  const btScalar turning = inverse_inertia[inverse_inertia.maxAxis()] * arm.length2();
+  return 1 / (rigid.getInvMass() + turning);
 }
 
 void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& place) {
@@ -72,6 +82,7 @@ void FastBody::predict(btSoftBody& body, btScalar time_step) {
   last_velocities_.swap(start_velocities_);
   read_nodes(body, starts_, start_velocities_);
   contacts_.clear();
+  obstacles_.clear();
   body.predictMotion(time_step);
   btVector3 low = body.m_bounds[0];
   btVector3 high = body.m_bounds[1];
@@ -89,7 +100,31 @@ void FastBody::predict(btSoftBody& body, btScalar time_step) {
 void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& object,
                        btScalar time_step) {
   if ((body.m_cfg.collisions & btSoftBody::fCollision::SDF_RS) == 0) return;
+  obstacles_.push_back(
+      {object.getCollisionObject(), object.getCollisionShape(), object.getWorldTransform()});
   add_rigid_contacts(body, object, time_step, contacts_);
+}
+
+bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
+  const std::size_t num_known = contacts_.size();
+  for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_x = to_bullet(places_.col(i));
+  for (const Obstacle& obstacle : obstacles_) {
+    const btCollisionObjectWrapper object(nullptr, obstacle.shape, obstacle.object, obstacle.place,
+                                          -1, -1);
+    add_rigid_contacts(body, object, time_step, contacts_);
+  }
+  // Those that are known again, and those that the solution keeps to anyway.
+  const auto is_superfluous = [&](const RigidContact& found) {
+    if (btDot(found.normal, body.m_nodes[found.node].m_x) >= found.offset) return true;
+    return std::any_of(contacts_.begin(), contacts_.begin() + static_cast<std::ptrdiff_t>(num_known),
+                       [&](const RigidContact& known) {
+                         return known.node == found.node && known.object == found.object;
+                       });
+  };
+  contacts_.erase(std::remove_if(contacts_.begin() + static_cast<std::ptrdiff_t>(num_known),
+                                 contacts_.end(), is_superfluous),
+                  contacts_.end());
+  return contacts_.size() > num_known;
 }
 
 void FastBody::prepare_solver(const btSoftBody& body, btScalar time_step) {
@@ -128,6 +163,12 @@ void FastBody::read_constraints(const btSoftBody& body) {
     plane.offset = contact.offset;
     plane.motion = from_bullet(contact.motion);
     plane.friction = body.m_cfg.kDF * contact.object->getFriction();
+    if (const btRigidBody* const rigid = movable(contact.object)) {
+      const auto shares = std::count_if(contacts_.begin(), contacts_.end(), [&](const auto& other) {
+        return other.object == contact.object;
+      });
+      plane.mass = mass_at(*rigid, body.m_nodes[contact.node].m_x) / static_cast<btScalar>(shares);
+    }
     plane_contacts_.push_back(plane);
   }
   led_.clear();
@@ -135,7 +176,18 @@ void FastBody::read_constraints(const btSoftBody& body) {
     const btSoftBody::Anchor& anchor = body.m_anchors[a];
     const auto node = static_cast<int>(anchor.m_node - &body.m_nodes[0]);
     if (!is_free_[static_cast<std::size_t>(node)]) continue;
-    led_.push_back({node, from_bullet(anchor.m_body->getWorldTransform() * anchor.m_local)});
+    const btVector3 place = anchor.m_body->getWorldTransform() * anchor.m_local;
+    fast::LedNode<btScalar> led;
+    led.node = node;
+    led.place = from_bullet(place);
+    if (const btRigidBody* const rigid = movable(anchor.m_body)) {
+      int shares = 0;
+      for (int b = 0; b < body.m_anchors.size(); ++b) {
+        shares += body.m_anchors[b].m_body == anchor.m_body ? 1 : 0;
+      }
+      led.mass = mass_at(*rigid, place) / static_cast<btScalar>(shares);
+    }
+    led_.push_back(led);
   }
 }
 
@@ -207,9 +259,15 @@ void FastBody::solve(btSoftBody& body, btScalar time_step) {
     targets_.col(i) = origins_.col(i) + inertia_step * velocity;
   }
   places_ = starts_ + time_step * start_velocities_;
-  read_constraints(body);
-  solver_->solve({targets_, starts_, time_step, inertia_step, plane_contacts_, led_},
-                 settings_.effort, places_);
+  const auto solve = [&](const fast::SolverEffort& effort) {
+    read_constraints(body);
+    solver_->solve({targets_, starts_, time_step, inertia_step, plane_contacts_, led_}, effort,
+                   places_);
+  };
+  solve(settings_.effort);
+  for (int look = 0; look < kMostLooks && find_missed_contacts(body, time_step); ++look) {
+    solve({1, settings_.effort.iterations});
+  }
   give_impulses(body, time_step);
   const bool met_something = !contacts_.empty() || body.m_scontacts.size() > 0;
   write_back(body, time_step, inertia_step);

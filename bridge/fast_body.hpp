@@ -23,7 +23,8 @@ inline namespace WEFT_BULLET_PRECISION {
 ///
 /// Solved together: springs and dampers of the network, stabilised bending, anchors, contact with rigid
 /// shapes and Coulomb friction. Contacts with cloth (m_scontacts) are projected afterwards, as Bullet
-/// does it. A dynamic body gets the impulses of the step at its end; it moves as it did until then.
+/// does it. A dynamic body takes part with its inertia, shared out over what touches it, and gets the impulses
+/// at the end of the step.
 /// Bullet's own links are not looked at.
 class FastBody {
  public:
@@ -52,6 +53,9 @@ class FastBody {
  private:
   void prepare_solver(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step) const;
+  /// Contacts that the solution would need, and that nobody looked for where Bullet had predicted the
+  /// nodes. True if there are any.
+  [[nodiscard]] bool find_missed_contacts(btSoftBody& body, btScalar time_step);
   void read_constraints(const btSoftBody& body);
   void give_impulses(btSoftBody& body, btScalar time_step);
   void write_back(btSoftBody& body, btScalar time_step, btScalar inertia_step);
@@ -73,6 +77,13 @@ class FastBody {
   Matrix3X<btScalar> last_starts_;
   Matrix3X<btScalar> last_velocities_;
   btScalar last_step_ = 0;  ///< [s]; 0: no history
+  /// What the body's bounds have met in this step.
+  struct Obstacle {
+    const btCollisionObject* object;
+    const btCollisionShape* shape;
+    btTransform place;
+  };
+  std::vector<Obstacle> obstacles_;
   std::vector<RigidContact> contacts_;
   std::vector<fast::PlaneContact<btScalar>> plane_contacts_;
   std::vector<fast::LedNode<btScalar>> led_;

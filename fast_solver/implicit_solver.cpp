@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include <Eigen/Cholesky>
+
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/trace.hpp>
 #include <weft/fast_solver/minimum_degree.hpp>
@@ -16,6 +18,11 @@ namespace {
 constexpr float kSmoothing = 0.6F;
 /// Of a step that is taken at least.
 constexpr double kSmallestShare = 0.1;
+/// Squared motion of a step over that without springs from which on its energy is looked at.
+constexpr double kMostMotion = 1.2;
+/// Rounds, then halvings of the step, until a step that gains energy does not any more.
+constexpr int kExtraRounds = 6;
+constexpr int kHalvings = 6;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -83,6 +90,7 @@ ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const Vecto
   inertia_.setZero(n);
   holding_forces_.setZero(3, n);
   unbalanced_.setZero(3, n);
+  unmoved_.setZero(3, n);
   holds_.assign(at(static_cast<int>(n)), Hold::kFree);
   contact_of_.assign(at(static_cast<int>(n)), -1);
   blocks_.setZero(6, n);
@@ -114,13 +122,16 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
   std::fill(holds_.begin(), holds_.end(), Hold::kFree);
   std::fill(contact_of_.begin(), contact_of_.end(), -1);
   held_.clear();
-  for (const LedNode<Scalar>& led : problem.led) holds_[at(led.node)] = Hold::kFixed;
+  ties_.clear();
+  for (const LedNode<Scalar>& led : problem.led) {
+    holds_[at(led.node)] = led.mass > 0 ? Hold::kTied : Hold::kFixed;
+  }
   const auto gap_at = [&](const PlaneContact<Scalar>& contact, const auto& place) {
     return contact.normal.dot(place) - contact.offset;
   };
   for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
     const PlaneContact<Scalar>& contact = problem.contacts[c];
-    if (!is_free_[at(contact.node)] || holds_[at(contact.node)] == Hold::kFixed) continue;
+    if (!is_free_[at(contact.node)] || holds_[at(contact.node)] != Hold::kFree) continue;
     int& best = contact_of_[at(contact.node)];
     if (best < 0 || gap_at(contact, places.col(contact.node)) <
                         gap_at(problem.contacts[at(best)], places.col(contact.node))) {
@@ -133,9 +144,10 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
     const Vector3<Scalar> normal = candidate.normal;
     const Scalar gap = gap_at(candidate, places.col(i));
     const Scalar inertia = Scalar(inertia_[i]);
-    const Scalar pressure =
-        -normal.dot(unbalanced_.col(i)) + inertia * std::max(Scalar(0), -gap);
     const bool was_held = !is_first && held_before_[at(i)] != Hold::kFree;
+    const Scalar tie = candidate.mass / (problem.inertia_step * problem.inertia_step);
+    Scalar pressure = -normal.dot(unbalanced_.col(i)) + inertia * std::max(Scalar(0), -gap);
+    if (candidate.mass > 0 && was_held) pressure = -tie * gap;
     const bool is_near = is_first ? std::min(gap, gap_at(candidate, problem.targets.col(i))) < 0
                                   : gap < 0;
     if (!(was_held ? pressure > 0 : is_near)) {
@@ -148,19 +160,42 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
     tendency -= normal.dot(tendency) * normal;
     const Scalar most = candidate.friction * std::max(Scalar(0), pressure);
     const Scalar size = tendency.norm();
-    holds_[at(i)] = size <= most ? Hold::kFixed : Hold::kOnPlane;
+    const bool sticks = size <= most;
+    holds_[at(i)] = candidate.mass > 0 ? Hold::kTied : sticks ? Hold::kFixed : Hold::kOnPlane;
     normals_.col(i) = normal.template cast<float>();
     friction_.col(i).setZero();
-    if (size > most) friction_.col(i) = (-(most / size) * tendency).template cast<float>();
+    if (!sticks) friction_.col(i) = (-(most / size) * tendency).template cast<float>();
+    if (candidate.mass > 0) {
+      Vector3<Scalar> place = places.col(i);
+      if (sticks) place -= slip;
+      place -= gap_at(candidate, place) * normal;
+      ties_.push_back({i, tie, sticks ? Vector3<Scalar>(Vector3<Scalar>::Zero()) : normal, place});
+    }
     held_.push_back(i);
   }
-  for (const LedNode<Scalar>& led : problem.led) held_.push_back(led.node);
+  for (const LedNode<Scalar>& led : problem.led) {
+    held_.push_back(led.node);
+    friction_.col(led.node).setZero();
+    normals_.col(led.node).setZero();
+    if (led.mass <= 0) continue;
+    ties_.push_back({led.node, led.mass / (problem.inertia_step * problem.inertia_step),
+                     Vector3<Scalar>::Zero(), led.place});
+  }
 }
 
 // Inverses of symmetric 3 x 3 matrices by their adjugates.
 template <class Scalar>
 void ImplicitSolver<Scalar>::invert_blocks() {
   forces_.diagonal_blocks(blocks_);
+  for (const Tie& tie : ties_) {
+    const auto k = static_cast<float>(tie.stiffness);
+    const Vector3<float> n = tie.normal.template cast<float>();
+    const bool is_full = tie.normal.isZero(0);
+    for (int c = 0; c < 3; ++c) {
+      blocks_(c, tie.node) += is_full ? k : k * n[c] * n[c];
+      if (!is_full) blocks_(3 + c, tie.node) += k * n[c] * n[(c + 1) % 3];
+    }
+  }
   for (Eigen::Index i = 0; i < blocks_.cols(); ++i) {
     const float a = blocks_(0, i) + inertia_[i];
     const float b = blocks_(1, i) + inertia_[i];
@@ -188,8 +223,21 @@ void ImplicitSolver<Scalar>::project(Floats& vectors) const {
   for (const int i : held_) {
     if (holds_[at(i)] == Hold::kFixed) {
       vectors.col(i).setZero();
-    } else {
+    } else if (holds_[at(i)] == Hold::kOnPlane) {
       vectors.col(i) -= normals_.col(i).dot(vectors.col(i)) * normals_.col(i);
+    }
+  }
+}
+
+// The global matrix knows nothing of ties, and would move what is tied far too much.
+template <class Scalar>
+void ImplicitSolver<Scalar>::leave_out_ties(Floats& vectors) const {
+  for (const Tie& tie : ties_) {
+    if (tie.normal.isZero(0)) {
+      vectors.col(tie.node).setZero();
+    } else {
+      const Vector3<float> normal = tie.normal.template cast<float>();
+      vectors.col(tie.node) -= normal.dot(vectors.col(tie.node)) * normal;
     }
   }
 }
@@ -212,9 +260,24 @@ void ImplicitSolver<Scalar>::smooth(const Floats& residual, Floats& correction) 
 }
 
 template <class Scalar>
+void ImplicitSolver<Scalar>::add_tie_product(const Floats& displacements, Floats& product) const {
+  for (const Tie& tie : ties_) {
+    const auto stiffness = static_cast<float>(tie.stiffness);
+    const Vector3<float> d = displacements.col(tie.node);
+    if (tie.normal.isZero(0)) {
+      product.col(tie.node) += stiffness * d;
+    } else {
+      const Vector3<float> normal = tie.normal.template cast<float>();
+      product.col(tie.node) += stiffness * normal.dot(d) * normal;
+    }
+  }
+}
+
+template <class Scalar>
 void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats& product) {
   product = displacements * inertia_.asDiagonal();
   forces_.add_product(displacements, product);
+  add_tie_product(displacements, product);
   project(product);
 }
 
@@ -225,12 +288,14 @@ void ImplicitSolver<Scalar>::precondition() {
   multiply(correction_, correction_product_);
   work_ = residual_vector_ - correction_product_;
   coarse_.setZero();
+  leave_out_ties(work_);
   factor_.solve(work_, coarse_);
+  leave_out_ties(coarse_);
   project(coarse_);
   multiply(coarse_, product_);
   correction_ += coarse_;
   correction_product_ += product_;
-  work_ -= product_;
+  work_ = residual_vector_ - correction_product_;
   smooth(work_, coarse_);
   multiply(coarse_, product_);
   correction_ += coarse_;
@@ -245,7 +310,8 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem,
   residual_vector_ = unbalanced_.template cast<float>();
   bool moves_held = false;
   for (const int i : held_) {
-    if (contact_of_[at(i)] < 0) continue;
+    if (holds_[at(i)] == Hold::kTied) residual_vector_.col(i) += friction_.col(i);
+    if (contact_of_[at(i)] < 0 || holds_[at(i)] == Hold::kTied) continue;
     const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
     Vector3<Scalar> move = Vector3<Scalar>::Zero();
     if (holds_[at(i)] == Hold::kFixed) {
@@ -260,6 +326,9 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem,
     work_ = step_ * inertia_.asDiagonal();
     forces_.add_product(step_, work_);
     residual_vector_ -= work_;
+  }
+  for (const Tie& tie : ties_) {
+    residual_vector_.col(tie.node) += tie_force(tie, places).template cast<float>();
   }
   project(residual_vector_);
   float previous = 0;
@@ -283,33 +352,52 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem,
   }
 }
 
-// Planes that no round has met, and those of a node on several.
+// Planes that no round has met, and those of a node on several. True if anything had to move.
 template <class Scalar>
-void ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem,
+bool ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem,
                                    Matrix3XRef<Scalar> places) {
-  for (int sweep = 0; sweep < 2; ++sweep) {
-    for (const PlaneContact<Scalar>& contact : problem.contacts) {
-      const int i = contact.node;
-      if (!is_free_[at(i)]) continue;
-      const Scalar gap = contact.normal.dot(places.col(i)) - contact.offset;
-      if (!(gap < 0)) continue;
-      places.col(i) -= gap * contact.normal;
-      holding_forces_.col(i) -= Scalar(inertia_[i]) * gap * contact.normal;
-    }
+  bool any = false;
+  for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
+    const PlaneContact<Scalar>& contact = problem.contacts[c];
+    const int i = contact.node;
+    if (!is_free_[at(i)] || contact.mass > 0 || holds_[at(i)] == Hold::kTied) continue;
+    const Scalar gap = contact.normal.dot(places.col(i)) - contact.offset;
+    if (!(gap < 0)) continue;
+    places.col(i) -= gap * contact.normal;
+    any = true;
+    if (holds_[at(i)] != Hold::kFree) continue;
+    holds_[at(i)] = Hold::kOnPlane;
+    contact_of_[at(i)] = static_cast<int>(c);
+    normals_.col(i) = contact.normal.template cast<float>();
+    friction_.col(i).setZero();
+    held_.push_back(i);
   }
+  return any;
 }
 
 template <class Scalar>
-void ImplicitSolver<Scalar>::find_holding_forces() {
+Vector3<Scalar> ImplicitSolver<Scalar>::tie_force(const Tie& tie,
+                                                  ConstMatrix3XRef<Scalar> places) const {
+  const Vector3<Scalar> away = places.col(tie.node) - tie.place;
+  if (tie.normal.isZero(0)) return -tie.stiffness * away;
+  return -tie.stiffness * tie.normal.dot(away) * tie.normal;
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::find_holding_forces(ConstMatrix3XRef<Scalar> places) {
   holding_forces_.setZero();
   for (const int i : held_) {
     if (holds_[at(i)] == Hold::kFixed) {
       holding_forces_.col(i) = -unbalanced_.col(i);
-    } else {
+    } else if (holds_[at(i)] == Hold::kOnPlane) {
       const Vector3<Scalar> normal = normals_.col(i).template cast<Scalar>();
       holding_forces_.col(i) = -normal.dot(unbalanced_.col(i)) * normal +
                                friction_.col(i).template cast<Scalar>();
     }
+  }
+  for (const Tie& tie : ties_) {
+    holding_forces_.col(tie.node) =
+        tie_force(tie, places) + friction_.col(tie.node).template cast<Scalar>();
   }
 }
 
@@ -335,6 +423,111 @@ void ImplicitSolver<Scalar>::hold_back(const StepProblem<Scalar>& problem, doubl
 }
 
 template <class Scalar>
+void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, int iterations,
+                                      bool is_first, Matrix3XRef<Scalar> places) {
+  decide_holds(problem, places, is_first);
+  solve_linear(problem, places, iterations);
+  double work = 0;
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    if (holds_[at(static_cast<int>(i))] != Hold::kFree) continue;
+    work += static_cast<double>(unbalanced_.col(i).dot(step_.col(i).template cast<Scalar>()));
+  }
+  places += step_.template cast<Scalar>();
+  evaluate(problem, places);
+  hold_back(problem, work, places);
+  if (clamp(problem, places)) evaluate(problem, places);
+}
+
+/// What an implicit step minimises [J].
+template <class Scalar>
+double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem,
+                                      ConstMatrix3XRef<Scalar> places) const {
+  double sum = forces_.potential(places, problem.starts);
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    sum += 0.5 * static_cast<double>(inertia_[i]) *
+           static_cast<double>((places.col(i) - problem.targets.col(i)).squaredNorm());
+  }
+  return sum;
+}
+
+// A contact may have stretched springs; without one, more motion than without springs: they may have
+// pulled, or the solution may be off.
+template <class Scalar>
+bool ImplicitSolver<Scalar>::is_suspicious(const StepProblem<Scalar>& problem,
+                                           ConstMatrix3XRef<Scalar> places) const {
+  if (!held_.empty()) return true;
+  double moved = 0;
+  double expected = 0;
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    const auto mass = static_cast<double>(masses_[i]);
+    moved += mass * static_cast<double>((places.col(i) - problem.starts.col(i)).squaredNorm());
+    expected +=
+        mass * static_cast<double>((problem.targets.col(i) - problem.starts.col(i)).squaredNorm());
+  }
+  return !(moved <= kMostMotion * expected);
+}
+
+// Where nothing has moved but what is led, in front of all planes.
+template <class Scalar>
+void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
+  unmoved_ = problem.starts;
+  for (const int node : pinned_) unmoved_.col(node) = problem.targets.col(node);
+  for (const LedNode<Scalar>& led : problem.led) {
+    if (led.mass <= 0) unmoved_.col(led.node) = led.place;
+  }
+  for (const PlaneContact<Scalar>& contact : problem.contacts) {
+    if (!is_free_[at(contact.node)] || contact.mass > 0) continue;
+    const Scalar gap = contact.normal.dot(unmoved_.col(contact.node)) - contact.offset;
+    if (gap < 0) unmoved_.col(contact.node) -= gap * contact.normal;
+  }
+}
+
+// The exact solution has no more of the energy that it minimises than the places at the start. One
+// that has is iterated on, and at last drawn back: so an implicit step gains no energy, however badly
+// it has converged.
+template <class Scalar>
+void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterations,
+                                  Matrix3XRef<Scalar> places) {
+  stay_at_start(problem);
+  const double most = energy(problem, unmoved_);
+  for (int attempt = 0; !(energy(problem, places) <= most); ++attempt) {
+    if (attempt < kExtraRounds) {
+      do_round(problem, iterations, false, places);
+      continue;
+    }
+    if (attempt == kExtraRounds + kHalvings) break;
+    for (Eigen::Index i = 0; i < places.cols(); ++i) {
+      const bool is_finite = places.col(i).allFinite();
+      places.col(i) = is_finite ? Vector3<Scalar>(Scalar(0.5) * (places.col(i) + unmoved_.col(i)))
+                                : Vector3<Scalar>(unmoved_.col(i));
+    }
+    evaluate(problem, places);
+  }
+}
+
+// What conjugate gradients have left over would push the body as a whole. Where nothing immovable
+// holds it, a shift of all nodes, which no spring feels, takes that away to rounding.
+template <class Scalar>
+void ImplicitSolver<Scalar>::balance(Matrix3XRef<Scalar> places) {
+  if (!pinned_.empty()) return;
+  Matrix3<double> stiffness =
+      Matrix3<double>::Identity() * static_cast<double>(inertia_.template cast<double>().sum());
+  for (const int i : held_) {
+    if (holds_[at(i)] != Hold::kTied) return;
+  }
+  const Vector3<double> left = (unbalanced_ + holding_forces_).template cast<double>().rowwise().sum();
+  for (const Tie& tie : ties_) {
+    const Vector3<double> normal = tie.normal.template cast<double>();
+    Matrix3<double> directions = Matrix3<double>::Identity();
+    if (!tie.normal.isZero(0)) directions = normal * normal.transpose();
+    stiffness += static_cast<double>(tie.stiffness) * directions;
+  }
+  const Vector3<Scalar> shift = stiffness.llt().solve(left).template cast<Scalar>();
+  places.colwise() += shift;
+  find_holding_forces(places);
+}
+
+template <class Scalar>
 void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const SolverEffort& effort,
                                    Matrix3XRef<Scalar> places) {
   const TraceScope trace("implicit solve");
@@ -343,30 +536,23 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const Sol
     inertia_[node] = 0;
     places.col(node) = problem.targets.col(node);
   }
-  for (const LedNode<Scalar>& led : problem.led) places.col(led.node) = led.place;
+  for (const LedNode<Scalar>& led : problem.led) {
+    if (led.mass <= 0) places.col(led.node) = led.place;
+  }
   forces_.begin_step(problem.starts, problem.time_step);
   evaluate(problem, places);
   const double first = static_cast<double>(unbalanced_.norm());
   for (int round = 0; round < effort.rounds; ++round) {
-    decide_holds(problem, places, round == 0);
-    solve_linear(problem, places, effort.iterations);
-    double work = 0;
-    for (Eigen::Index i = 0; i < places.cols(); ++i) {
-      if (holds_[at(static_cast<int>(i))] != Hold::kFree) continue;
-      work += static_cast<double>(
-          unbalanced_.col(i).dot(step_.col(i).template cast<Scalar>()));
-    }
-    places += step_.template cast<Scalar>();
-    evaluate(problem, places);
-    hold_back(problem, work, places);
+    do_round(problem, effort.iterations, round == 0, places);
   }
-  find_holding_forces();
+  if (is_suspicious(problem, places)) tame(problem, effort.iterations, places);
+  find_holding_forces(places);
   double left = 0;
   for (Eigen::Index i = 0; i < places.cols(); ++i) {
     left += static_cast<double>((unbalanced_.col(i) + holding_forces_.col(i)).squaredNorm());
   }
   residual_ = first > 0 ? std::sqrt(left) / first : 0.0;
-  clamp(problem, places);
+  balance(places);
 }
 
 template class ImplicitSolver<float>;

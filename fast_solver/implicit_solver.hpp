@@ -65,6 +65,15 @@ class ImplicitSolver {
 
  private:
   using Floats = Matrix3X<float>;
+  /// A spring of stiffness mass / h'^2 to a place, in all directions or along a normal only: the
+  /// inertia of a body that moves together with the node.
+  struct Tie {
+    int node;
+    Scalar stiffness;        ///< [N/m]
+    Vector3<Scalar> normal;  ///< zero: in all directions
+    Vector3<Scalar> place;   ///< [m]
+  };
+
 
   void evaluate(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places);
   void decide_holds(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places,
@@ -72,14 +81,26 @@ class ImplicitSolver {
   void invert_blocks();
   void project(Floats& vectors) const;
   void smooth(const Floats& residual, Floats& correction) const;
+  void leave_out_ties(Floats& vectors) const;
+  void add_tie_product(const Floats& displacements, Floats& product) const;
+  [[nodiscard]] Vector3<Scalar> tie_force(const Tie& tie, ConstMatrix3XRef<Scalar> places) const;
   void multiply(const Floats& displacements, Floats& product);
   void precondition();
   void solve_linear(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places,
                     int iterations);
+  void do_round(const StepProblem<Scalar>& problem, int iterations, bool is_first,
+                Matrix3XRef<Scalar> places);
+  [[nodiscard]] double energy(const StepProblem<Scalar>& problem,
+                              ConstMatrix3XRef<Scalar> places) const;
+  [[nodiscard]] bool is_suspicious(const StepProblem<Scalar>& problem,
+                                   ConstMatrix3XRef<Scalar> places) const;
+  void stay_at_start(const StepProblem<Scalar>& problem);
+  void tame(const StepProblem<Scalar>& problem, int iterations, Matrix3XRef<Scalar> places);
   void hold_back(const StepProblem<Scalar>& problem, double work_before,
                  Matrix3XRef<Scalar> places);
-  void find_holding_forces();
-  void clamp(const StepProblem<Scalar>& problem, Matrix3XRef<Scalar> places);
+  void find_holding_forces(ConstMatrix3XRef<Scalar> places);
+  void balance(Matrix3XRef<Scalar> places);
+  bool clamp(const StepProblem<Scalar>& problem, Matrix3XRef<Scalar> places);
 
   NetworkForces<Scalar> forces_;
   SparseCholesky factor_;
@@ -87,9 +108,11 @@ class ImplicitSolver {
   std::vector<bool> is_free_;
   std::vector<int> pinned_;
   std::vector<int> held_;             ///< nodes with a hold
+  std::vector<Tie> ties_;             ///< of each tied node
   VectorX<float> inertia_;            ///< m / h'^2 [N/m]; 0 for pinned nodes
   Matrix3X<Scalar> unbalanced_;       ///< forces that are left [N]
   Matrix3X<Scalar> holding_forces_;
+  Matrix3X<Scalar> unmoved_;
   std::vector<Hold> holds_;           ///< of each node
   std::vector<Hold> held_before_;     ///< the same in the round before
   std::vector<int> contact_of_;       ///< of each node: the contact that holds it, or -1

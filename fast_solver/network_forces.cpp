@@ -113,6 +113,28 @@ void NetworkForces<Scalar>::add_forces(ConstMatrix3XRef<Scalar> places,
 }
 
 template <class Scalar>
+double NetworkForces<Scalar>::potential(ConstMatrix3XRef<Scalar> places,
+                                        ConstMatrix3XRef<Scalar> starts) const {
+  double sum = 0;
+  for (Eigen::Index p = 0; p < rest_lengths_.size(); ++p) {
+    const auto edge = assembly_.edges().col(assembly_.order()[static_cast<std::size_t>(p)]);
+    const Vector3<Scalar> d = places.col(edge[1]) - places.col(edge[0]);
+    const Scalar length = d.norm();
+    const Scalar extension = length - rest_lengths_[p];
+    const Scalar k = stiffness_[p] + (extension < Scalar(0) ? relief_[p] : Scalar(0));
+    const Scalar stretched = length - start_lengths_[p];
+    Scalar twice = k * extension * extension +
+                   damping_[p] * inverse_time_step_ * stretched * stretched;
+    if (has_stabiliser_) {
+      const Vector3<Scalar> start = starts.col(edge[1]) - starts.col(edge[0]);
+      twice += stabiliser_[p] * (d - start).squaredNorm();
+    }
+    sum += 0.5 * static_cast<double>(twice);
+  }
+  return sum;
+}
+
+template <class Scalar>
 void NetworkForces<Scalar>::add_product(ConstMatrix3XRef<float> displacements,
                                         Matrix3XRef<float> product) {
   const Eigen::Index m = rest_lengths_.size();

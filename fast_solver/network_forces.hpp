@@ -28,6 +28,10 @@ class NetworkForces {
   void add_forces(ConstMatrix3XRef<Scalar> places, ConstMatrix3XRef<Scalar> starts,
                   Matrix3XRef<Scalar> forces);
 
+  /// What add_forces() is minus the gradient of [J].
+  [[nodiscard]] double potential(ConstMatrix3XRef<Scalar> places,
+                                 ConstMatrix3XRef<Scalar> starts) const;
+
   /// product += stiffness displacements [N], with the stiffness of the last add_forces().
   void add_product(ConstMatrix3XRef<float> displacements, Matrix3XRef<float> product);
 
