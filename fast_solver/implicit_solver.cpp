@@ -438,7 +438,7 @@ void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, int it
   if (clamp(problem, places)) evaluate(problem, places);
 }
 
-/// What an implicit step minimises [J].
+/// What an implicit step minimises [J], with bodies that are tied to it and with what friction does.
 template <class Scalar>
 double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem,
                                       ConstMatrix3XRef<Scalar> places) const {
@@ -446,6 +446,19 @@ double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem,
   for (Eigen::Index i = 0; i < places.cols(); ++i) {
     sum += 0.5 * static_cast<double>(inertia_[i]) *
            static_cast<double>((places.col(i) - problem.targets.col(i)).squaredNorm());
+  }
+  for (const Tie& tie : ties_) {
+    Vector3<Scalar> away = places.col(tie.node) - tie.place;
+    if (!tie.normal.isZero(0)) away = tie.normal.dot(away) * tie.normal;
+    sum += 0.5 * static_cast<double>(tie.stiffness * away.squaredNorm());
+  }
+  for (const int i : held_) {
+    if (contact_of_[at(i)] < 0) continue;
+    // A surface that moves may do work by friction; slip only takes it away.
+    const Vector3<Scalar>& motion = problem.contacts[at(contact_of_[at(i)])].motion;
+    const Vector3<Scalar> friction = friction_.col(i).template cast<Scalar>();
+    const Vector3<Scalar> slip = places.col(i) - problem.starts.col(i) - motion;
+    sum -= static_cast<double>(friction.dot(motion) + std::min(Scalar(0), friction.dot(slip)));
   }
   return sum;
 }
@@ -477,6 +490,9 @@ void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
   }
   for (const PlaneContact<Scalar>& contact : problem.contacts) {
     if (!is_free_[at(contact.node)] || contact.mass > 0) continue;
+    if (holds_[at(contact.node)] == Hold::kFixed) {
+      unmoved_.col(contact.node) = problem.starts.col(contact.node) + contact.motion;
+    }
     const Scalar gap = contact.normal.dot(unmoved_.col(contact.node)) - contact.offset;
     if (gap < 0) unmoved_.col(contact.node) -= gap * contact.normal;
   }
