@@ -23,12 +23,12 @@ constexpr double kStiffness = 1000.0;  // [N/m]
 /// A cloth of 1 kg in a world: hung up at two corners, or above a fixed sphere.
 struct Workload {
   std::string name;
-  int nodes;             ///< along an edge
-  double size;           ///< [m] of an edge
+  int nodes;    ///< along an edge
+  double size;  ///< [m] of an edge
   bool is_hung;
-  double time_step;      ///< [s]
+  double time_step;  ///< [s]
   int num_steps;
-  int reference_steps;   ///< of explicit integration per step; 0: too slow to be run here
+  int reference_steps;  ///< of explicit integration per step; 0: too slow to be run here
 };
 
 ClothMesh mesh_of(const Workload& workload) {
@@ -69,8 +69,10 @@ class Run {
 
   Run(const Workload& workload, int iterations, bool has_links)
       : mesh_(mesh_of(workload)), time_step_(workload.time_step), world_({{0, -9.81, 0}, 0.1}) {
-    bridge::ClothSettings settings{.collision_margin = 0.01, .friction = 0.3,
-                                   .position_iterations = iterations, .time_step = time_step_};
+    bridge::ClothSettings settings{.collision_margin = 0.01,
+                                   .friction = 0.3,
+                                   .position_iterations = iterations,
+                                   .time_step = time_step_};
     if (has_links) settings.links.push_back({{}, kStiffness});
     body_ = &world_.add(bridge::make_cloth_body(world_.info(), mesh_, settings));
     if (workload.is_hung) return;
@@ -132,13 +134,14 @@ std::vector<Contender> contenders(const Workload& workload) {
     list.push_back(
         {"bullet_reordered", std::to_string(iterations), Run::links(workload, iterations, true)});
   }
-  for (const auto [rounds, iterations] : {std::pair{1, 1}, {1, 2}, {1, 3}, {2, 2}, {2, 3}, {2, 6}}) {
+  for (const auto [rounds, iterations] :
+       {std::pair{1, 1}, {1, 2}, {1, 3}, {2, 2}, {2, 3}, {2, 6}}) {
     const bridge::FastSettings settings{.effort = {rounds, iterations}};
     list.push_back({"weft", std::to_string(rounds) + "x" + std::to_string(iterations),
                     Run::fast(workload, settings)});
   }
-  list.push_back({"weft_euler", "2x3",
-                  Run::fast(workload, {.effort = {2, 3}, .is_second_order = false})});
+  list.push_back(
+      {"weft_euler", "2x3", Run::fast(workload, {.effort = {2, 3}, .is_second_order = false})});
   return list;
 }
 
@@ -181,7 +184,8 @@ void bench_fast(const Settings& settings) {
                                 {"hang_200", 200, 1, true, 1.0 / 60, 12, 0}};
   ResultFile file(
       "work and precision: processor time of one step of the world on one thread, and distance to "
-      "explicit integration of the same springs (1000 N/m) in small steps, RMS over nodes and steps",
+      "explicit integration of the same springs (1000 N/m) in small steps, RMS over nodes and "
+      "steps",
       {"workload", "solver", "settings", "median_ms", "ratio_to_bullet_10", "rms_error_m",
        "last_error_m", "max_stretch_percent", "mean_stretch_percent"});
   for (const Workload& workload : workloads) {

@@ -64,9 +64,7 @@ void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& place) 
 
 FastBody::FastBody(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
                    VectorX<double> masses, const FastSettings& settings)
-    : network_(fast::make_network(mesh, laws)),
-      masses_(std::move(masses)),
-      settings_(settings) {
+    : network_(fast::make_network(mesh, laws)), masses_(std::move(masses)), settings_(settings) {
   check(settings);
 }
 
@@ -116,7 +114,8 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
   // Those that are known again, and those that the solution keeps to anyway.
   const auto is_superfluous = [&](const RigidContact& found) {
     if (btDot(found.normal, body.m_nodes[found.node].m_x) >= found.offset) return true;
-    return std::any_of(contacts_.begin(), contacts_.begin() + static_cast<std::ptrdiff_t>(num_known),
+    return std::any_of(contacts_.begin(),
+                       contacts_.begin() + static_cast<std::ptrdiff_t>(num_known),
                        [&](const RigidContact& known) {
                          return known.node == found.node && known.object == found.object;
                        });

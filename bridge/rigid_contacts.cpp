@@ -40,10 +40,10 @@ std::optional<RigidContact> stop_on_the_way(const btCollisionObjectWrapper& obje
   // Bullet's default test of a ray with a convex shape passes through a box of 2 cm in one of six
   // cases that start within 6 cm of it; this one in none.
   hit.m_flags |= btTriangleRaycastCallback::kF_UseGjkConvexCastRaytest;
-  btCollisionWorld::rayTestSingle(
-      btTransform(btQuaternion::getIdentity(), from), btTransform(btQuaternion::getIdentity(), to),
-      const_cast<btCollisionObject*>(object.getCollisionObject()), object.getCollisionShape(),
-      object.getWorldTransform(), hit);
+  btCollisionWorld::rayTestSingle(btTransform(btQuaternion::getIdentity(), from),
+                                  btTransform(btQuaternion::getIdentity(), to),
+                                  const_cast<btCollisionObject*>(object.getCollisionObject()),
+                                  object.getCollisionShape(), object.getWorldTransform(), hit);
   if (!hit.hasHit() || !(hit.m_hitNormalWorld.length2() > 0)) return std::nullopt;
   RigidContact contact;
   contact.normal = hit.m_hitNormalWorld.normalized();
@@ -80,7 +80,8 @@ void add_rigid_contacts(const btSoftBody& body, const btCollisionObjectWrapper& 
     if (node.m_im <= 0 || node.m_battach != 0) continue;
     btVector3 motion(0, 0, 0);
     if (rigid != nullptr) {
-      motion = time_step * rigid->getVelocityInLocalPoint(node.m_x - rigid->getCenterOfMassPosition());
+      motion =
+          time_step * rigid->getVelocityInLocalPoint(node.m_x - rigid->getCenterOfMassPosition());
     }
     const btVector3 from = is_still_to_move ? node.m_q : node.m_q + motion;
     const btVector3 to = is_still_to_move ? node.m_x - motion : node.m_x;

@@ -11,7 +11,8 @@ class AlignedFloats {
  public:
   AlignedFloats() = default;
   explicit AlignedFloats(std::size_t size)
-      : values_(size == 0 ? nullptr : new (std::align_val_t{kAlignment}) float[size]()), size_(size) {}
+      : values_(size == 0 ? nullptr : new (std::align_val_t{kAlignment}) float[size]()),
+        size_(size) {}
 
   [[nodiscard]] float* data() { return values_.get(); }
   [[nodiscard]] const float* data() const { return values_.get(); }
@@ -20,7 +21,9 @@ class AlignedFloats {
  private:
   static constexpr std::size_t kAlignment = 64;
   struct Delete {
-    void operator()(float* values) const { ::operator delete[](values, std::align_val_t{kAlignment}); }
+    void operator()(float* values) const {
+      ::operator delete[](values, std::align_val_t{kAlignment});
+    }
   };
   std::unique_ptr<float[], Delete> values_;
   std::size_t size_ = 0;

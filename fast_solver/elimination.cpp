@@ -69,7 +69,10 @@ std::vector<int> postorder(const std::vector<int>& parent) {
 class FundamentalSupernodes {
  public:
   FundamentalSupernodes(const SymmetricMatrix& matrix, const std::vector<int>& order)
-      : matrix_(matrix), order_(order), place_(inverse_of(order)), mark_(order.size(), -1),
+      : matrix_(matrix),
+        order_(order),
+        place_(inverse_of(order)),
+        mark_(order.size(), -1),
         num_children_(order.size(), 0) {}
 
   std::vector<Supernode> run() {

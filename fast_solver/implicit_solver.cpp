@@ -65,8 +65,8 @@ SparseCholesky factor_of(const SpringNetwork& network, const VectorX<double>& ma
     unknown_of[i] = static_cast<int>(names.size());
     names.push_back(static_cast<int>(i));
   }
-  const SymmetricMatrix matrix = isotropic_matrix(network, masses, unknown_of,
-                                                  static_cast<int>(names.size()), inertia_step);
+  const SymmetricMatrix matrix =
+      isotropic_matrix(network, masses, unknown_of, static_cast<int>(names.size()), inertia_step);
   return {matrix, minimum_degree_order(matrix), names};
 }
 
@@ -106,8 +106,7 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::evaluate(const StepProblem<Scalar>& problem,
                                       ConstMatrix3XRef<Scalar> places) {
   for (Eigen::Index i = 0; i < places.cols(); ++i) {
-    unbalanced_.col(i) =
-        Scalar(inertia_[i]) * (problem.targets.col(i) - places.col(i));
+    unbalanced_.col(i) = Scalar(inertia_[i]) * (problem.targets.col(i) - places.col(i));
   }
   forces_.add_forces(places, problem.starts, unbalanced_);
   for (const int node : pinned_) unbalanced_.col(node).setZero();
@@ -148,14 +147,13 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
     const Scalar tie = candidate.mass / (problem.inertia_step * problem.inertia_step);
     Scalar pressure = -normal.dot(unbalanced_.col(i)) + inertia * std::max(Scalar(0), -gap);
     if (candidate.mass > 0 && was_held) pressure = -tie * gap;
-    const bool is_near = is_first ? std::min(gap, gap_at(candidate, problem.targets.col(i))) < 0
-                                  : gap < 0;
+    const bool is_near =
+        is_first ? std::min(gap, gap_at(candidate, problem.targets.col(i))) < 0 : gap < 0;
     if (!(was_held ? pressure > 0 : is_near)) {
       contact_of_[at(i)] = -1;
       continue;
     }
-    const Vector3<Scalar> slip =
-        places.col(i) - problem.starts.col(i) - candidate.motion;
+    const Vector3<Scalar> slip = places.col(i) - problem.starts.col(i) - candidate.motion;
     Vector3<Scalar> tendency = unbalanced_.col(i) + inertia * slip;
     tendency -= normal.dot(tendency) * normal;
     const Scalar most = candidate.friction * std::max(Scalar(0), pressure);
@@ -354,8 +352,7 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem,
 
 // Planes that no round has met, and those of a node on several. True if anything had to move.
 template <class Scalar>
-bool ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem,
-                                   Matrix3XRef<Scalar> places) {
+bool ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem, Matrix3XRef<Scalar> places) {
   bool any = false;
   for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
     const PlaneContact<Scalar>& contact = problem.contacts[c];
@@ -391,8 +388,8 @@ void ImplicitSolver<Scalar>::find_holding_forces(ConstMatrix3XRef<Scalar> places
       holding_forces_.col(i) = -unbalanced_.col(i);
     } else if (holds_[at(i)] == Hold::kOnPlane) {
       const Vector3<Scalar> normal = normals_.col(i).template cast<Scalar>();
-      holding_forces_.col(i) = -normal.dot(unbalanced_.col(i)) * normal +
-                               friction_.col(i).template cast<Scalar>();
+      holding_forces_.col(i) =
+          -normal.dot(unbalanced_.col(i)) * normal + friction_.col(i).template cast<Scalar>();
     }
   }
   for (const Tie& tie : ties_) {
@@ -531,7 +528,8 @@ void ImplicitSolver<Scalar>::balance(Matrix3XRef<Scalar> places) {
   for (const int i : held_) {
     if (holds_[at(i)] != Hold::kTied) return;
   }
-  const Vector3<double> left = (unbalanced_ + holding_forces_).template cast<double>().rowwise().sum();
+  const Vector3<double> left =
+      (unbalanced_ + holding_forces_).template cast<double>().rowwise().sum();
   for (const Tie& tie : ties_) {
     const Vector3<double> normal = tie.normal.template cast<double>();
     Matrix3<double> directions = Matrix3<double>::Identity();

@@ -74,7 +74,6 @@ class ImplicitSolver {
     Vector3<Scalar> place;   ///< [m]
   };
 
-
   void evaluate(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places);
   void decide_holds(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places,
                     bool is_first);
@@ -107,17 +106,17 @@ class ImplicitSolver {
   VectorX<Scalar> masses_;
   std::vector<bool> is_free_;
   std::vector<int> pinned_;
-  std::vector<int> held_;             ///< nodes with a hold
-  std::vector<Tie> ties_;             ///< of each tied node
-  VectorX<float> inertia_;            ///< m / h'^2 [N/m]; 0 for pinned nodes
-  Matrix3X<Scalar> unbalanced_;       ///< forces that are left [N]
+  std::vector<int> held_;        ///< nodes with a hold
+  std::vector<Tie> ties_;        ///< of each tied node
+  VectorX<float> inertia_;       ///< m / h'^2 [N/m]; 0 for pinned nodes
+  Matrix3X<Scalar> unbalanced_;  ///< forces that are left [N]
   Matrix3X<Scalar> holding_forces_;
   Matrix3X<Scalar> unmoved_;
-  std::vector<Hold> holds_;           ///< of each node
-  std::vector<Hold> held_before_;     ///< the same in the round before
-  std::vector<int> contact_of_;       ///< of each node: the contact that holds it, or -1
-  Matrix3X<float> normals_;           ///< of each node on a plane
-  Matrix3X<float> friction_;          ///< of each sliding node [N]
+  std::vector<Hold> holds_;        ///< of each node
+  std::vector<Hold> held_before_;  ///< the same in the round before
+  std::vector<int> contact_of_;    ///< of each node: the contact that holds it, or -1
+  Matrix3X<float> normals_;        ///< of each node on a plane
+  Matrix3X<float> friction_;       ///< of each sliding node [N]
   Eigen::Matrix<float, 6, Eigen::Dynamic> blocks_;  ///< inverse of the diagonal's
   Floats step_, residual_vector_, direction_, direction_product_;
   Floats correction_, correction_product_, work_, coarse_, product_;

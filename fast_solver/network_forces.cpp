@@ -94,13 +94,15 @@ void NetworkForces<Scalar>::add_forces(ConstMatrix3XRef<Scalar> places,
     const Scalar c = damping[place] * inverse_time_step;
     const Scalar force = k * extension + c * (length - start_lengths[place]);
     const Scalar tension = force * inverse;
-    const Scalar across = Scalar(0.5) * (tension + std::abs(tension));  // max(0, tension) without a branch
+    const Scalar across =
+        Scalar(0.5) * (tension + std::abs(tension));  // max(0, tension) without a branch
     const Scalar difference = k + c - across;
     const Scalar root = std::sqrt(std::abs(difference)) * inverse;  // >= 0 but for rounding
     linear[place] = std::bit_cast<std::int32_t>(static_cast<float>(root * d.x));
     linear[m + place] = std::bit_cast<std::int32_t>(static_cast<float>(root * d.y));
     linear[2 * m + place] = std::bit_cast<std::int32_t>(static_cast<float>(root * d.z));
-    linear[3 * m + place] = std::bit_cast<std::int32_t>(static_cast<float>(across + stabiliser[place]));
+    linear[3 * m + place] =
+        std::bit_cast<std::int32_t>(static_cast<float>(across + stabiliser[place]));
     forces::PlainVector<Scalar> f = tension * d;
     ((f = f + stabiliser[place] * (d - changes)), ...);
     return f;
@@ -123,8 +125,8 @@ double NetworkForces<Scalar>::potential(ConstMatrix3XRef<Scalar> places,
     const Scalar extension = length - rest_lengths_[p];
     const Scalar k = stiffness_[p] + (extension < Scalar(0) ? relief_[p] : Scalar(0));
     const Scalar stretched = length - start_lengths_[p];
-    Scalar twice = k * extension * extension +
-                   damping_[p] * inverse_time_step_ * stretched * stretched;
+    Scalar twice =
+        k * extension * extension + damping_[p] * inverse_time_step_ * stretched * stretched;
     if (has_stabiliser_) {
       const Vector3<Scalar> start = starts.col(edge[1]) - starts.col(edge[0]);
       twice += stabiliser_[p] * (d - start).squaredNorm();
@@ -139,8 +141,8 @@ void NetworkForces<Scalar>::add_product(ConstMatrix3XRef<float> displacements,
                                         Matrix3XRef<float> product) {
   const Eigen::Index m = rest_lengths_.size();
   const std::int32_t* const linear = linear_.data();
-  const auto along_edge = [=](Eigen::Index place, const forces::PlainVector<float>& d)
-      -> forces::PlainVector<float> {
+  const auto along_edge = [=](Eigen::Index place,
+                              const forces::PlainVector<float>& d) -> forces::PlainVector<float> {
     const auto ux = std::bit_cast<float>(linear[place]);
     const auto uy = std::bit_cast<float>(linear[m + place]);
     const auto uz = std::bit_cast<float>(linear[2 * m + place]);

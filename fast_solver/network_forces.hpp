@@ -44,10 +44,10 @@ class NetworkForces {
   // Of each place in the order of the assembly:
   Values rest_lengths_;
   Values stiffness_;
-  Values relief_;                 ///< compressed stiffness less stiffness
+  Values relief_;  ///< compressed stiffness less stiffness
   Values damping_;
   Values stabiliser_;
-  Values start_lengths_;          ///< [m], of edges with damping
+  Values start_lengths_;  ///< [m], of edges with damping
   /// sqrt(s - t) u and t, the bits of single-precision numbers. As another type than all that is read
   /// beside them, so that the compiler knows that the two do not overlap, and uses vectors.
   Eigen::Matrix<std::int32_t, Eigen::Dynamic, 4> linear_;

@@ -11,9 +11,9 @@ template <class Scalar>
 struct PlaneContact {
   int node = 0;
   Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< unit vector out of the obstacle
-  Scalar offset = 0;    ///< [m] normal . x >= offset at the end of the step
+  Scalar offset = 0;  ///< [m] normal . x >= offset at the end of the step
   Vector3<Scalar> motion = Vector3<Scalar>::Zero();  ///< of the surface there during the step [m]
-  Scalar friction = 0;  ///< Coulomb coefficient [-], >= 0
+  Scalar friction = 0;                               ///< Coulomb coefficient [-], >= 0
   /// Of the obstacle, as much as this contact has to move [kg]; 0: nothing moves it. Offset and motion
   /// are then those of the obstacle left alone. It gives way by force h^2 / mass, as Newton says.
   Scalar mass = 0;

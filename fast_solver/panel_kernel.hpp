@@ -9,7 +9,7 @@ inline constexpr int kPanelBlock = 16;
 /// A dense matrix of the factor, column by column.
 struct Panel {
   const float* entries;
-  int num_rows;           ///< multiple of kPanelBlock, distance between columns; filled up with zeros
+  int num_rows;  ///< multiple of kPanelBlock, distance between columns; filled up with zeros
   int num_columns;
 };
 

@@ -77,8 +77,8 @@ std::vector<std::vector<int>> groups_of(const Neighbours& neighbours) {
       exclude(other);
       for (const int far : neighbours[at(other)]) exclude(far);
     }
-    const auto found = std::find_if(last_user.begin(), last_user.end(),
-                                    [&](int user) { return user != node; });
+    const auto found =
+        std::find_if(last_user.begin(), last_user.end(), [&](int user) { return user != node; });
     const auto group = found - last_user.begin();
     if (found == last_user.end()) {
       last_user.push_back(-1);

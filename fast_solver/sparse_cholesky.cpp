@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include <Eigen/Cholesky>
 #include <tbb/parallel_for.h>
+#include <Eigen/Cholesky>
 
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/fast_solver/panel_kernel.hpp>
@@ -60,18 +60,20 @@ void SparseCholesky::lay_out() {
     num_panel += at(front.num_rows) * at(nodes[s].width);
     num_vector += 3 * at(front.num_rows);
     longest = std::max(longest, front.num_rows);
-    num_entries_ += at(nodes[s].width) * at(nodes[s].width + 1) / 2 + at(nodes[s].width) * at(num_rows);
+    num_entries_ +=
+        at(nodes[s].width) * at(nodes[s].width + 1) / 2 + at(nodes[s].width) * at(num_rows);
     if (nodes[s].parent >= 0) ++fronts_[at(nodes[s].parent)].num_children;
     front.into_parent = into_parent_.size();
     if (nodes[s].parent < 0) continue;
     const Supernode& parent = nodes[at(nodes[s].parent)];
     for (const int row : nodes[s].rows) {
       const int column = row - parent.first;
-      into_parent_.push_back(column < parent.width
-                                 ? column
-                                 : parent.width + static_cast<int>(std::lower_bound(parent.rows.begin(),
-                                                                                    parent.rows.end(), row) -
-                                                                   parent.rows.begin()));
+      into_parent_.push_back(
+          column < parent.width
+              ? column
+              : parent.width +
+                    static_cast<int>(std::lower_bound(parent.rows.begin(), parent.rows.end(), row) -
+                                     parent.rows.begin()));
     }
   }
   int first = 0;
@@ -120,7 +122,8 @@ void SparseCholesky::divide_work() {
 void SparseCholesky::factorize(const SymmetricMatrix& matrix) {
   const auto& nodes = elimination_.supernodes;
   std::vector<int> place(elimination_.order.size());
-  for (std::size_t k = 0; k < place.size(); ++k) place[at(elimination_.order[k])] = static_cast<int>(k);
+  for (std::size_t k = 0; k < place.size(); ++k)
+    place[at(elimination_.order[k])] = static_cast<int>(k);
   std::vector<Dense> updates(nodes.size());  // what a supernode takes from its parent's front
   const auto eliminate_one = [&](int s) {
     const Supernode& node = nodes[at(s)];
@@ -134,10 +137,10 @@ void SparseCholesky::factorize(const SymmetricMatrix& matrix) {
       for (int e = matrix.starts[at(unknown)]; e < matrix.starts[at(unknown) + 1]; ++e) {
         const int k = place[at(matrix.columns[at(e)])];
         if (k < node.first + c) continue;
-        const auto row = k < node.first + node.width
-                             ? k - node.first
-                             : w + (std::lower_bound(node.rows.begin(), node.rows.end(), k) -
-                                    node.rows.begin());
+        const auto row =
+            k < node.first + node.width
+                ? k - node.first
+                : w + (std::lower_bound(node.rows.begin(), node.rows.end(), k) - node.rows.begin());
         f(row, c) += static_cast<float>(matrix.values[at(e)]);
       }
     }
@@ -162,7 +165,8 @@ void SparseCholesky::factorize(const SymmetricMatrix& matrix) {
     if (front.num_below == 0) return;
     const Eigen::Index m = front.num_below;
     // L21 = F21 L11^-T
-    const Dense below = f.bottomLeftCorner(m, w) * inverse.transpose().triangularView<Eigen::Upper>();
+    const Dense below =
+        f.bottomLeftCorner(m, w) * inverse.transpose().triangularView<Eigen::Upper>();
     panel.middleRows(w, m).noalias() = below * inverse.triangularView<Eigen::Lower>();
     updates[at(s)] = f.bottomRightCorner(m, m);
     updates[at(s)].selfadjointView<Eigen::Lower>().rankUpdate(below, -1.0F);
@@ -179,7 +183,8 @@ void SparseCholesky::go_up(int s, ConstMatrix3XRef<float> right, float* scratch)
   const int n = front.num_rows;
   float* const v = vectors_.data() + front.vector;
   for (int c = 0; c < node.width; ++c) {
-    const float* const b = right.data() + 3 * static_cast<std::ptrdiff_t>(names_[at(node.first + c)]);
+    const float* const b =
+        right.data() + 3 * static_cast<std::ptrdiff_t>(names_[at(node.first + c)]);
     v[c] = b[0];
     v[n + c] = b[1];
     v[2 * n + c] = b[2];

@@ -38,12 +38,13 @@ class SparseCholesky {
  private:
   /// Places of a supernode's parts in the arrays.
   struct Front {
-    std::size_t panel = 0;        ///< first entry in panels_
-    std::size_t vector = 0;       ///< first entry in vectors_; three arrays of num_rows
-    std::size_t into_parent = 0;  ///< first of into_parent_: where the parent keeps each of its rows
-    int num_rows = 0;             ///< columns and rows below, filled up to blocks
+    std::size_t panel = 0;   ///< first entry in panels_
+    std::size_t vector = 0;  ///< first entry in vectors_; three arrays of num_rows
+    std::size_t into_parent =
+        0;             ///< first of into_parent_: where the parent keeps each of its rows
+    int num_rows = 0;  ///< columns and rows below, filled up to blocks
     int num_below = 0;
-    int first_child = 0;          ///< of children_
+    int first_child = 0;  ///< of children_
     int num_children = 0;
   };
   struct Range {
@@ -58,15 +59,15 @@ class SparseCholesky {
   void go_down(int s, Matrix3XRef<float> result, float* scratch);
 
   Elimination elimination_;
-  std::vector<int> names_;        ///< column of the k-th unknown in solve()
+  std::vector<int> names_;  ///< column of the k-th unknown in solve()
   std::vector<Front> fronts_;
   std::vector<int> children_;
   std::vector<int> into_parent_;
-  std::vector<Range> subtrees_;   ///< supernodes that depend on nothing outside, one task each
-  std::vector<int> top_;          ///< the others
+  std::vector<Range> subtrees_;  ///< supernodes that depend on nothing outside, one task each
+  std::vector<int> top_;         ///< the others
   AlignedFloats panels_;
   AlignedFloats vectors_;
-  AlignedFloats scratch_;         ///< one vector per subtree and one for the top
+  AlignedFloats scratch_;  ///< one vector per subtree and one for the top
   std::size_t scratch_stride_ = 0;
   std::size_t num_entries_ = 0;
 };

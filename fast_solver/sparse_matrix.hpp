@@ -7,10 +7,10 @@ namespace weft::fast {
 
 /// A sparse symmetric matrix, compressed by rows: both (i, j) and (j, i) are stored, the diagonal apart.
 struct SymmetricMatrix {
-  std::vector<int> starts;        ///< row i has entries starts[i] ... starts[i + 1] - 1
-  std::vector<int> columns;       ///< of each entry, ascending within a row, never the row itself
-  std::vector<double> values;     ///< of each entry
-  std::vector<double> diagonal;   ///< of each row
+  std::vector<int> starts;       ///< row i has entries starts[i] ... starts[i + 1] - 1
+  std::vector<int> columns;      ///< of each entry, ascending within a row, never the row itself
+  std::vector<double> values;    ///< of each entry
+  std::vector<double> diagonal;  ///< of each row
 
   [[nodiscard]] int size() const { return static_cast<int>(diagonal.size()); }
 };

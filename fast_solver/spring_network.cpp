@@ -60,7 +60,8 @@ SpringNetwork make_network(const ClothMesh& mesh,
     if (entry.rest_length > 0) continue;
     const double distance =
         (mesh.rest_positions.col(part.row) - mesh.rest_positions.col(part.column)).norm();
-    entry.rest_length = distance > 0 ? distance : 1.0;  // of no spring, but a length to compare with
+    entry.rest_length =
+        distance > 0 ? distance : 1.0;  // of no spring, but a length to compare with
   }
   SpringNetwork network;
   const auto m = static_cast<Eigen::Index>(entries.size());

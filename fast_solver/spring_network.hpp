@@ -18,12 +18,12 @@ namespace weft::fast {
 /// where nothing moves, so that it changes no equilibrium. Single w may be negative; the sum over all
 /// edges is a positive semidefinite matrix.
 struct SpringNetwork {
-  Edges edges = Edges(2, 0);              ///< 2 x m, first index < second index, each pair once
-  VectorX<double> rest_lengths;           ///< l0, m [m], > 0
-  VectorX<double> stiffness;              ///< m [N/m], >= 0
-  VectorX<double> compressed_stiffness;   ///< m [N/m], 0 to stiffness
-  VectorX<double> damping;                ///< c, m [N s/m], >= 0
-  VectorX<double> stabiliser;             ///< w, m [N/m]
+  Edges edges = Edges(2, 0);             ///< 2 x m, first index < second index, each pair once
+  VectorX<double> rest_lengths;          ///< l0, m [m], > 0
+  VectorX<double> stiffness;             ///< m [N/m], >= 0
+  VectorX<double> compressed_stiffness;  ///< m [N/m], 0 to stiffness
+  VectorX<double> damping;               ///< c, m [N s/m], >= 0
+  VectorX<double> stabiliser;            ///< w, m [N/m]
 };
 
 /// Laws of which a network is made; all others are left to be computed at the start of the step.

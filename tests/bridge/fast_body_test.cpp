@@ -41,8 +41,8 @@ class Scene {
                  double friction = 0.5, const FastSettings& fast = {})
       : world_(SoftWorldSettings{}),
         masses_(mesh.masses),
-        body_(&world_.add(make_cloth_body(
-            world_.info(), mesh, {.collision_margin = kMargin, .friction = friction}))) {
+        body_(&world_.add(make_cloth_body(world_.info(), mesh,
+                                          {.collision_margin = kMargin, .friction = friction}))) {
     EXPECT_FALSE(world_.solver().attach_fast(*body_, mesh, laws, fast));
   }
 
@@ -119,8 +119,8 @@ TEST(FastBody, HangsWithTheStretchOfItsSpringsAtAnyStep) {
   mesh.masses = VectorX<double>::Ones(2);
   mesh.pinned = {0};
   for (const double h : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
-    Scene scene(mesh, {kGravity, law("tension", "stiffness", 1000),
-                       law("spring_damping", "damping", 30)});
+    Scene scene(
+        mesh, {kGravity, law("tension", "stiffness", 1000), law("spring_damping", "damping", 30)});
     scene.step(static_cast<int>(3 / h), h);
     // Single precision: the place 1 m is known to 1.2e-7 m, and m / h^2 = 57600 N/m make 7 mN of it.
     EXPECT_NEAR(scene.positions()(1, 1), -1.00981, 1e-5) << h;
@@ -194,7 +194,8 @@ INSTANTIATE_TEST_SUITE_P(Grid, FastBodySlope,
 
 TEST(FastBody, GivesADynamicBodyTheMomentumThatItLoses) {
   Scene scene(cloth(12, 0.6, 0.0), {law("tension", "stiffness", 200)});
-  btRigidBody& ball = scene.add(std::make_shared<btSphereShape>(btScalar(0.1)), 0.5, at(0, -0.15, 0));
+  btRigidBody& ball =
+      scene.add(std::make_shared<btSphereShape>(btScalar(0.1)), 0.5, at(0, -0.15, 0));
   ball.setGravity(btVector3(0, 0, 0));
   ball.setLinearVelocity(btVector3(btScalar(0.2), 3, 0));
   const auto momentum_of_ball = [&] {
@@ -212,7 +213,8 @@ TEST(FastBody, GivesADynamicBodyTheMomentumThatItLoses) {
 TEST(FastBody, HoldsABoxOnAnchors) {
   ClothMesh mesh = cloth(9, 1, 2);
   mesh.pinned = {0, 8};
-  Scene scene(mesh, {kGravity, law("tension", "stiffness", 2000), law("velocity_damping", "rate", 2)});
+  Scene scene(mesh,
+              {kGravity, law("tension", "stiffness", 2000), law("velocity_damping", "rate", 2)});
   btRigidBody& load = scene.add(box(0.5, 0.1, 0.1), 2.0, at(0, 2, -0.5));
   scene.body().appendAnchor(72, &load, false, 1);
   scene.body().appendAnchor(80, &load, false, 1);
@@ -254,7 +256,8 @@ TEST(FastBody, DoesNotExplodeWithRandomMaterials) {
     EXPECT_FALSE(scene.solver().blow_up(scene.body())) << run;
     const double speed = scene.velocities().colwise().norm().maxCoeff();
     // No node may be faster than start, fall and whip: four times what energy gives the whole cloth.
-    EXPECT_LT(speed, 4 * std::sqrt(400 + 2 * 9.81 * 4 + 9.81 * 9.81 * 2)) << run << ": k " << stiffness << " N/m, " << mass << " kg, h " << h;
+    EXPECT_LT(speed, 4 * std::sqrt(400 + 2 * 9.81 * 4 + 9.81 * 9.81 * 2))
+        << run << ": k " << stiffness << " N/m, " << mass << " kg, h " << h;
   }
 }
 
@@ -274,7 +277,8 @@ TEST(FastBody, RefusesAnEffortOfNothing) {
   SoftWorld world(SoftWorldSettings{});
   const ClothMesh mesh = cloth(4, 1, 0);
   btSoftBody& body = world.add(make_cloth_body(world.info(), mesh, {}));
-  EXPECT_THROW((void)world.solver().attach_fast(body, mesh, {}, {.effort = {0, 1}}), InvalidArgument);
+  EXPECT_THROW((void)world.solver().attach_fast(body, mesh, {}, {.effort = {0, 1}}),
+               InvalidArgument);
   EXPECT_FALSE(world.solver().has_laws(body));
 }
 

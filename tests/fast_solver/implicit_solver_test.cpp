@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <Eigen/LU>
 #include <tbb/global_control.h>
+#include <Eigen/LU>
 
 #include <weft/custom_forces/core/cloth_grid.hpp>
 #include <weft/fast_solver/implicit_solver.hpp>
@@ -134,7 +134,8 @@ TEST(ImplicitSolver, ThreadsChangeNoBit) {
   const auto is_free = all_free_but(mesh, {0, 59});
   const Matrix3X<float> q = mesh.rest_positions.cast<float>();
   const Matrix3X<float> y =
-      fallen(mesh.rest_positions, Matrix3X<double>::Zero(3, mesh.num_nodes()), is_free).cast<float>();
+      fallen(mesh.rest_positions, Matrix3X<double>::Zero(3, mesh.num_nodes()), is_free)
+          .cast<float>();
   const auto solve = [&](int num_threads) {
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(num_threads));

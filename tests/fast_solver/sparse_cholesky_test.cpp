@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <Eigen/Cholesky>
 #include <tbb/global_control.h>
+#include <Eigen/Cholesky>
 
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/fast_solver/minimum_degree.hpp>
@@ -67,8 +67,8 @@ TEST(SparseCholesky, SolvesWhatADenseFactorisationSolves) {
 
 TEST(SparseCholesky, SolvesParts) {
   // Two pieces without a connection, and an unknown of its own: a forest, not a tree.
-  const SymmetricMatrix matrix =
-      sum_of_parts(5, {{0, 0, 2}, {1, 1, 2}, {0, 1, -1}, {2, 2, 4}, {3, 3, 3}, {4, 4, 3}, {3, 4, 1}});
+  const SymmetricMatrix matrix = sum_of_parts(
+      5, {{0, 0, 2}, {1, 1, 2}, {0, 1, -1}, {2, 2, 4}, {3, 3, 3}, {4, 4, 3}, {3, 4, 1}});
   SparseCholesky cholesky(matrix, natural_order(5));
   Matrix3X<float> right = Matrix3X<float>::Zero(3, 5);
   right.row(1) << 3, 0, 8, 8, 0;

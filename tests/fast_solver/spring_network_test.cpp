@@ -27,7 +27,8 @@ Matrix3X<double> places(const ClothMesh& mesh, double by) {
   return mesh.rest_positions + by * Matrix3X<double>::Random(3, mesh.num_nodes());
 }
 
-const LawSpecification kTension{"tension", {}, {{"stiffness", {50.0}}, {"compression_ratio", {0.3}}}};
+const LawSpecification kTension{
+    "tension", {}, {{"stiffness", {50.0}}, {"compression_ratio", {0.3}}}};
 const LawSpecification kStretch{"tension", {"stretch"}, {{"stiffness", {20.0}}}};
 const LawSpecification kDamping{"spring_damping", {"shear"}, {{"damping", {0.7}}}};
 const LawSpecification kBending{"hinge_torsion", {}, {{"rigidity", {0.01}}}};
