@@ -126,6 +126,16 @@ std::string scene_page(const std::vector<Exhibit>& exhibits, const std::string& 
   return page;
 }
 
+/// What makes the same page again.
+std::string command_text(const SheetOptions& options) {
+  const SheetOptions usual;
+  std::string text =
+      fmt::format("weft contact-sheet -o {} --page {}", options.output, options.page);
+  if (options.width != usual.width) text += fmt::format(" --width {}", options.width);
+  if (options.columns != usual.columns) text += fmt::format(" --columns {}", options.columns);
+  return text;
+}
+
 void write_page(const std::filesystem::path& path, const std::vector<Exhibit>& exhibits,
                 const std::string& command) {
   const std::filesystem::path pictures = path.parent_path() / "img" / "scenes";
@@ -153,8 +163,7 @@ int make_sheet(SheetOptions options) {
   }
   scenes::write_png(options.output, scenes::contact_sheet(entries, options.columns));
   if (!options.page.empty()) {
-    write_page(options.page, exhibits,
-               fmt::format("weft contact-sheet -o {} --page {}", options.output, options.page));
+    write_page(options.page, exhibits, command_text(options));
   }
   fmt::print("{}: {} scenes\n", options.output, exhibits.size());
   return kOk;

@@ -1,7 +1,9 @@
 #include <weft/bridge/face_grid.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -61,15 +63,31 @@ void FaceGrid::build(const btSoftBody& body, btScalar reach) {
       }
     }
   }
-  std::sort(entries_.begin(), entries_.end());
+  sort_into_lists();
+}
+
+// By counting: entries were made in the order of faces and stay so within a list.
+void FaceGrid::sort_into_lists() {
+  const std::size_t num_lists = std::bit_ceil(std::max<std::size_t>(entries_.size(), 1));
+  shift_ = 64 - std::countr_zero(num_lists);
+  starts_.assign(num_lists + 1, 0);
+  for (const Entry& entry : entries_) ++starts_[list_of(entry.first) + 1];
+  std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+  sorted_.resize(entries_.size());
+  next_.assign(starts_.begin(), starts_.end());
+  for (const Entry& entry : entries_) sorted_[next_[list_of(entry.first)]++] = entry;
+}
+
+// Multiplicative hashing: the upper bits of key times 2^64 / golden ratio.
+std::size_t FaceGrid::list_of(Key key) const {
+  return shift_ == 64 ? 0 : static_cast<std::size_t>((key * 0x9E3779B97F4A7C15U) >> shift_);
 }
 
 void FaceGrid::collect(const btVector3& point, std::vector<int>& faces) const {
   const Key key = key_of(cell_of(point.x()), cell_of(point.y()), cell_of(point.z()));
-  const std::pair<Key, int> first{key, 0};
-  for (auto entry = std::lower_bound(entries_.begin(), entries_.end(), first);
-       entry != entries_.end() && entry->first == key; ++entry) {
-    faces.push_back(entry->second);
+  const std::size_t list = list_of(key);
+  for (std::size_t i = starts_[list]; i < starts_[list + 1]; ++i) {
+    if (sorted_[i].first == key) faces.push_back(sorted_[i].second);
   }
 }
 

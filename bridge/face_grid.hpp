@@ -25,8 +25,16 @@ class FaceGrid {
   [[nodiscard]] Key key_of(int x, int y, int z) const;
   [[nodiscard]] int cell_of(btScalar coordinate) const;
 
+  void sort_into_lists();
+  [[nodiscard]] std::size_t list_of(Key key) const;
+
+  using Entry = std::pair<Key, int>;  // cell and face
   btScalar cell_size_ = 1;
-  std::vector<std::pair<Key, int>> entries_;  ///< cell and face, sorted
+  int shift_ = 64;                   ///< of a key's hash, to the number of its list
+  std::vector<Entry> entries_;       ///< in the order of faces
+  std::vector<Entry> sorted_;        ///< by list, then by face
+  std::vector<std::size_t> starts_;  ///< of each list in sorted_, and the end of the last one
+  std::vector<std::size_t> next_;    ///< place for the next entry of each list
 };
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -1,5 +1,10 @@
 #include <weft/bridge/node_state.hpp>
 
+#include <string>
+#include <utility>
+
+#include <weft/custom_forces/core/error.hpp>
+
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
@@ -25,6 +30,26 @@ void write_node_velocities(const Matrix3X<btScalar>& velocities, btSoftBody& bod
   for (int i = 0; i < body.m_nodes.size(); ++i) {
     btSoftBody::Node& node = body.m_nodes[i];
     if (node.m_im > 0) node.m_v.setValue(velocities(0, i), velocities(1, i), velocities(2, i));
+  }
+}
+
+void place_body(ConstMatrix3XRef<double> positions, ConstMatrix3XRef<double> velocities,
+                btSoftBody& body) {
+  for (const auto& [what, given] :
+       {std::pair("positions", positions.cols()), std::pair("velocities", velocities.cols())}) {
+    if (given == body.m_nodes.size()) continue;
+    throw InvalidArgument("place body: " + std::to_string(given) + " " + what + ", expected " +
+                          std::to_string(body.m_nodes.size()));
+  }
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    btSoftBody::Node& node = body.m_nodes[i];
+    const Vector3<btScalar> place = positions.col(i).cast<btScalar>();
+    const Vector3<btScalar> velocity = velocities.col(i).cast<btScalar>();
+    node.m_x.setValue(place[0], place[1], place[2]);
+    node.m_q = node.m_x;
+    node.m_v.setValue(velocity[0], velocity[1], velocity[2]);
+    node.m_vn = node.m_v;
+    node.m_f.setZero();
   }
 }
 

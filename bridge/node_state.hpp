@@ -19,5 +19,10 @@ void add_node_forces(const Matrix3X<btScalar>& forces, btSoftBody& body);
 /// Node velocities m_v = velocities, 3 x n [m/s]; pinned nodes (m_im = 0) keep theirs.
 void write_node_velocities(const Matrix3X<btScalar>& velocities, btSoftBody& body);
 
+/// Puts all nodes of a body that is not stepped to positions, 3 x n [m], with velocities, 3 x n
+/// [m/s]; pinned nodes too. Nothing of what they did before is left.
+void place_body(ConstMatrix3XRef<double> positions, ConstMatrix3XRef<double> velocities,
+                btSoftBody& body);
+
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

@@ -8,6 +8,18 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
+namespace {
+
+// Bullet's distance field is a hash table of cells with 2383 lists by default; a scene with a dozen
+// colliders and fine voxels has 100,000 cells, and each node would walk through half a list.
+constexpr int kNumCellLists = 131071;
+// Bullet forgets no cell by itself. A cell that nobody has asked for in so many steps is computed
+// anew when it is needed: the same numbers, so that no bit depends on it.
+constexpr int kStepsPerCollection = 1000;
+constexpr int kCollectionsPerLife = 10;
+
+}  // namespace
+
 struct SoftWorld::Parts {
   btSoftBodyRigidBodyCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
@@ -32,7 +44,7 @@ SoftWorld::SoftWorld(const SoftWorldSettings& settings)
   info.water_offset = 0;
   info.water_normal.setZero();
   info.m_maxDisplacement = 1000;
-  info.m_sparsesdf.Initialize();
+  info.m_sparsesdf.Initialize(kNumCellLists);
   info.m_sparsesdf.setDefaultVoxelsz(static_cast<btScalar>(settings.distance_field_voxel));
   info.m_sparsesdf.Reset();
 }
@@ -58,6 +70,8 @@ btRigidBody& SoftWorld::add(std::unique_ptr<btRigidBody> body,
 
 void SoftWorld::step(double time_step) {
   world_->stepSimulation(static_cast<btScalar>(time_step), 0);
+  if (++num_steps_ % kStepsPerCollection != 0) return;
+  world_->getWorldInfo().m_sparsesdf.GarbageCollect(kCollectionsPerLife);
 }
 
 }  // namespace WEFT_BULLET_PRECISION

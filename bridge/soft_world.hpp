@@ -45,6 +45,7 @@ class SoftWorld {
   std::unique_ptr<Parts> parts_;
   std::unique_ptr<SoftBodySolver> solver_;
   std::unique_ptr<btSoftRigidDynamicsWorld> world_;
+  long num_steps_ = 0;
 };
 
 }  // namespace WEFT_BULLET_PRECISION

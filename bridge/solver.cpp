@@ -34,6 +34,7 @@ struct SoftBodySolver::Attachment {
   PositionLimits limits;
   std::unique_ptr<FastBody> fast;  // none: Bullet's own constraints
   bool was_in_world = false;
+  bool is_suspended = false;
   double time = 0.0;  // [s] of the steps since the body was attached
 
   [[nodiscard]] bool acts_after_projection(Level level) const;
@@ -200,13 +201,14 @@ void SoftBodySolver::replace_laws(btSoftBody& body, LawSet laws, VectorX<btScala
   attachment->damping = old->damping;
   attachment->blow_up = old->blow_up;
   attachment->was_in_world = old->was_in_world;
+  attachment->is_suspended = old->is_suspended;
   attachment->time = old->time;
   attachment->check_laws();
   const bool was_begun = old->deferred.is_in_flight();
   for (auto& entry : attachments_->list) {
     if (entry.get() == old) entry = std::move(attachment);
   }
-  if (was_begun && !is_frozen(body)) find(body)->begin_forces();
+  if (was_begun && !is_still(body)) find(body)->begin_forces();
 }
 
 std::optional<std::string> SoftBodySolver::attach_fast(
@@ -271,6 +273,26 @@ void SoftBodySolver::set_position_limits(btSoftBody& body, PositionLimits limits
   attachment->limits = std::move(limits);
 }
 
+void SoftBodySolver::set_suspended(btSoftBody& body, bool is_suspended) {
+  Attachment* attachment = find(body);
+  if (!attachment) {
+    throw InvalidArgument(
+        "soft body solver: suspends a body without laws, expected attach() first");
+  }
+  if (attachment->is_suspended == is_suspended) return;
+  attachment->is_suspended = is_suspended;
+  attachment->deferred.drop();
+  // Those of the last step with it would be solved once more, and it may be elsewhere now.
+  body.m_rcontacts.resizeNoInitialize(0);
+  body.m_scontacts.resizeNoInitialize(0);
+  if (!is_suspended) body.updateNormals();
+}
+
+bool SoftBodySolver::is_suspended(const btSoftBody& body) const {
+  const Attachment* attachment = find(body);
+  return attachment && attachment->is_suspended;
+}
+
 void SoftBodySolver::set_cloth_contact(btSoftBody& body, const ClothContactSettings& settings) {
   auto entry = std::make_unique<ContactEntry>(ContactEntry{&body, ClothContact(body, settings)});
   auto& list = attachments_->contacts;
@@ -312,9 +334,9 @@ std::optional<BodyBlowUp> SoftBodySolver::blow_up(const btSoftBody& body) const 
   return attachment ? attachment->blow_up : std::nullopt;
 }
 
-bool SoftBodySolver::is_frozen(const btSoftBody& body) const {
+bool SoftBodySolver::is_still(const btSoftBody& body) const {
   const Attachment* attachment = find(body);
-  return attachment && attachment->blow_up;
+  return attachment && (attachment->blow_up || attachment->is_suspended);
 }
 
 // The world hands over its bodies at the start of every step.
@@ -330,9 +352,10 @@ void SoftBodySolver::predictMotion(btScalar time_step) {
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
     if (!body.isActive()) continue;
-    Attachment* attachment = find(body);
-    if (attachment && !attachment->blow_up) attachment->add_forces(time_step);
-    if (is_frozen(body)) continue;
+    if (is_still(body)) continue;
+    Attachment* const attachment = find(body);
+    if (attachment) attachment->add_forces(time_step);
+    if (is_still(body)) continue;  // the forces may have exploded
     if (attachment && attachment->fast) {
       attachment->fast->predict(body, time_step);
     } else {
@@ -347,7 +370,7 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
   // before Bullet rounds it to single precision; to use it would mix two clocks in one step.
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
-    if (!body.isActive() || is_frozen(body)) continue;
+    if (!body.isActive() || is_still(body)) continue;
     if (ClothContact* contact = find_contact(body)) contact->add_self_contacts(body, time_step_);
     Attachment* attachment = find(body);
     if (attachment && attachment->fast) {
@@ -359,7 +382,7 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
   settle_contact_velocities();
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
-    if (!body.isActive() || is_frozen(body)) continue;
+    if (!body.isActive() || is_still(body)) continue;
     Attachment* attachment = find(body);
     if (!attachment) continue;
     apply_position_limits(attachment->limits, static_cast<double>(time_step_), body);
@@ -376,7 +399,7 @@ void SoftBodySolver::settle_contact_velocities() {
   for (const auto& entry : attachments_->contacts) {
     btSoftBody& body = *entry->body;
     if (!entry->was_in_world || !entry->contact.settings().with_others) continue;
-    if (!body.isActive() || is_frozen(body)) continue;
+    if (!body.isActive() || is_still(body)) continue;
     for (int i = 0; i < body.m_nodes.size(); ++i) {
       btSoftBody::Node& node = body.m_nodes[i];
       node.m_v = (node.m_x - node.m_q) * body.m_sst.isdt;
@@ -389,14 +412,14 @@ void SoftBodySolver::updateSoftBodies() {
   const TraceScope trace("update soft bodies");
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
-    if (!body.isActive() || is_frozen(body)) continue;
+    if (!body.isActive() || is_still(body)) continue;
     body.integrateMotion();
     if (Attachment* attachment = is_deferred_ ? find(body) : nullptr) attachment->begin_forces();
   }
 }
 
 void SoftBodySolver::processCollision(btSoftBody* body, const btCollisionObjectWrapper* object) {
-  if (is_frozen(*body)) return;
+  if (is_still(*body)) return;
   Attachment* attachment = find(*body);
   if (attachment && attachment->fast) {
     attachment->fast->collide(*body, *object, time_step_);
@@ -406,7 +429,7 @@ void SoftBodySolver::processCollision(btSoftBody* body, const btCollisionObjectW
 }
 
 void SoftBodySolver::processCollision(btSoftBody* body, btSoftBody* other) {
-  if (is_frozen(*body) || is_frozen(*other)) return;
+  if (is_still(*body) || is_still(*other)) return;
   const ClothContact* contact = find_contact(*body);
   const ClothContact* other_contact = find_contact(*other);
   if (contact && other_contact && contact->settings().with_others &&

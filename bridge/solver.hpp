@@ -99,7 +99,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   /// Nodes were appended to a body, copies of these: its contact with cloth knows them from now on.
   void add_copies(const btSoftBody& body, const std::vector<int>& origins);
   /// Other laws for a body that has laws, and that may have gained nodes since (tearing.hpp). Its
-  /// time goes on; where its damping acts stays. Throws InvalidArgument as attach(), and then
+  /// time goes on; where its damping acts stays; its position limits end. Throws InvalidArgument as attach(), and then
   /// nothing has changed; also for a body without laws.
   void replace_laws(btSoftBody& body, forces::LawSet<btScalar> laws, VectorX<btScalar> masses);
   /// The same from the laws' names, for a body with attach() or attach_fast(), which it stays: other
@@ -115,6 +115,12 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   /// and contacts, and before damping (position_limits.hpp). Throws InvalidArgument for limits that do
   /// not fit the body and for a body without attached laws.
   void set_position_limits(btSoftBody& body, PositionLimits limits);
+
+  /// Whether the body is stepped: suspended, it has no laws, links and contacts, and stays where it is
+  /// or is put (place_body()); other bodies do not meet it. Going on, its first step starts from there;
+  /// the clock of its laws has not stopped. Throws InvalidArgument for a body without attached laws.
+  void set_suspended(btSoftBody& body, bool is_suspended);
+  [[nodiscard]] bool is_suspended(const btSoftBody& body) const;
 
   /// Contact of the body with itself and with the others that have it too, see ClothContact. Made
   /// from the body's present shape as its rest shape; replaces what was set before. Bodies without
@@ -142,7 +148,8 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   [[nodiscard]] Attachment* find(const btSoftBody& body) const;
   [[nodiscard]] ClothContact* find_contact(const btSoftBody& body) const;
   void settle_contact_velocities();
-  [[nodiscard]] bool is_frozen(const btSoftBody& body) const;
+  /// Has exploded or is suspended.
+  [[nodiscard]] bool is_still(const btSoftBody& body) const;
 
   std::unique_ptr<Attachments> attachments_;
   bool is_deferred_ = false;

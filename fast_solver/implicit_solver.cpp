@@ -4,8 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include <Eigen/Cholesky>
-
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/trace.hpp>
 #include <weft/fast_solver/minimum_degree.hpp>
@@ -16,13 +14,6 @@ namespace {
 /// Share of the block correction that a smoothing takes: below 1, so that neighbours that move
 /// together do not overshoot; .5 to .7 converge alike.
 constexpr float kSmoothing = 0.6F;
-/// Of a step that is taken at least.
-constexpr double kSmallestShare = 0.1;
-/// Squared motion of a step over that without springs from which on its energy is looked at.
-constexpr double kMostMotion = 1.2;
-/// Rounds, then halvings of the step, until a step that gains energy does not any more.
-constexpr int kExtraRounds = 6;
-constexpr int kHalvings = 6;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -112,75 +103,6 @@ void ImplicitSolver<Scalar>::evaluate(const StepProblem<Scalar>& problem,
   for (const int node : pinned_) unbalanced_.col(node).setZero();
 }
 
-// What holds a node is decided by what it would do if it stuck: the force that is left there is
-// weighed against what friction can bear.
-template <class Scalar>
-void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
-                                          ConstMatrix3XRef<Scalar> places, bool is_first) {
-  held_before_.assign(holds_.begin(), holds_.end());
-  std::fill(holds_.begin(), holds_.end(), Hold::kFree);
-  std::fill(contact_of_.begin(), contact_of_.end(), -1);
-  held_.clear();
-  ties_.clear();
-  for (const LedNode<Scalar>& led : problem.led) {
-    holds_[at(led.node)] = led.mass > 0 ? Hold::kTied : Hold::kFixed;
-  }
-  const auto gap_at = [&](const PlaneContact<Scalar>& contact, const auto& place) {
-    return contact.normal.dot(place) - contact.offset;
-  };
-  for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
-    const PlaneContact<Scalar>& contact = problem.contacts[c];
-    if (!is_free_[at(contact.node)] || holds_[at(contact.node)] != Hold::kFree) continue;
-    int& best = contact_of_[at(contact.node)];
-    if (best < 0 || gap_at(contact, places.col(contact.node)) <
-                        gap_at(problem.contacts[at(best)], places.col(contact.node))) {
-      best = static_cast<int>(c);
-    }
-  }
-  for (const PlaneContact<Scalar>& candidate : problem.contacts) {
-    const int i = candidate.node;
-    if (contact_of_[at(i)] < 0 || &problem.contacts[at(contact_of_[at(i)])] != &candidate) continue;
-    const Vector3<Scalar> normal = candidate.normal;
-    const Scalar gap = gap_at(candidate, places.col(i));
-    const Scalar inertia = Scalar(inertia_[i]);
-    const bool was_held = !is_first && held_before_[at(i)] != Hold::kFree;
-    const Scalar tie = candidate.mass / (problem.inertia_step * problem.inertia_step);
-    Scalar pressure = -normal.dot(unbalanced_.col(i)) + inertia * std::max(Scalar(0), -gap);
-    if (candidate.mass > 0 && was_held) pressure = -tie * gap;
-    const bool is_near =
-        is_first ? std::min(gap, gap_at(candidate, problem.targets.col(i))) < 0 : gap < 0;
-    if (!(was_held ? pressure > 0 : is_near)) {
-      contact_of_[at(i)] = -1;
-      continue;
-    }
-    const Vector3<Scalar> slip = places.col(i) - problem.starts.col(i) - candidate.motion;
-    Vector3<Scalar> tendency = unbalanced_.col(i) + inertia * slip;
-    tendency -= normal.dot(tendency) * normal;
-    const Scalar most = candidate.friction * std::max(Scalar(0), pressure);
-    const Scalar size = tendency.norm();
-    const bool sticks = size <= most;
-    holds_[at(i)] = candidate.mass > 0 ? Hold::kTied : sticks ? Hold::kFixed : Hold::kOnPlane;
-    normals_.col(i) = normal.template cast<float>();
-    friction_.col(i).setZero();
-    if (!sticks) friction_.col(i) = (-(most / size) * tendency).template cast<float>();
-    if (candidate.mass > 0) {
-      Vector3<Scalar> place = places.col(i);
-      if (sticks) place -= slip;
-      place -= gap_at(candidate, place) * normal;
-      ties_.push_back({i, tie, sticks ? Vector3<Scalar>(Vector3<Scalar>::Zero()) : normal, place});
-    }
-    held_.push_back(i);
-  }
-  for (const LedNode<Scalar>& led : problem.led) {
-    held_.push_back(led.node);
-    friction_.col(led.node).setZero();
-    normals_.col(led.node).setZero();
-    if (led.mass <= 0) continue;
-    ties_.push_back({led.node, led.mass / (problem.inertia_step * problem.inertia_step),
-                     Vector3<Scalar>::Zero(), led.place});
-  }
-}
-
 // Inverses of symmetric 3 x 3 matrices by their adjugates.
 template <class Scalar>
 void ImplicitSolver<Scalar>::invert_blocks() {
@@ -216,31 +138,6 @@ void ImplicitSolver<Scalar>::invert_blocks() {
 }
 
 template <class Scalar>
-void ImplicitSolver<Scalar>::project(Floats& vectors) const {
-  for (const int i : pinned_) vectors.col(i).setZero();
-  for (const int i : held_) {
-    if (holds_[at(i)] == Hold::kFixed) {
-      vectors.col(i).setZero();
-    } else if (holds_[at(i)] == Hold::kOnPlane) {
-      vectors.col(i) -= normals_.col(i).dot(vectors.col(i)) * normals_.col(i);
-    }
-  }
-}
-
-// The global matrix knows nothing of ties, and would move what is tied far too much.
-template <class Scalar>
-void ImplicitSolver<Scalar>::leave_out_ties(Floats& vectors) const {
-  for (const Tie& tie : ties_) {
-    if (tie.normal.isZero(0)) {
-      vectors.col(tie.node).setZero();
-    } else {
-      const Vector3<float> normal = tie.normal.template cast<float>();
-      vectors.col(tie.node) -= normal.dot(vectors.col(tie.node)) * normal;
-    }
-  }
-}
-
-template <class Scalar>
 void ImplicitSolver<Scalar>::smooth(const Floats& residual, Floats& correction) const {
   const float* const r = residual.data();
   float* const z = correction.data();
@@ -255,20 +152,6 @@ void ImplicitSolver<Scalar>::smooth(const Floats& residual, Floats& correction) 
     z[3 * i + 2] = m[5] * x + m[4] * y + m[2] * w;
   }
   project(correction);
-}
-
-template <class Scalar>
-void ImplicitSolver<Scalar>::add_tie_product(const Floats& displacements, Floats& product) const {
-  for (const Tie& tie : ties_) {
-    const auto stiffness = static_cast<float>(tie.stiffness);
-    const Vector3<float> d = displacements.col(tie.node);
-    if (tie.normal.isZero(0)) {
-      product.col(tie.node) += stiffness * d;
-    } else {
-      const Vector3<float> normal = tie.normal.template cast<float>();
-      product.col(tie.node) += stiffness * normal.dot(d) * normal;
-    }
-  }
 }
 
 template <class Scalar>
@@ -350,75 +233,6 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem,
   }
 }
 
-// Planes that no round has met, and those of a node on several. True if anything had to move.
-template <class Scalar>
-bool ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem, Matrix3XRef<Scalar> places) {
-  bool any = false;
-  for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
-    const PlaneContact<Scalar>& contact = problem.contacts[c];
-    const int i = contact.node;
-    if (!is_free_[at(i)] || contact.mass > 0 || holds_[at(i)] == Hold::kTied) continue;
-    const Scalar gap = contact.normal.dot(places.col(i)) - contact.offset;
-    if (!(gap < 0)) continue;
-    places.col(i) -= gap * contact.normal;
-    any = true;
-    if (holds_[at(i)] != Hold::kFree) continue;
-    holds_[at(i)] = Hold::kOnPlane;
-    contact_of_[at(i)] = static_cast<int>(c);
-    normals_.col(i) = contact.normal.template cast<float>();
-    friction_.col(i).setZero();
-    held_.push_back(i);
-  }
-  return any;
-}
-
-template <class Scalar>
-Vector3<Scalar> ImplicitSolver<Scalar>::tie_force(const Tie& tie,
-                                                  ConstMatrix3XRef<Scalar> places) const {
-  const Vector3<Scalar> away = places.col(tie.node) - tie.place;
-  if (tie.normal.isZero(0)) return -tie.stiffness * away;
-  return -tie.stiffness * tie.normal.dot(away) * tie.normal;
-}
-
-template <class Scalar>
-void ImplicitSolver<Scalar>::find_holding_forces(ConstMatrix3XRef<Scalar> places) {
-  holding_forces_.setZero();
-  for (const int i : held_) {
-    if (holds_[at(i)] == Hold::kFixed) {
-      holding_forces_.col(i) = -unbalanced_.col(i);
-    } else if (holds_[at(i)] == Hold::kOnPlane) {
-      const Vector3<Scalar> normal = normals_.col(i).template cast<Scalar>();
-      holding_forces_.col(i) =
-          -normal.dot(unbalanced_.col(i)) * normal + friction_.col(i).template cast<Scalar>();
-    }
-  }
-  for (const Tie& tie : ties_) {
-    holding_forces_.col(tie.node) =
-        tie_force(tie, places) + friction_.col(tie.node).template cast<Scalar>();
-  }
-}
-
-// A linearisation may promise too much where springs turn far in one step. The work of the forces
-// that are left tells: if it opposes the step by more than half of what drove it, back to where a
-// straight line between the two is zero.
-template <class Scalar>
-void ImplicitSolver<Scalar>::hold_back(const StepProblem<Scalar>& problem, double work_before,
-                                       Matrix3XRef<Scalar> places) {
-  double work_after = 0;
-  for (Eigen::Index i = 0; i < places.cols(); ++i) {
-    if (holds_[at(static_cast<int>(i))] != Hold::kFree) continue;
-    work_after += static_cast<double>(unbalanced_.col(i).dot(step_.col(i).template cast<Scalar>()));
-  }
-  if (!(work_before > 0 && work_after < -0.5 * work_before)) return;
-  const double share = std::max(kSmallestShare, work_before / (work_before - work_after));
-  const auto excess = static_cast<Scalar>(1.0 - share);
-  for (Eigen::Index i = 0; i < places.cols(); ++i) {
-    if (holds_[at(static_cast<int>(i))] != Hold::kFree) continue;
-    places.col(i) -= excess * step_.col(i).template cast<Scalar>();
-  }
-  evaluate(problem, places);
-}
-
 template <class Scalar>
 void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, int iterations,
                                       bool is_first, Matrix3XRef<Scalar> places) {
@@ -433,112 +247,6 @@ void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, int it
   evaluate(problem, places);
   hold_back(problem, work, places);
   if (clamp(problem, places)) evaluate(problem, places);
-}
-
-/// What an implicit step minimises [J], with bodies that are tied to it and with what friction does.
-template <class Scalar>
-double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem,
-                                      ConstMatrix3XRef<Scalar> places) const {
-  double sum = forces_.potential(places, problem.starts);
-  for (Eigen::Index i = 0; i < places.cols(); ++i) {
-    sum += 0.5 * static_cast<double>(inertia_[i]) *
-           static_cast<double>((places.col(i) - problem.targets.col(i)).squaredNorm());
-  }
-  for (const Tie& tie : ties_) {
-    Vector3<Scalar> away = places.col(tie.node) - tie.place;
-    if (!tie.normal.isZero(0)) away = tie.normal.dot(away) * tie.normal;
-    sum += 0.5 * static_cast<double>(tie.stiffness * away.squaredNorm());
-  }
-  for (const int i : held_) {
-    if (contact_of_[at(i)] < 0) continue;
-    // A surface that moves may do work by friction; slip only takes it away.
-    const Vector3<Scalar>& motion = problem.contacts[at(contact_of_[at(i)])].motion;
-    const Vector3<Scalar> friction = friction_.col(i).template cast<Scalar>();
-    const Vector3<Scalar> slip = places.col(i) - problem.starts.col(i) - motion;
-    sum -= static_cast<double>(friction.dot(motion) + std::min(Scalar(0), friction.dot(slip)));
-  }
-  return sum;
-}
-
-// A contact may have stretched springs; without one, more motion than without springs: they may have
-// pulled, or the solution may be off.
-template <class Scalar>
-bool ImplicitSolver<Scalar>::is_suspicious(const StepProblem<Scalar>& problem,
-                                           ConstMatrix3XRef<Scalar> places) const {
-  if (!held_.empty()) return true;
-  double moved = 0;
-  double expected = 0;
-  for (Eigen::Index i = 0; i < places.cols(); ++i) {
-    const auto mass = static_cast<double>(masses_[i]);
-    moved += mass * static_cast<double>((places.col(i) - problem.starts.col(i)).squaredNorm());
-    expected +=
-        mass * static_cast<double>((problem.targets.col(i) - problem.starts.col(i)).squaredNorm());
-  }
-  return !(moved <= kMostMotion * expected);
-}
-
-// Where nothing has moved but what is led, in front of all planes.
-template <class Scalar>
-void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
-  unmoved_ = problem.starts;
-  for (const int node : pinned_) unmoved_.col(node) = problem.targets.col(node);
-  for (const LedNode<Scalar>& led : problem.led) {
-    if (led.mass <= 0) unmoved_.col(led.node) = led.place;
-  }
-  for (const PlaneContact<Scalar>& contact : problem.contacts) {
-    if (!is_free_[at(contact.node)] || contact.mass > 0) continue;
-    if (holds_[at(contact.node)] == Hold::kFixed) {
-      unmoved_.col(contact.node) = problem.starts.col(contact.node) + contact.motion;
-    }
-    const Scalar gap = contact.normal.dot(unmoved_.col(contact.node)) - contact.offset;
-    if (gap < 0) unmoved_.col(contact.node) -= gap * contact.normal;
-  }
-}
-
-// The exact solution has no more of the energy that it minimises than the places at the start. One
-// that has is iterated on, and at last drawn back: so an implicit step gains no energy, however badly
-// it has converged.
-template <class Scalar>
-void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterations,
-                                  Matrix3XRef<Scalar> places) {
-  stay_at_start(problem);
-  const double most = energy(problem, unmoved_);
-  for (int attempt = 0; !(energy(problem, places) <= most); ++attempt) {
-    if (attempt < kExtraRounds) {
-      do_round(problem, iterations, false, places);
-      continue;
-    }
-    if (attempt == kExtraRounds + kHalvings) break;
-    for (Eigen::Index i = 0; i < places.cols(); ++i) {
-      const bool is_finite = places.col(i).allFinite();
-      places.col(i) = is_finite ? Vector3<Scalar>(Scalar(0.5) * (places.col(i) + unmoved_.col(i)))
-                                : Vector3<Scalar>(unmoved_.col(i));
-    }
-    evaluate(problem, places);
-  }
-}
-
-// What conjugate gradients have left over would push the body as a whole. Where nothing immovable
-// holds it, a shift of all nodes, which no spring feels, takes that away to rounding.
-template <class Scalar>
-void ImplicitSolver<Scalar>::balance(Matrix3XRef<Scalar> places) {
-  if (!pinned_.empty()) return;
-  Matrix3<double> stiffness =
-      Matrix3<double>::Identity() * static_cast<double>(inertia_.template cast<double>().sum());
-  for (const int i : held_) {
-    if (holds_[at(i)] != Hold::kTied) return;
-  }
-  const Vector3<double> left =
-      (unbalanced_ + holding_forces_).template cast<double>().rowwise().sum();
-  for (const Tie& tie : ties_) {
-    const Vector3<double> normal = tie.normal.template cast<double>();
-    Matrix3<double> directions = Matrix3<double>::Identity();
-    if (!tie.normal.isZero(0)) directions = normal * normal.transpose();
-    stiffness += static_cast<double>(tie.stiffness) * directions;
-  }
-  const Vector3<Scalar> shift = stiffness.llt().solve(left).template cast<Scalar>();
-  places.colwise() += shift;
-  find_holding_forces(places);
 }
 
 template <class Scalar>

@@ -11,11 +11,12 @@
 namespace weft::scenes {
 namespace {
 
-constexpr std::array<std::string_view, 10> kMovingPinKeys = {
-    "corner", "edge",         "box",   "sphere",   "nodes",
-    "part",   "vertex_group", "above", "velocity", "path"};
-constexpr Keys kPinKinds = Keys(kMovingPinKeys).first(7);
-constexpr Keys kPinKeys = Keys(kMovingPinKeys).first(8);
+constexpr std::array<std::string_view, 12> kMovingPinKeys = {
+    "corner",       "edge",    "box",   "sphere",   "nodes", "part",
+    "vertex_group", "texture", "above", "velocity", "path",  "to"};
+constexpr Keys kMotionKeys = Keys(kMovingPinKeys).last(3);
+constexpr Keys kPinKinds = Keys(kMovingPinKeys).first(8);
+constexpr Keys kPinKeys = Keys(kMovingPinKeys).first(9);
 constexpr std::array<std::string_view, 2> kBoxKeys = {"min", "max"};
 constexpr std::array<std::string_view, 2> kSphereKeys = {"center", "radius"};
 
@@ -127,8 +128,9 @@ Pin read_pin(const TomlTable& table, const Cloth& cloth) {
     return read_sphere(value.table("a table such as { center = [...], radius = \"1 cm\" }"));
   }
   if (given[0] == "nodes") return read_node_list(value, cloth);
+  if (given[0] == "texture") return read_mask(table, value, cloth);
   if (table.has("above") && given[0] != "vertex_group") {
-    table.fail("above goes with vertex_group only");
+    table.fail("above goes with vertex_group and texture only");
   }
   if (given[0] == "part") return read_group(table, value, true, cloth);
   if (given[0] == "vertex_group") return read_group(table, value, false, cloth);
@@ -183,15 +185,41 @@ void read_cloth_pins(const TomlValue& value, Cloth& cloth) {
     table.allow(kMovingPinKeys);
     const Pin pin = read_pin(table, cloth);
     check_holds_nodes(entry, pin, cloth);
-    const auto velocity = table.find("velocity");
-    const auto path = table.find("path");
-    if (velocity && path) velocity->fail("path is given too, expected at most one of the two");
-    if (velocity) {
+    std::vector<std::string_view> given;
+    for (const std::string_view key : kMotionKeys) {
+      if (table.has(key)) given.push_back(key);
+    }
+    if (given.size() > 1) {
+      table.require(given[0], "")
+          .fail(fmt::format("{} is given too, expected at most one of {}", given[1],
+                            fmt::join(kMotionKeys, ", ")));
+    }
+    if (const auto velocity = table.find("velocity")) {
       cloth.moving_pins.push_back({pin, velocity->vector("m/s")});
-    } else if (path) {
+    } else if (const auto path = table.find("path")) {
       cloth.moving_pins.push_back({.nodes = pin, .path = read_path(*path)});
+    } else if (const auto to = table.find("to")) {
+      cloth.moving_pins.push_back({.nodes = pin, .to = to->identifier()});
     } else {
       cloth.pins.push_back(pin);
+    }
+  }
+}
+
+void check_carriers(const TomlTable& cloth, const Scene& scene) {
+  const auto pins = cloth.find("pin");
+  if (!pins) return;
+  for (const TomlValue& entry : pin_entries(*pins)) {
+    const auto to = entry.table(kExpectedPin).find("to");
+    if (!to) continue;
+    const std::string name = to->identifier();
+    const auto found = std::find_if(scene.colliders.begin(), scene.colliders.end(),
+                                    [&](const Collider& c) { return c.name == name; });
+    if (found == scene.colliders.end()) to->fail("expected the name of a collider of this scene");
+    if (found->mass) {
+      to->fail(
+          "has a mass, expected a collider without one; the controller \"attach\" ties a cloth to "
+          "a body that moves freely");
     }
   }
 }

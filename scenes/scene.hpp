@@ -15,7 +15,9 @@
 #include <weft/scenes/characters/character_settings.hpp>
 #include <weft/scenes/cloth_source.hpp>
 #include <weft/scenes/cloth_tear.hpp>
+#include <weft/scenes/controllers/controller_settings.hpp>
 #include <weft/scenes/motion/path.hpp>
+#include <weft/scenes/reference_settings.hpp>
 #include <weft/scenes/shapes.hpp>
 
 namespace weft::scenes {
@@ -52,11 +54,14 @@ struct NodePin {
 };
 using Pin = std::variant<CornerPin, EdgePin, BoxPin, SpherePin, NodePin>;
 
-/// Nodes that are pinned and move: with a constant velocity, or with a frame that follows a path.
+/// Nodes that are pinned and move: with a constant velocity, with a frame that follows a path, or
+/// with a collider.
 struct MovingPin {
   Pin nodes;
   Vector3<double> velocity{0, 0, 0};  ///< [m/s], without a path
   std::optional<Path> path = {};      ///< each node keeps its place in the frame of the start
+  /// Name of a collider without a mass that carries the nodes, exactly and without lag; empty: none.
+  std::string to = {};
 };
 
 /// A named set of nodes, for drive.
@@ -138,44 +143,6 @@ struct BulletSettings {
   int position_iterations = 20;  ///< >= 1; how often Bullet visits each link and contact per step
   ConcaveContact concave = ConcaveContact::kPrisms;
 };
-
-enum class Integrator { kExplicitEuler, kModifiedEuler, kVelocityVerlet, kRungeKutta4 };
-enum class ContactModel { kProjection, kImpulse };
-/// What to do when the time step is beyond the stable one.
-enum class StepGuard { kReport, kRefuse, kSubstep };
-
-/// Settings of the reference solver.
-struct ReferenceSettings {
-  Integrator integrator = Integrator::kModifiedEuler;
-  ContactModel contact = ContactModel::kImpulse;
-  StepGuard step_guard = StepGuard::kReport;
-};
-
-/// Draws a cloth towards a target, as if it crept there: the heart of the ooze of Werth 2008. It
-/// pushes the nodes of a region and turns them about the vertical; the cloth follows through its
-/// own laws.
-struct Seek {
-  std::string cloth;
-  std::string region;              ///< of the cloth
-  Path target;                     ///< [m]; only its horizontal part counts
-  Vector3<double> front{0, 0, 1};  ///< direction at the start that shall look at the target [-]
-  double speed = 0.2;              ///< [m/s], > 0
-  double force = 1.0;              ///< [N], >= 0: the largest, all nodes together
-  double turn_rate = 1.0;          ///< [rad/s], > 0
-  double torque = 0.0;             ///< [N m], >= 0: the largest
-  double arrival = 0.1;            ///< [m], > 0: slows down within this distance
-};
-
-/// Rolls a body towards a target by a torque about its centre of mass.
-struct Roll {
-  std::string cloth;
-  Path target;             ///< [m]; only its horizontal part counts
-  double turn_rate = 3.0;  ///< [rad/s], > 0: of rolling
-  double torque = 1.0;     ///< [N m], >= 0: the largest
-  double arrival = 0.5;    ///< [m], > 0: rolls slower within this distance
-};
-
-using ControllerSettings = std::variant<Seek, Roll>;
 
 struct Camera {
   Vector3<double> position{8, 6, 10};  ///< [m]

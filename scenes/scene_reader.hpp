@@ -43,7 +43,11 @@ void read_character(const TomlTable& table, Scene& scene);
 /// scene: its cloths say which there are.
 [[nodiscard]] ControllerSettings read_controller(const TomlTable& table, const Scene& scene);
 [[nodiscard]] std::vector<Pin> read_pins(const TomlValue& value, const Cloth& cloth);
+/// The nodes at the bright places of a picture file beside the scene file; table: has more of the pin.
+[[nodiscard]] NodePin read_mask(const TomlTable& table, const TomlValue& value, const Cloth& cloth);
 /// The pins of a cloth, which may move.
 void read_cloth_pins(const TomlValue& value, Cloth& cloth);
+/// Refuses pins of this table [[cloth]] whose collider the scene does not have or that moves freely.
+void check_carriers(const TomlTable& cloth, const Scene& scene);
 
 }  // namespace weft::scenes

@@ -86,6 +86,7 @@ std::string path_text(const Path& path) {
 }
 
 std::string motion_text(const MovingPin& pin) {
+  if (!pin.to.empty()) return "to = " + toml_string(pin.to);
   return pin.path ? "path = " + path_text(*pin.path)
                   : "velocity = " + vector_text(pin.velocity, "m/s");
 }
@@ -233,13 +234,39 @@ void write_controller(std::string& out, const Roll& roll) {
   line(out, "arrival", value_text(roll.arrival, "m"));
 }
 
+void write_controller(std::string& out, const Attach& attach) {
+  line(out, "kind", toml_string("attach"));
+  line(out, "cloth", toml_string(attach.cloth));
+  line(out, "region", toml_string(attach.region));
+  line(out, "to", toml_string(attach.to));
+  line(out, "stiffness", value_text(attach.stiffness, "N/m"));
+  line(out, "damping", value_text(attach.damping, "N*s/m"));
+}
+
+void write_controller(std::string& out, const Detail& detail) {
+  line(out, "kind", toml_string("detail"));
+  line(out, "cloth", toml_string(detail.cloth));
+  std::string levels;
+  for (const DetailSwitch& entry : detail.levels) {
+    levels += (levels.empty() ? "" : ", ");
+    levels += "{ time = " + value_text(entry.time, "s") +
+              ", level = " + word(kDetailWords, entry.level) + " }";
+  }
+  line(out, "levels", "[" + levels + "]");
+  line(out, "blend", value_text(detail.blend, "s"));
+  line(out, "follow", value_text(detail.follow, "Hz"));
+}
+
 void write_settings(std::string& out, const Scene& scene) {
   out += "\n[bullet]\n";
   line(out, "position_iterations", std::to_string(scene.bullet.position_iterations));
   line(out, "concave", word(kConcaveWords, scene.bullet.concave));
   out += "\n[reference]\n";
   line(out, "integrator", word(kIntegratorWords, scene.reference.integrator));
+  line(out, "tolerance", value_text(scene.reference.tolerance, "1"));
+  line(out, "spectral_radius", value_text(scene.reference.spectral_radius, "1"));
   line(out, "contact", word(kContactWords, scene.reference.contact));
+  line(out, "contact_points", word(kContactPointsWords, scene.reference.contact_points));
   line(out, "step_guard", word(kStepGuardWords, scene.reference.step_guard));
   out += "\n[camera]\n";
   line(out, "position", vector_text(scene.camera.position, "m"));

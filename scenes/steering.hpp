@@ -11,6 +11,12 @@
 
 namespace weft::scenes {
 
+/// Where all nodes of a cloth are at the end of a step.
+struct Placement {
+  Matrix3X<double> positions;   ///< 3 x n [m]
+  Matrix3X<double> velocities;  ///< 3 x n [m/s]
+};
+
 /// What shall happen to one cloth in the step that begins.
 struct ClothSteering {
   /// Where the pinned nodes are at the end of the step, 3 x mesh.pinned.size() [m], in the order of
@@ -20,6 +26,18 @@ struct ClothSteering {
   Matrix3X<double> node_forces;
   /// Where the free nodes may be at the end of the step. Empty: anywhere.
   PositionLimits limits;
+  /// Where an animation has the nodes at the end of the step, 3 x n [m], for controllers that come
+  /// later. Empty: there is none.
+  Matrix3X<double> animated_positions;
+  /// Set: the cloth is not simulated in this step, it meets nothing, and is there at its end. The
+  /// first step without it goes on from there.
+  std::optional<Placement> placement;
+};
+
+/// What pushes a collider with a mass over the step, beside gravity and contacts.
+struct Push {
+  Vector3<double> force{0, 0, 0};   ///< [N]
+  Vector3<double> torque{0, 0, 0};  ///< [N m], about RigidState::position
 };
 
 /// What shall happen in the step that begins, in the order of the scene's cloths and colliders.
@@ -27,6 +45,8 @@ struct Steering {
   std::vector<ClothSteering> cloths;
   /// Of the colliders that are led: where they are at the end of the step. The others: none.
   std::vector<std::optional<Pose>> colliders;
+  /// Of every collider; those without a mass feel nothing.
+  std::vector<Push> pushes;
 };
 
 /// Steers bodies from what is seen of them: the same for every engine.

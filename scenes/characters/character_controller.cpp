@@ -71,8 +71,9 @@ PositionLimits CharacterController::limits_of(const LedCloth& cloth,
 void CharacterController::steer(const SceneState&, double end_time, Steering& steering) {
   const std::vector<Eigen::Affine3d> frames = world_frames(*model_, pose_, end_time);
   for (const LedCloth& cloth : cloths_) {
-    const Matrix3X<double> skin = skinned_positions(*cloth.part, frames);
     ClothSteering& lead = steering.cloths[cloth.index];
+    lead.animated_positions = skinned_positions(*cloth.part, frames);
+    const Matrix3X<double>& skin = lead.animated_positions;
     lead.pinned_positions = skin(Eigen::all, cloth.pinned);
     lead.limits = limits_of(cloth, skin);
   }

@@ -7,6 +7,14 @@
 
 namespace weft::scenes {
 
+/// Where a collider is at the start.
+[[nodiscard]] inline Pose start_pose(const Collider& collider) {
+  if (!collider.path) return {collider.position, collider.orientation};
+  Pose pose = PathMotion(*collider.path).pose(0.0);
+  pose.orientation = (pose.orientation * collider.orientation).normalized();
+  return pose;
+}
+
 /// Leads a collider along its path.
 class ColliderPathController final : public Controller {
  public:

@@ -5,7 +5,9 @@
 
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/scenes/characters/character_controller.hpp>
+#include <weft/scenes/controllers/attach.hpp>
 #include <weft/scenes/controllers/collider_path.hpp>
+#include <weft/scenes/controllers/detail.hpp>
 #include <weft/scenes/controllers/pin_path.hpp>
 #include <weft/scenes/controllers/roll.hpp>
 #include <weft/scenes/controllers/seek.hpp>
@@ -20,11 +22,8 @@ std::size_t cloth_index(const Scene& scene, const std::string& name) {
   throw InvalidArgument("controller: cloth = '" + name + "', expected a cloth of the scene");
 }
 
-bool has_path(const Cloth& cloth) {
-  for (const MovingPin& pin : cloth.moving_pins) {
-    if (pin.path) return true;
-  }
-  return false;
+bool has_leads(const Cloth& cloth) {
+  return std::any_of(cloth.moving_pins.begin(), cloth.moving_pins.end(), &is_lead);
 }
 
 struct MakeController {
@@ -42,21 +41,30 @@ struct MakeController {
     }
     return std::make_shared<RollController>(roll, cloth, make_mesh(scene.cloths[cloth]));
   }
+  std::shared_ptr<Controller> operator()(const Attach& attach) const {
+    const std::size_t cloth = cloth_index(scene, attach.cloth);
+    return std::make_shared<AttachController>(attach, cloth, scene);
+  }
+  std::shared_ptr<Controller> operator()(const Detail& detail) const {
+    const std::size_t cloth = cloth_index(scene, detail.cloth);
+    return std::make_shared<DetailController>(detail, cloth, scene.cloths[cloth]);
+  }
 };
 
 }  // namespace
 
 Director::Director(const Scene& scene, std::vector<std::shared_ptr<Controller>> added) {
-  for (std::size_t c = 0; c < scene.cloths.size(); ++c) {
-    if (!has_path(scene.cloths[c])) continue;
-    controllers_.push_back(std::make_shared<PinPathController>(scene.cloths[c], c));
-  }
   for (std::size_t k = 0; k < scene.colliders.size(); ++k) {
     if (!scene.colliders[k].path) continue;
     controllers_.push_back(std::make_shared<ColliderPathController>(scene.colliders[k], k));
   }
   for (const CharacterSettings& character : scene.characters) {
     controllers_.push_back(std::make_shared<CharacterController>(character, scene));
+  }
+  // After those that lead colliders: a collider may lead pins.
+  for (std::size_t c = 0; c < scene.cloths.size(); ++c) {
+    if (!has_leads(scene.cloths[c])) continue;
+    controllers_.push_back(std::make_shared<PinPathController>(scene, c));
   }
   for (const ControllerSettings& settings : scene.controllers) {
     controllers_.push_back(std::visit(MakeController{scene}, settings));
@@ -85,6 +93,7 @@ void Director::lead_copies(const SceneState& state) {
 const Steering& Director::steer(const SceneState& state, double end_time) {
   steering_.cloths.assign(state.cloths.size(), {});
   steering_.colliders.assign(state.rigids.size(), {});
+  steering_.pushes.assign(state.rigids.size(), {});
   for (const auto& controller : controllers_) controller->steer(state, end_time, steering_);
   lead_copies(state);
   return steering_;

@@ -9,27 +9,34 @@
 
 namespace weft::scenes {
 
-/// Leads the pins of a cloth, those that follow paths and the others. The frame of a path stands at
-/// its point of time 0 at the start, turned as it is then; each node keeps its place in it:
+/// Leads the pins of a cloth: those that follow paths or colliders, and the others. The frame of a path stands at
+/// its point of time 0 at the start, turned as it is then; each node keeps its place in it, as in
+/// that of a collider:
 ///   x(t) = p(t) + R(t) R(0)^T (x0 - p(0)).
 class PinPathController final : public Controller {
  public:
-  /// cloth: number of the cloth in its scene.
-  PinPathController(const Cloth& cloth, std::size_t index);
+  /// cloth: number of the cloth in the scene. Throws InvalidArgument for a collider that is not in
+  /// the scene or has a mass.
+  PinPathController(const Scene& scene, std::size_t cloth);
 
   void steer(const SceneState& state, double end_time, Steering& steering) override;
 
  private:
   struct Lead {
-    PathMotion motion;
+    std::optional<PathMotion> motion;     ///< otherwise a collider leads
+    std::optional<std::size_t> collider;  ///< its number in the scene
     Pose start;
   };
+  [[nodiscard]] Lead lead_of(const MovingPin& pin, const Scene& scene) const;
   std::size_t cloth_;
   Matrix3X<double> rest_positions_;  ///< of the pinned nodes [m]
   Matrix3X<double> velocities_;      ///< of those without a path [m/s]
   std::vector<Lead> leads_;
-  std::vector<std::optional<std::size_t>> lead_of_;  ///< of each pinned node
+  std::vector<std::optional<std::size_t>> leads_of_nodes_;  ///< of each pinned node
 };
+
+/// Whether something leads the pin: its velocity does not.
+[[nodiscard]] bool is_lead(const MovingPin& pin);
 
 /// Where a node is that keeps its place in a frame: place + R R0^T (x0 - p0).
 [[nodiscard]] Vector3<double> carried(const Pose& start, const Pose& now,

@@ -16,6 +16,11 @@ Vector3<double> from_bullet(const btVector3& v) {
   return Vector3<btScalar>(v.x(), v.y(), v.z()).cast<double>();
 }
 
+btVector3 to_bullet(const Vector3<double>& v) {
+  const Vector3<btScalar> s = v.cast<btScalar>();
+  return {s[0], s[1], s[2]};
+}
+
 void lead_collider(const Pose& pose, const Vector3<double>& offset, btRigidBody& body) {
   if (!body.isKinematicObject()) {
     throw InvalidArgument(
@@ -26,6 +31,15 @@ void lead_collider(const Pose& pose, const Vector3<double>& offset, btRigidBody&
   // Bullet derives the velocity that friction needs from the last two of these.
   body.setWorldTransform(btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()),
                                      btVector3(place[0], place[1], place[2])));
+}
+
+void push_collider(const Push& push, const Vector3<double>& offset, btRigidBody& body) {
+  if (body.isStaticOrKinematicObject() || (push.force.isZero(0) && push.torque.isZero(0))) return;
+  const btVector3 to_mass = quatRotate(body.getWorldTransform().getRotation(), to_bullet(offset));
+  const btVector3 force = to_bullet(push.force);
+  body.activate();
+  body.applyCentralForce(force);
+  body.applyTorque(to_bullet(push.torque) - to_mass.cross(force));
 }
 
 }  // namespace
@@ -68,6 +82,7 @@ void BulletBodies::begin_step(const Steering* steering, double time_step) {
   for (std::size_t c = 0; c < cloths_.size(); ++c) {
     btSoftBody& body = *cloths_[c];
     const ClothSteering* lead = steering ? &steering->cloths[c] : nullptr;
+    if (lead && lead->placement) continue;
     if (lead && lead->pinned_positions.cols() > 0) {
       bridge::lead_nodes(steered_[c].pinned, lead->pinned_positions, time_step, body);
     } else {
@@ -80,12 +95,17 @@ void BulletBodies::begin_step(const Steering* steering, double time_step) {
   for (std::size_t r = 0; r < rigids_.size(); ++r) {
     if (const auto& pose = steering->colliders[r])
       lead_collider(*pose, rigid_offsets_[r], *rigids_[r]);
+    push_collider(steering->pushes[r], rigid_offsets_[r], *rigids_[r]);
   }
 }
 
 void BulletBodies::end_step(const Steering* steering, double time_step) {
   if (!steering) return;
   for (std::size_t c = 0; c < cloths_.size(); ++c) {
+    if (const auto& placement = steering->cloths[c].placement) {
+      bridge::place_body(placement->positions, placement->velocities, *cloths_[c]);
+      continue;
+    }
     const Matrix3X<double>& targets = steering->cloths[c].pinned_positions;
     if (targets.cols() == 0) continue;
     bridge::place_nodes(steered_[c].pinned, targets, time_step, *cloths_[c]);

@@ -27,6 +27,9 @@ constexpr double kGrowthRatio = 0.002;
 /// Voxel edge as a fraction of a collider's smallest half extent: 1/20 meets a sphere within R /
 /// 3200.
 constexpr double kVoxelRatio = 0.05;
+/// A capsule is met within R / 512: it has no edges, and a character has a dozen of them, whose cells
+/// are what a run mostly computes if they are finer.
+constexpr double kCapsuleVoxelRatio = 0.125;
 /// The same for the edges of a mesh's triangles: their fronts are flat, and only bends between them
 /// are rounded, by about a quarter of a voxel.
 constexpr double kMeshVoxelRatio = 0.25;
@@ -70,6 +73,7 @@ struct Voxel {
     }
     return voxel;
   }
+  double operator()(const CapsuleShape& s) const { return kCapsuleVoxelRatio * s.radius; }
   template <class Convex>
   double operator()(const Convex& s) const {
     return kVoxelRatio * SmallestHalfExtent{}(s);

@@ -29,7 +29,7 @@ class BulletSimulator final : public Simulator {
   void add_cloth(const Cloth& cloth, const Scene& scene);
   [[nodiscard]] bridge::LinkSet link_set(const Cloth& cloth,
                                          const forces::LawSpecification& law) const;
-  void set_limits(const Steering& steering);
+  void set_freedom(const Steering& steering);
   [[nodiscard]] std::optional<BlowUp> find_blow_up() const;
 
   Tension tension_;
@@ -108,9 +108,12 @@ void BulletSimulator::add_cloth(const Cloth& cloth, const Scene& scene) {
   }
 }
 
-void BulletSimulator::set_limits(const Steering& steering) {
+void BulletSimulator::set_freedom(const Steering& steering) {
   for (std::size_t c = 0; c < bodies_.cloths().size(); ++c) {
-    world_->solver().set_position_limits(*bodies_.cloths()[c], steering.cloths[c].limits);
+    btSoftBody& body = *bodies_.cloths()[c];
+    const ClothSteering& lead = steering.cloths[c];
+    world_->solver().set_suspended(body, lead.placement.has_value());
+    if (!lead.placement) world_->solver().set_position_limits(body, lead.limits);
   }
 }
 
@@ -137,7 +140,7 @@ StepReport BulletSimulator::step(double time_step) {
   const Steering* steering =
       director_.is_needed() ? &director_.steer(state(), report_.time) : nullptr;
   bodies_.begin_step(steering, report_.time_step);
-  if (steering) set_limits(*steering);
+  if (steering) set_freedom(*steering);
   world_->step(time_step);
   bodies_.end_step(steering, report_.time_step);
   report_.num_contacts = 0;

@@ -163,5 +163,46 @@ TEST(Appearance, PixelsOfAPictureComeInTheirOrder) {
   EXPECT_EQ(image.rgb, rgb);
 }
 
+/// A scene file with a picture beside it, black on the left and white on the right.
+class Mask : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("weft_mask_" + std::to_string(getpid()));
+    std::filesystem::create_directory(folder_);
+    std::ofstream(folder_ / "mask.png", std::ios::binary) << png_row({0, 0, 0, 255, 255, 255});
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] Scene read(const std::string& pin) const {
+    std::ofstream(folder_ / "scene.toml") << scene_text("pin = [" + pin + "]");
+    return read_scene_file(folder_ / "scene.toml");
+  }
+  [[nodiscard]] std::string error(const std::string& pin) const {
+    try {
+      (void)read(pin);
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(Mask, PinsTheNodesAtBrightPlaces) {
+  const Scene scene = read(R"({ texture = "mask.png" })");
+  EXPECT_EQ(make_mesh(scene.cloths[0]).pinned, (std::vector<int>{1, 2, 4, 5, 7, 8}));
+  // A recording needs no picture: the nodes are written out.
+  const Scene again = read_scene_text(write_scene(scene), "again");
+  EXPECT_EQ(make_mesh(again.cloths[0]).pinned, make_mesh(scene.cloths[0]).pinned);
+}
+
+TEST_F(Mask, SaysWhatIsWrong) {
+  EXPECT_THAT(error(R"({ texture = "musk.png" })"),
+              HasSubstr("scene.toml:10:20: cloth.pin[0].texture"));
+  EXPECT_THAT(error(R"({ texture = "mask.png", above = 1 })"), HasSubstr("marks no node"));
+  EXPECT_THAT(error(R"({ texture = "scene.toml" })"), HasSubstr(".png or .jpg"));
+}
+
 }  // namespace
 }  // namespace weft::scenes

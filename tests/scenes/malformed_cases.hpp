@@ -15,6 +15,12 @@ struct MalformedCase {
 
 // clang-format off
 inline constexpr auto kMalformedCases = std::to_array<MalformedCase>({
+    {"attached_to_nobody", 16, 6, "expected the name of a collider of this scene"},
+    {"levels_at_once", 14, 45, "expected growing times"},
+    {"pin_to_a_free_body", 11, 32, "expected a collider without one"},
+    {"pin_to_nobody", 11, 32, "expected the name of a collider of this scene"},
+    {"pin_with_two_leads", 11, 51, "expected at most one of velocity, path, to"},
+    {"unknown_level", 14, 35, "expected one of full, simplified, skin"},
     {"axis_of_a_rope", 11, 1, "cloth.u_axis: unknown key"},
     {"backward_torque", 15, 10, ">= 0"},
     {"bulge_of_a_sphere", 11, 9, "expected a grid to raise"},
@@ -103,6 +109,7 @@ inline constexpr auto kMalformedCases = std::to_array<MalformedCase>({
     {"unknown_corner", 13, 19, "unknown corner, expected one of -u-v"},
     {"unknown_edge_set", 16, 25, "unknown edge set of this cloth, expected one of stretch, shear, bend"},
     {"unknown_integrator", 18, 14, "did you mean 'modified_euler'?"},
+    {"spectral_radius_out_of_range", 19, 19, "expected 0 to 1"},
     {"unknown_key", 21, 1, "collider.raduis: unknown key, did you mean 'radius'?"},
     {"unknown_law", 15, 7, "unknown law, did you mean 'tension'?"},
     {"unknown_parameter", 17, 1, "did you mean 'stiffness'?"},

@@ -8,10 +8,14 @@ one clip, "Walk", of 2 seconds that walks on the spot and turns to both sides. L
 exporter turns it to glTF's y.
 """
 import math
+import os
 import sys
 
 import bpy
 from mathutils import Vector
+
+sys.path.append(os.path.dirname(os.path.abspath(__file__)))
+from rig import add_skinned, empty_scene, export, make_armature, new_mesh  # beside this file
 
 FRAMES_PER_SECOND = 60
 CLIP_FRAMES = 120  # 2 s: two steps with each foot
@@ -54,22 +58,6 @@ CAPE_TOP, CAPE_BOTTOM = 1.47, 0.42  # heights
 PLEATS = 4
 
 
-def make_armature():
-    armature = bpy.data.armatures.new("Rig")
-    rig = bpy.data.objects.new("Rig", armature)
-    bpy.context.collection.objects.link(rig)
-    bpy.context.view_layer.objects.active = rig
-    bpy.ops.object.mode_set(mode="EDIT")
-    for name, (head, tail, parent) in BONES.items():
-        bone = armature.edit_bones.new(name)
-        bone.head, bone.tail = head, tail
-        bone.roll = 0.0
-        if parent:
-            bone.parent = armature.edit_bones[parent]
-    bpy.ops.object.mode_set(mode="OBJECT")
-    return rig
-
-
 def frame_of(head, tail):
     """Two directions across a bone: the first as close to x as can be."""
     along = (tail - head).normalized()
@@ -100,24 +88,13 @@ def limb(bone, vertices, faces, groups):
 
 
 def make_mesh(name, vertices, faces, groups, color, rig):
-    mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata([tuple(v) for v in vertices], [], [tuple(f) for f in faces])
+    mesh = new_mesh(name, vertices, faces)
     mesh.validate()
-    for polygon in mesh.polygons:
-        polygon.use_smooth = True
     material = bpy.data.materials.new(name)
     material.use_nodes = True
     material.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (*color, 1.0)
     mesh.materials.append(material)
-    thing = bpy.data.objects.new(name, mesh)
-    bpy.context.collection.objects.link(thing)
-    for vertex, weights in enumerate(groups):
-        for bone, weight in weights.items():
-            group = thing.vertex_groups.get(bone) or thing.vertex_groups.new(name=bone)
-            group.add([vertex], weight, "REPLACE")
-    thing.parent = rig
-    thing.modifiers.new("Armature", "ARMATURE").object = rig
-    return thing
+    return add_skinned(name, mesh, groups, rig)
 
 
 def make_body(rig):
@@ -209,21 +186,12 @@ def animate(rig):
 
 
 def main():
-    target = sys.argv[sys.argv.index("--") + 1]
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    scene = bpy.context.scene
-    scene.render.fps = FRAMES_PER_SECOND
-    scene.frame_start, scene.frame_end = 0, CLIP_FRAMES
-    rig = make_armature()
+    empty_scene(FRAMES_PER_SECOND, 0, CLIP_FRAMES)
+    rig = make_armature("Rig", BONES)
     make_body(rig)
     make_cape(rig)
     animate(rig)
-    # Sampled: as splines, Blender 3.4 writes the quaternions of bones that point against their parent, as arms and legs
-    # do, with signs that change from key to key. A spline between q and -q turns the limb around once in some 20 ms.
-    bpy.ops.export_scene.gltf(
-        filepath=target, export_format="GLB", export_yup=True, export_animations=True, export_skins=True,
-        export_force_sampling=True, export_normals=False, export_colors=True, export_morph=False,
-        export_texcoords=False, export_image_format="NONE", export_def_bones=False, export_optimize_animation_size=False)
+    export(sys.argv[sys.argv.index("--") + 1], sampled=True, texture_coordinates=False)
 
 
 if __name__ == "__main__":

@@ -8,10 +8,14 @@ or a seam holds it (wrist, knuckles, jaws, lips, eyes), brighter with the distan
 looks around, nods, and opens and closes the mouth. Lengths are metres; Blender's z is up, the puppet looks along -y.
 """
 import math
+import os
 import sys
 
 import bpy
 from mathutils import Euler, Vector
+
+sys.path.append(os.path.dirname(os.path.abspath(__file__)))
+from rig import add_skinned, empty_scene, export, make_armature, new_mesh  # beside this file
 
 FRAMES_PER_SECOND = 24
 CLIP_FRAMES = 96  # 4 s
@@ -48,22 +52,6 @@ BONES = {
 def smooth_step(x):
     x = min(1.0, max(0.0, x))
     return x * x * (3 - 2 * x)
-
-
-def make_armature():
-    armature = bpy.data.armatures.new("Hand")
-    rig = bpy.data.objects.new("Hand", armature)
-    bpy.context.collection.objects.link(rig)
-    bpy.context.view_layer.objects.active = rig
-    bpy.ops.object.mode_set(mode="EDIT")
-    for name, (head, tail, parent) in BONES.items():
-        bone = armature.edit_bones.new(name)
-        bone.head, bone.tail = head, tail
-        bone.roll = 0.0
-        if parent:
-            bone.parent = armature.edit_bones[parent]
-    bpy.ops.object.mode_set(mode="OBJECT")
-    return rig
 
 
 def lip(column):
@@ -184,22 +172,11 @@ class Sock:
 
 
 def make_mesh(name, vertices, faces, groups, texture, rig):
-    mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata([tuple(v) for v in vertices], [], faces)
+    mesh = new_mesh(name, vertices, faces)
     layer = mesh.uv_layers.new(name="UVMap")
     for loop, place in enumerate(texture):
         layer.data[loop].uv = place
-    for polygon in mesh.polygons:
-        polygon.use_smooth = True
-    thing = bpy.data.objects.new(name, mesh)
-    bpy.context.collection.objects.link(thing)
-    for vertex, weights in enumerate(groups):
-        for bone, weight in weights.items():
-            group = thing.vertex_groups.get(bone) or thing.vertex_groups.new(name=bone)
-            group.add([vertex], weight, "REPLACE")
-    thing.parent = rig
-    thing.modifiers.new("Armature", "ARMATURE").object = rig
-    return thing
+    return add_skinned(name, mesh, groups, rig)
 
 
 def make_sock(rig):
@@ -273,19 +250,13 @@ def animate(rig):
 
 
 def main():
-    target = sys.argv[sys.argv.index("--") + 1]
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    scene = bpy.context.scene
-    scene.render.fps = FRAMES_PER_SECOND
-    scene.frame_start, scene.frame_end = 1, 1 + CLIP_FRAMES
-    rig = make_armature()
+    empty_scene(FRAMES_PER_SECOND, 1, 1 + CLIP_FRAMES)
+    rig = make_armature("Hand", BONES)
     make_sock(rig)
     make_eyes(rig)
     animate(rig)
-    bpy.ops.export_scene.gltf(
-        filepath=target, export_format="GLB", export_yup=True, export_animations=True, export_skins=True,
-        export_force_sampling=False, export_normals=False, export_colors=True, export_morph=False,
-        export_texcoords=True, export_image_format="NONE", export_def_bones=False, export_optimize_animation_size=False)
+    # Splines: no bone of the hand points against its parent.
+    export(sys.argv[sys.argv.index("--") + 1], sampled=False, texture_coordinates=True)
 
 
 if __name__ == "__main__":

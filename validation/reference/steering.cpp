@@ -1,6 +1,8 @@
 // What leads a system from outside: everything else of the solver is in solver.cpp.
 #include <string>
 
+#include <Eigen/Cholesky>
+
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/validation/reference/solver.hpp>
 
@@ -76,6 +78,15 @@ void SpringSolver::place_collider(std::size_t collider, const Vector3<double>& p
   check_led(led);
   led.position = position;
   led.orientation = orientation;
+}
+
+void SpringSolver::push_collider(std::size_t collider, const Vector3<double>& force,
+                                 const Vector3<double>& torque, double time_step) {
+  Collider& pushed = system_->colliders.at(collider);
+  if (!pushed.mass) return;
+  pushed.velocity += time_step / *pushed.mass * force;
+  const Matrix3<double> inertia = world_inertia(pushed);
+  pushed.angular_velocity += inertia.ldlt().solve(time_step * torque);
 }
 
 }  // namespace weft::reference
