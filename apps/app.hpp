@@ -28,6 +28,7 @@ struct CommandLine {
 [[nodiscard]] Action add_list_command(CLI::App& parser);
 [[nodiscard]] Action add_run_command(CLI::App& parser, const CommandLine& command_line);
 [[nodiscard]] Action add_validate_command(CLI::App& parser, const CommandLine& command_line);
+[[nodiscard]] Action add_reference_command(CLI::App& parser);
 [[nodiscard]] Action add_render_command(CLI::App& parser);
 [[nodiscard]] Action add_contact_sheet_command(CLI::App& parser);
 [[nodiscard]] Action add_stability_command(CLI::App& parser);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -19,6 +20,7 @@
 #include <weft/scenes/recording/recording.hpp>
 #include <weft/scenes/recording/run.hpp>
 #include <weft/scenes/scene_file.hpp>
+#include <weft/scenes/scene_words.hpp>
 
 #include "apps/app.hpp"
 #include "apps/hand_over.hpp"
@@ -80,14 +82,11 @@ scenes::Scene requested_scene(const RunOptions& options) {
   if (!options.time_step.empty()) {
     scene.world.time_step = time_option("--time-step", options.time_step);
   }
-  if (options.integrator == "explicit_euler") {
-    scene.reference.integrator = scenes::Integrator::kExplicitEuler;
-  } else if (options.integrator == "modified_euler") {
-    scene.reference.integrator = scenes::Integrator::kModifiedEuler;
-  } else if (options.integrator == "velocity_verlet") {
-    scene.reference.integrator = scenes::Integrator::kVelocityVerlet;
-  } else if (options.integrator == "runge_kutta_4") {
-    scene.reference.integrator = scenes::Integrator::kRungeKutta4;
+  const auto word = std::find(scenes::kIntegratorWords.begin(), scenes::kIntegratorWords.end(),
+                              options.integrator);
+  if (word != scenes::kIntegratorWords.end()) {
+    scene.reference.integrator =
+        static_cast<scenes::Integrator>(word - scenes::kIntegratorWords.begin());
   }
   // The edited scene must hold to the same rules as a file.
   scene =
@@ -256,8 +255,8 @@ Action add_run_command(CLI::App& parser, const CommandLine& command_line) {
                       "Instead of the scene's, e.g. \"1/200 s\"");
   command
       ->add_option("--integrator", options->integrator, "Of the reference, instead of the scene's")
-      ->check(
-          CLI::IsMember({"explicit_euler", "modified_euler", "velocity_verlet", "runge_kutta_4"}));
+      ->check(CLI::IsMember(std::vector<std::string>(scenes::kIntegratorWords.begin(),
+                                                     scenes::kIntegratorWords.end())));
   command->add_flag("--bullet-time-step", options->bullet_time_step,
                     "Round the time step to single precision, as Bullet does");
   command

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,8 @@
 
 #include <weft/scenes/engines/engine_table.hpp>
 #include <weft/validation/cases.hpp>
+#include <weft/validation/cases/parameters.hpp>
+#include <weft/validation/report/ratio.hpp>
 #include <weft/validation/report/write.hpp>
 #include <weft/validation/suite.hpp>
 
@@ -27,11 +30,16 @@ struct ValidateOptions {
   int jobs = 0;
   bool no_pictures = false;
   bool render_only = false;
+  bool quick = false;
+  bool all = false;
+  bool list = false;
+  std::string engine;
+  validation::CaseValues values;
 };
 
 void print_table(const validation::Report& report) {
-  fmt::print("{:<16} {:<22} {:<52} {:>11} {:>11}  {}\n", "case", "engine", "metric", "measured",
-             "allowed", "verdict");
+  fmt::print("{:<16} {:<22} {:<52} {:>11} {:>11} {:>9}  {}\n", "case", "engine", "metric",
+             "measured", "allowed", "ratio", "verdict");
   for (const validation::CheckResult& check : report.checks) {
     const bool caught = std::all_of(check.sabotages.begin(), check.sabotages.end(),
                                     [](const auto& sabotage) { return sabotage.detected; });
@@ -40,15 +48,24 @@ void print_table(const validation::Report& report) {
                                                                         : "FAIL";
     const std::string metric =
         check.unit == "1" ? check.metric : fmt::format("{} [{}]", check.metric, check.unit);
-    fmt::print("{:<16} {:<22} {:<52} {:>11.3g} {:>11}  {}{}\n", check.case_id, check.engine, metric,
-               check.measured,
+    const std::optional<double> part = validation::ratio(check);
+    fmt::print("{:<16} {:<22} {:<52} {:>11.3g} {:>11} {:>9}  {}{}\n", check.case_id, check.engine,
+               metric, check.measured,
                check.tolerance ? fmt::format("{:.3g}", check.tolerance->value) : std::string("-"),
-               verdict, caught ? "" : " (a sabotage went unnoticed)");
+               part ? fmt::format("{:.2g}", *part) : std::string("-"), verdict,
+               caught ? "" : " (a sabotage went unnoticed)");
   }
 }
 
 std::string page_path(const ValidateOptions& options) {
   return (std::filesystem::absolute(options.output) / "index.html").lexically_normal().string();
+}
+
+int list_cases(const validation::SuiteOptions& suite) {
+  for (const validation::CaseInfo* info : validation::chosen_cases(suite)) {
+    fmt::print("{}", validation::describe(*info));
+  }
+  return kOk;
 }
 
 int validate(const ValidateOptions& options, const CommandLine& command_line) {
@@ -60,7 +77,12 @@ int validate(const ValidateOptions& options, const CommandLine& command_line) {
   suite.jobs = options.jobs > 0
                    ? options.jobs
                    : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  suite.cases = {.pictures = !options.no_pictures, .bullet = with_bullet};
+  suite.quick = options.quick;
+  suite.cases = {.pictures = !options.no_pictures,
+                 .bullet = with_bullet,
+                 .values = options.values,
+                 .engine = options.engine};
+  if (options.list) return list_cases(suite);
 
   validation::Report report;
   {
@@ -91,6 +113,27 @@ int render_again(const ValidateOptions& options) {
   return kOk;
 }
 
+/// An option for every name that some case has a parameter of.
+void add_parameters(CLI::App& command, validation::CaseValues& values) {
+  std::map<std::string_view, std::string> cases_of;
+  for (const validation::CaseInfo& info : validation::all_cases()) {
+    for (const validation::CaseParameter& parameter : info.parameters) {
+      std::string& cases = cases_of[parameter.name];
+      cases += (cases.empty() ? "" : ", ") + std::string(info.id);
+    }
+  }
+  for (const auto& [name, cases] : cases_of) {
+    command
+        .add_option_function<double>(
+            fmt::format("--{}", name),
+            [&values, name = std::string(name)](const double& value) { values[name] = value; },
+            "of " + cases)
+        ->group(
+            "One point of one case in place of its table (validate CASE --list tells units and "
+            "ranges)");
+  }
+}
+
 }  // namespace
 
 Action add_validate_command(CLI::App& parser, const CommandLine& command_line) {
@@ -101,7 +144,8 @@ Action add_validate_command(CLI::App& parser, const CommandLine& command_line) {
   for (const validation::CaseInfo& info : validation::all_cases()) {
     known += (known.empty() ? "" : ", ") + std::string(info.id);
   }
-  command->add_option("CASE", options->cases, "Which cases (default: all): " + known);
+  CLI::Option* names =
+      command->add_option("CASE", options->cases, "Which cases (default: all): " + known);
   command->add_option("-o,--output", options->output, "Folder of the report")
       ->capture_default_str();
   command->add_option("-j,--jobs", options->jobs, "Simulations at a time (default: one per core)")
@@ -111,7 +155,15 @@ Action add_validate_command(CLI::App& parser, const CommandLine& command_line) {
       ->add_flag(
           "--render-only", options->render_only,
           "Run nothing: write index.html anew from the report.json in the folder of --output")
-      ->excludes("CASE");
+      ->excludes(names);
+  CLI::Option* quick =
+      command->add_flag("--quick", options->quick, "Only the cases of the commit tier: minutes");
+  quick->excludes(names);
+  command->add_flag("--all", options->all, "Every case: as without --quick")->excludes(quick);
+  command->add_flag("--list", options->list, "Show the cases with their parameters and stop");
+  command->add_option("-e,--engine", options->engine,
+                      "Engine of the one point that is asked for: reference");
+  add_parameters(*command, options->values);
   return [options, command_line] {
     return options->render_only ? render_again(*options) : validate(*options, command_line);
   };

@@ -20,6 +20,7 @@ constexpr const char* kFooter = R"(Examples:
   weft check my_scene.toml                   is this scene file right?
   weft check-mesh shirt.obj                  can a body be made of this mesh?
   weft stability hang                        the largest stable step, over stiffness and inertia
+  weft reference hang -o hang.json           run to convergence, with two integrators
   weft validate -o report                    every case in every engine, as report/index.html
 
 A SCENE is a name from `weft list` or the path of a scene file (TOML).
@@ -47,6 +48,7 @@ int run(int argc, char** argv) {
   actions["check-mesh"] = add_check_mesh_command(parser);
   actions["contact-table"] = add_contact_table_command(parser);
   actions["stability"] = add_stability_command(parser);
+  actions["reference"] = add_reference_command(parser);
   actions["validate"] = add_validate_command(parser, command_line);
 
   try {

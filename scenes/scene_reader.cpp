@@ -27,7 +27,8 @@ constexpr std::array<std::string_view, 12> kRootKeys = {
 constexpr std::array<std::string_view, 4> kWorldKeys = {"gravity", "time_step", "duration",
                                                         "frame_interval"};
 constexpr std::array<std::string_view, 2> kBulletKeys = {"position_iterations", "concave"};
-constexpr std::array<std::string_view, 3> kReferenceKeys = {"integrator", "contact", "step_guard"};
+constexpr std::array<std::string_view, 6> kReferenceKeys = {
+    "integrator", "tolerance", "spectral_radius", "contact", "contact_points", "step_guard"};
 constexpr std::array<std::string_view, 5> kCameraKeys = {"position", "target", "field_of_view",
                                                          "follow", "poster_time"};
 
@@ -104,6 +105,15 @@ ReferenceSettings read_reference(const TomlTable& table) {
   ReferenceSettings settings;
   if (const auto value = table.find("integrator")) {
     settings.integrator = static_cast<Integrator>(value->choice(kIntegratorWords, "integrator"));
+  }
+  if (const auto value = table.find("tolerance")) settings.tolerance = value->positive("1");
+  if (const auto value = table.find("spectral_radius")) {
+    settings.spectral_radius = value->non_negative("1");
+    if (settings.spectral_radius > 1.0) value->fail("expected 0 to 1");
+  }
+  if (const auto value = table.find("contact_points")) {
+    settings.contact_points =
+        static_cast<ContactPoints>(value->choice(kContactPointsWords, "contact points"));
   }
   if (const auto value = table.find("contact")) {
     settings.contact = static_cast<ContactModel>(value->choice(kContactWords, "contact model"));

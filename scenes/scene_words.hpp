@@ -20,9 +20,12 @@ inline constexpr std::array<std::string_view, 10> kShapeWords = {
     "cone",   "convex_hull", "mesh",  "compound", "height_field"};
 inline constexpr std::array<std::string_view, 7> kPatternWords = {
     "plain", "checks", "stripes", "dots", "tartan", "carpet", "eyeball"};
-inline constexpr std::array<std::string_view, 4> kIntegratorWords = {
-    "explicit_euler", "modified_euler", "velocity_verlet", "runge_kutta_4"};
+inline constexpr std::array<std::string_view, 10> kIntegratorWords = {
+    "explicit_euler",    "modified_euler",   "velocity_verlet", "runge_kutta_4",
+    "yoshida_4",         "dormand_prince_5", "implicit_euler",  "tr_bdf2",
+    "implicit_midpoint", "generalized_alpha"};
 inline constexpr std::array<std::string_view, 2> kContactWords = {"projection", "impulse"};
+inline constexpr std::array<std::string_view, 2> kContactPointsWords = {"nodes", "nodes_and_faces"};
 inline constexpr std::array<std::string_view, 3> kStepGuardWords = {"report", "refuse", "substep"};
 inline constexpr std::array<std::string_view, 2> kConcaveWords = {"prisms", "triangles"};
 inline constexpr std::array<std::string_view, 4> kCornerWords = {"-u-v", "+u-v", "-u+v", "+u+v"};

@@ -263,7 +263,10 @@ void write_settings(std::string& out, const Scene& scene) {
   line(out, "concave", word(kConcaveWords, scene.bullet.concave));
   out += "\n[reference]\n";
   line(out, "integrator", word(kIntegratorWords, scene.reference.integrator));
+  line(out, "tolerance", value_text(scene.reference.tolerance, "1"));
+  line(out, "spectral_radius", value_text(scene.reference.spectral_radius, "1"));
   line(out, "contact", word(kContactWords, scene.reference.contact));
+  line(out, "contact_points", word(kContactPointsWords, scene.reference.contact_points));
   line(out, "step_guard", word(kStepGuardWords, scene.reference.step_guard));
   out += "\n[camera]\n";
   line(out, "position", vector_text(scene.camera.position, "m"));

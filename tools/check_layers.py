@@ -28,10 +28,11 @@ MAY_INCLUDE = {
     "scenes/engines": _ENGINES,
     "validation/metrics": _SCENES | {"validation/metrics"},
     "validation/report": _SCENES | {"validation/metrics", "validation/report"},
+    "validation/converged": _ALL | {"validation/converged"},
     "validation": _ALL,
-    "apps": _ALL | {"apps"},
+    "apps": _ALL | {"apps", "validation/converged"},
     "bench": _ALL | {"bench"},
-    "tests": _ALL | {"apps", "bench", "tests"},
+    "tests": _ALL | {"apps", "bench", "tests", "validation/converged"},
 }
 
 # Path prefixes where Bullet's own types may appear.

@@ -4,13 +4,12 @@
 
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/validation/cases.hpp>
+#include <weft/validation/cases/parameters.hpp>
 
 namespace weft::validation {
-namespace {
-
-std::vector<const CaseInfo*> chosen_cases(const std::vector<std::string>& ids) {
+std::vector<const CaseInfo*> chosen_cases(const SuiteOptions& options) {
   std::vector<const CaseInfo*> chosen;
-  for (const std::string& id : ids) {
+  for (const std::string& id : options.case_ids) {
     const auto found = std::find_if(all_cases().begin(), all_cases().end(),
                                     [&](const CaseInfo& info) { return info.id == id; });
     if (found != all_cases().end()) {
@@ -23,17 +22,22 @@ std::vector<const CaseInfo*> chosen_cases(const std::vector<std::string>& ids) {
     }
     throw InvalidArgument("validate: case '" + id + "' is unknown, expected one of: " + known);
   }
-  if (ids.empty()) {
-    for (const CaseInfo& info : all_cases()) chosen.push_back(&info);
+  const bool asks = !options.cases.values.empty() || !options.cases.engine.empty();
+  if (asks && chosen.size() != 1) {
+    throw InvalidArgument("validate: parameters and an engine are for one case, name it");
+  }
+  if (asks) check_values(*chosen[0], options.cases);
+  if (options.case_ids.empty()) {
+    for (const CaseInfo& info : all_cases()) {
+      if (!options.quick || info.tier == Tier::kCommit) chosen.push_back(&info);
+    }
   }
   return chosen;
 }
 
-}  // namespace
-
 Report run_suite(const SuiteOptions& options,
                  const std::function<void(const std::string& what, double fraction)>& progress) {
-  const std::vector<const CaseInfo*> cases = chosen_cases(options.case_ids);
+  const std::vector<const CaseInfo*> cases = chosen_cases(options);
   EngineRuns runs(options.weft, options.folder, options.jobs);
   for (const CaseInfo* info : cases) {
     if (info->plan) info->plan(*info, options.cases, runs);
@@ -52,9 +56,8 @@ Report run_suite(const SuiteOptions& options,
   report.limits = {
       "Cloth does not meet itself or other cloth in any engine of this report.",
       "Contact is between nodes and surfaces; edges and faces of the cloth may cut corners.",
-      "The reference is compared at Bullet's own time step; its error against a converged solution "
-      "is "
-      "not part of this report.",
+      "The reference is compared at Bullet's own time step; its error against a converged "
+      "solution is stated in work_precision, for two scenes.",
       "Sabotages are put into the reference's side of a pair; Bullet's side is not broken on "
       "purpose.",
       "No comparison with measured fabric.",

@@ -8,6 +8,8 @@
 #include <weft/scenes/controllers/director.hpp>
 #include <weft/scenes/engines/reference_tears.hpp>
 #include <weft/scenes/scene_words.hpp>
+#include <weft/scenes/shape_surface.hpp>
+#include <weft/validation/reference/contact/mesh_surface.hpp>
 #include <weft/validation/reference/solver.hpp>
 
 namespace weft::scenes {
@@ -43,12 +45,7 @@ forces::LawSet<double> make_laws(const Cloth& cloth, const ClothMesh& mesh,
   return laws;
 }
 
-reference::Body make_body(const Cloth& cloth, const LawFilter& filter) {
-  if (cloth.self_collision || cloth.soft_collision) {
-    throw InvalidArgument("reference: cloth '" + cloth.name +
-                          "': self_collision or soft_collision, expected neither, or one of the "
-                          "engines bullet_soft, bullet_forces");
-  }
+reference::Body make_body(const Cloth& cloth, bool faces, const LawFilter& filter) {
   reference::Body body;
   body.name = cloth.name;
   body.mesh = make_mesh(cloth);
@@ -58,6 +55,10 @@ reference::Body make_body(const Cloth& cloth, const LawFilter& filter) {
   body.velocities = std::move(start.velocities);
   body.collision_margin = cloth.collision_margin;
   body.friction = cloth.friction;
+  body.face_contact = faces;
+  body.self_contact = cloth.self_collision;
+  body.mutual_contact = cloth.soft_collision;
+  body.self_thickness = cloth.self_thickness.value_or(2 * cloth.collision_margin);
   return body;
 }
 
@@ -65,12 +66,33 @@ struct ToReferenceShape {
   reference::Shape operator()(const SphereShape& s) const { return reference::Sphere{s.radius}; }
   reference::Shape operator()(const BoxShape& b) const { return reference::Box{b.half_extents}; }
   reference::Shape operator()(const PlaneShape&) const { return reference::Plane{}; }
+  reference::Shape operator()(const CapsuleShape& c) const {
+    return reference::Capsule{c.radius, c.height};
+  }
+  reference::Shape operator()(const CylinderShape& c) const {
+    return reference::Cylinder{c.radius, c.height};
+  }
+  reference::Shape operator()(const ConeShape& c) const {
+    return reference::Cone{c.radius, c.height};
+  }
+  reference::Shape operator()(const ConvexHullShape& hull) const {
+    return (*this)(hull_surface(hull));
+  }
+  reference::Shape operator()(const MeshShape& mesh) const {
+    try {
+      return reference::Mesh{
+          std::make_shared<const reference::MeshSurface>(mesh.points, mesh.triangles)};
+    } catch (const InvalidArgument& error) {
+      throw InvalidArgument("reference: collider '" + name + "': " + error.what());
+    }
+  }
   template <class Other>
   reference::Shape operator()(const Other&) const {
     const std::string_view word = kShapeWords[Shape(Other{}).index()];
     throw InvalidArgument("reference: collider '" + name + "': shape = \"" + std::string(word) +
-                          "\", expected sphere, box or plane, or one of the engines bullet_soft, "
-                          "bullet_forces, bullet_deformable, bullet_deformable_implicit");
+                          "\", expected any shape but compound and height_field, or one of the "
+                          "engines bullet_soft, bullet_forces, bullet_deformable, "
+                          "bullet_deformable_implicit");
   }
 
   const std::string& name;
@@ -92,17 +114,30 @@ reference::Collider make_collider(const Collider& collider) {
 }
 
 reference::IntegratorKind to_reference(Integrator integrator) {
+  using Kind = reference::IntegratorKind;
   switch (integrator) {
     case Integrator::kExplicitEuler:
-      return reference::IntegratorKind::kExplicitEuler;
+      return Kind::kExplicitEuler;
     case Integrator::kModifiedEuler:
-      return reference::IntegratorKind::kModifiedEuler;
+      return Kind::kModifiedEuler;
     case Integrator::kVelocityVerlet:
-      return reference::IntegratorKind::kVelocityVerlet;
+      return Kind::kVelocityVerlet;
     case Integrator::kRungeKutta4:
+      return Kind::kRungeKutta4;
+    case Integrator::kYoshida4:
+      return Kind::kYoshida4;
+    case Integrator::kDormandPrince5:
+      return Kind::kDormandPrince5;
+    case Integrator::kImplicitEuler:
+      return Kind::kImplicitEuler;
+    case Integrator::kTrBdf2:
+      return Kind::kTrBdf2;
+    case Integrator::kImplicitMidpoint:
+      return Kind::kImplicitMidpoint;
+    case Integrator::kGeneralizedAlpha:
       break;
   }
-  return reference::IntegratorKind::kRungeKutta4;
+  return Kind::kGeneralizedAlpha;
 }
 
 reference::GuardPolicy to_reference(StepGuard guard) {
@@ -120,12 +155,17 @@ reference::GuardPolicy to_reference(StepGuard guard) {
 void ReferenceSimulator::load(const Scene& scene) {
   reference::System system;
   system.gravity = scene.world.gravity;
-  for (const Cloth& cloth : scene.cloths) system.bodies.push_back(make_body(cloth, filter_));
+  const bool faces = scene.reference.contact_points == ContactPoints::kNodesAndFaces;
+  for (const Cloth& cloth : scene.cloths) {
+    system.bodies.push_back(make_body(cloth, faces, filter_));
+  }
   for (const Collider& collider : scene.colliders) {
     system.colliders.push_back(make_collider(collider));
   }
   reference::SolverOptions options;
   options.integrator = to_reference(scene.reference.integrator);
+  options.settings.relative_tolerance = scene.reference.tolerance;
+  options.settings.spectral_radius = scene.reference.spectral_radius;
   options.contact = scene.reference.contact == ContactModel::kProjection
                         ? reference::ContactKind::kProjection
                         : reference::ContactKind::kImpulse;

@@ -32,6 +32,10 @@ void ReferenceTears::apply(const Tear& tear, Entry& entry, reference::SpringSolv
   }
   body.collision_margin = old.collision_margin;
   body.friction = old.friction;
+  body.face_contact = old.face_contact;
+  body.self_contact = old.self_contact;
+  body.mutual_contact = old.mutual_contact;
+  body.self_thickness = old.self_thickness;
   solver.replace_body(entry.cloth, std::move(body));
   entry.torn.adopt(tear);
 }

@@ -106,6 +106,11 @@ check "a row for each scene" test "$(grep -c "^| !\[drape_sphere\]" pages/scenes
 check "a picture for each scene" test -s pages/img/scenes/drape_sphere.png
 check "contact sheet of nothing" exits 2 contact-sheet no_such_scene -o sheet.png
 check "integrator of the reference only" exits 2 run hang -e bullet_soft --integrator runge_kutta_4 -o x.weftrec
+check "reference: a time without its unit" exits 2 reference hang --time 1
+check "reference: too few levels" exits 2 reference hang --levels 2
+check "reference: no folder for its output" exits 2 reference hang -o /no/such/folder/r.json
+check "reference: a gate that is out of reach" exits 1 reference hang --time "0.005 s" --levels 3 --gate 1e-15 -o r.json
+check "its order is there all the same" grep -q '"observed_order": [12]' r.json
 check "impossible output" exits 2 "${short[@]}" -o /no/such/folder/a.weftrec
 
 # Blow-up as data
@@ -153,6 +158,22 @@ fi
 # A report
 check "validate" exits 0 validate oscillator hanging_chain -o report --no-pictures
 for file in index.html report.json junit.xml; do check "$file" test -s report/$file; done
+check "one point of a case" exits 0 validate cantilever --gamma 3.7 --nodes 60 --angle 17 --engine reference -o report --no-pictures
+check "one point: says where" grep -q "N = 60, grid at 16.7 degrees" out
+cp report/index.html first.html && echo "an older page" >report/index.html
+check "the page again" exits 0 validate --render-only -o report
+check "which is the same" cmp report/index.html first.html
+check "the page of no report" exits 2 validate --render-only -o none
+check "says what is missing" grep -q "none/report.json" err
+check "render only and a case" exits 2 validate catenary --render-only -o report
+check "a value out of range" exits 2 validate cantilever --gamma 900 -o none
+check "a value out of range: says what is expected" grep -q "gamma = 900 \[1\], expected 0.05 to 500" err
+check "a parameter of another case" exits 2 validate catenary --gamma 1 -o none
+check "a parameter without a case" exits 2 validate --gamma 1 -o none
+check "no report from bad input" test ! -e none
+check "quick and a case" exits 2 validate catenary --quick -o none
+check "list of the cases" exits 0 validate --list
+check "list: parameters with unit and range" grep -q -- "--gamma \[1\].*0.05 to 500" out
 
 echo "$((checks - failures)) passed, $failures failed"
 [ "$failures" -eq 0 ]

@@ -118,15 +118,36 @@ TEST(BulletShapes, ABodyStandsWhereTheSceneSaysAndTurnsAboutItsCentreOfMass) {
 TEST(BulletShapes, TheReferenceRefusesWhatItDoesNotKnowByName) {
   const auto engine = find_engine("reference", StoredPrecision::kFloat64)->make();
   try {
-    engine->load(scene_with({.name = "pill", .shape = CapsuleShape{0.1, 0.2}}));
+    engine->load(scene_with({.name = "pair", .shape = CompoundShape{{{SphereShape{0.1}}}}}));
     FAIL() << "loaded";
   } catch (const InvalidArgument& error) {
-    EXPECT_THAT(error.what(), HasSubstr("collider 'pill': shape = \"capsule\""));
+    EXPECT_THAT(error.what(), HasSubstr("collider 'pair': shape = \"compound\""));
     EXPECT_THAT(error.what(), HasSubstr("bullet_soft"));
   }
-  Scene scene = scene_with({.name = "floor", .shape = PlaneShape{}});
-  scene.cloths[0].self_collision = true;
-  EXPECT_THROW(engine->load(scene), InvalidArgument);
+  MeshShape open = shape_surface(BoxShape{{0.1, 0.2, 0.3}});
+  open.triangles.conservativeResize(3, open.triangles.cols() - 1);
+  try {
+    engine->load(scene_with({.name = "tray", .shape = open}));
+    FAIL() << "loaded";
+  } catch (const InvalidArgument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("collider 'tray'"));
+    EXPECT_THAT(error.what(), HasSubstr("expected a closed surface"));
+  }
+}
+
+TEST(BulletShapes, TheReferenceTakesRoundShapesClosedMeshesAndSelfCollision) {
+  const auto engine = find_engine("reference", StoredPrecision::kFloat64)->make();
+  Matrix3X<double> corners(3, 4);
+  corners << 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1;
+  for (const Shape& shape :
+       {Shape(CapsuleShape{0.1, 0.2}), Shape(CylinderShape{0.1, 0.2}), Shape(ConeShape{0.1, 0.2}),
+        Shape(ConvexHullShape{corners}), Shape(shape_surface(BoxShape{{0.1, 0.2, 0.3}}))}) {
+    Scene scene = scene_with({.name = "shape", .shape = shape});
+    scene.cloths[0].self_collision = true;
+    scene.reference.contact_points = ContactPoints::kNodesAndFaces;
+    engine->load(scene);
+    EXPECT_FALSE(engine->step(1e-3).blow_up) << shape.index();
+  }
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ double rounding(StoredPrecision precision) {
 
 class CharacterEngines : public testing::TestWithParam<const EngineInfo*> {
  protected:
-  /// The figure with limits so tight that both act at once. The reference knows no capsules.
+  /// The figure with limits so tight that both act at once. The reference runs without its capsules.
   [[nodiscard]] static Scene scene() {
     Scene scene = with_bullets_time_step(load_scene("caped_figure"));
     scene.characters[0].cloths[0].reach.max_distance = 0.03;

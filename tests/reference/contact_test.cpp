@@ -122,14 +122,15 @@ ContactProblem crowded_problem(double friction) {
     problem.points.push_back(
         {.node = i, .inverse_mass = 10.0 + 5 * i, .velocity = numbers.vector()});
     const Vec normal = (Vec(0, -1, 0) + 0.6 * numbers.vector()).normalized();
-    problem.contacts.push_back({.point = i,
+    problem.contacts.push_back({.on = {.points = {i, -1, -1, -1}},
                                 .rigid = 0,
                                 .normal = normal,
                                 .lever = 0.4 * normal + 0.1 * numbers.vector(),
                                 .target_speed = 0.1 * numbers.next(),
                                 .friction = friction});
     if (i % 3 == 0) {
-      problem.contacts.push_back({.point = i, .rigid = 1, .friction = 0.5 * friction});
+      problem.contacts.push_back(
+          {.on = {.points = {i, -1, -1, -1}}, .rigid = 1, .friction = 0.5 * friction});
     }
   }
   return problem;

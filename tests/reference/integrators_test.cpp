@@ -8,6 +8,7 @@ namespace weft::reference::testing {
 namespace {
 
 using Eigen::Matrix2d;
+using Eigen::Matrix3d;
 using Eigen::Vector2d;
 
 /// x'' = -w^2 x - (spring + velocity) x'.
@@ -43,8 +44,54 @@ Matrix2d propagation(IntegratorKind integrator, const Oscillator& o, double h) {
       const Matrix2d z = h * system;
       return Matrix2d::Identity() + z + z * z / 2 + z * z * z / 6 + z * z * z * z / 24;
     }
+    case IntegratorKind::kDormandPrince5: {
+      const Matrix2d z = h * system;
+      const Matrix2d z2 = z * z, z3 = z2 * z;
+      return Matrix2d::Identity() + z + z2 / 2 + z3 / 6 + z2 * z2 / 24 + z2 * z3 / 120 +
+             z3 * z3 / 600;
+    }
+    case IntegratorKind::kYoshida4: {
+      const double w1 = 1 / (2 - std::cbrt(2.0));
+      step.setIdentity();
+      for (const double part : {w1, 1 - 2 * w1, w1}) {
+        const double s = part * h;
+        const double c = o.spring_rate + o.velocity_rate;
+        Matrix2d kick, drift;  // over s / 2 and s
+        kick << 1, 0, -s / 2 * w2 / (1 + s * c / 4), (1 - s * c / 4) / (1 + s * c / 4);
+        drift << 1, s, 0, 1;
+        step = kick * drift * kick * step;
+      }
+      return step;
+    }
+    case IntegratorKind::kImplicitEuler:
+      return (Matrix2d::Identity() - h * system).inverse();
+    case IntegratorKind::kImplicitMidpoint:
+      return (Matrix2d::Identity() - h / 2 * system).inverse() *
+             (Matrix2d::Identity() + h / 2 * system);
+    case IntegratorKind::kTrBdf2: {
+      const double part = 2 - std::sqrt(2.0);
+      const Matrix2d inverse = (Matrix2d::Identity() - part / 2 * h * system).inverse();
+      const Matrix2d middle = inverse * (Matrix2d::Identity() + part / 2 * h * system);
+      const double scale = 1 / (part * (2 - part));
+      return inverse * (scale * middle - scale * (1 - part) * (1 - part) * Matrix2d::Identity());
+    }
+    case IntegratorKind::kGeneralizedAlpha:
+      break;  // has a state of three numbers: alpha_propagation()
   }
   return step;
+}
+
+/// Generalised alpha on (x, v, a), from its four equations.
+Matrix3d alpha_propagation(double rho, const Oscillator& o, double h) {
+  const double w2 = o.omega * o.omega;
+  const double c = o.spring_rate + o.velocity_rate;
+  const double am = (2 * rho - 1) / (rho + 1), af = rho / (rho + 1);
+  const double gamma = 0.5 - am + af, beta = std::pow(1 - am + af, 2) / 4;
+  // Unknowns (x1, v1, a1): left (x1, v1, a1) = right (x0, v0, a0).
+  Matrix3d left, right;
+  left << 1, 0, -h * h * beta, 0, 1, -h * gamma, (1 - af) * w2, (1 - af) * c, 1 - am;
+  right << 1, h, h * h * (0.5 - beta), 0, 1, h * (1 - gamma), -af * w2, -af * c, -am;
+  return left.inverse() * right;
 }
 
 constexpr double kMass = 0.3;        // [kg]
@@ -65,8 +112,12 @@ void expect_discrete_formula(IntegratorKind integrator, const Oscillator& o, Bod
                              const std::string& what) {
   const double h = 0.1 / o.omega;
   body.positions(0, 1) += kAmplitude;
-  Vector2d expected(kAmplitude, 0.0);
-  const Matrix2d matrix = propagation(integrator, o, h);
+  Eigen::VectorXd expected = Vector2d(kAmplitude, 0.0);
+  Eigen::MatrixXd matrix = propagation(integrator, o, h);
+  if (integrator == IntegratorKind::kGeneralizedAlpha) {
+    expected = Eigen::Vector3d(kAmplitude, 0.0, -o.omega * o.omega * kAmplitude);
+    matrix = alpha_propagation(IntegratorSettings{}.spectral_radius, o, h);
+  }
   double scale = 0.0;  // largest amplitude so far: a decayed tail keeps the rounding of its start
   SpringSolver solver = solver_of(std::move(body), integrator);
   for (int n = 0; n < kSteps; ++n) {
@@ -114,6 +165,7 @@ TEST(Integrators, AFormulaWithAnotherRateIsTold) {
   const Oscillator wrong{omega * (1 + 1e-6), 0.4, 0.7};
   const double h = 0.1 / omega;
   for (const IntegratorKind integrator : kAllIntegrators) {
+    if (integrator == IntegratorKind::kGeneralizedAlpha) continue;  // not by propagation()
     Vector2d x(1, 0), y(1, 0);
     const Matrix2d first = propagation(integrator, right, h);
     const Matrix2d second = propagation(integrator, wrong, h);
@@ -159,7 +211,7 @@ Body spring_pendulum() {
   return body;
 }
 
-TEST(RungeKutta4, ReproducesTheSpringPendulumTable) {
+TEST(MethodsOfHighOrder, ReproduceTheSpringPendulumTable) {
   // Time [s], x, y [m]: an independent Runge-Kutta solution, error <= 1e-8.
   const double table[][3] = {{0.5, -.069627411, -1.217504590},
                              {1.0, -.348251841, -.821392145},
@@ -168,17 +220,22 @@ TEST(RungeKutta4, ReproducesTheSpringPendulumTable) {
                              {10.0, .347049829, -1.137932779}};
   constexpr double kTableError = 1e-8;   // [m]
   constexpr int kStepsPerSecond = 4000;  // own error (w h)^4 w T / 120 = 3e-11 m
-  SpringSolver solver = solver_of(spring_pendulum(), IntegratorKind::kRungeKutta4);
-  int done = 0;
-  for (const auto& row : table) {
-    for (; done < std::lround(row[0] * kStepsPerSecond); ++done) {
-      (void)solver.step(1.0 / kStepsPerSecond);
-    }
-    EXPECT_NEAR(solver.system().bodies[0].positions(0, 1), row[1], kTableError) << row[0];
-    EXPECT_NEAR(solver.system().bodies[0].positions(1, 1), row[2], kTableError) << row[0];
-    if (done == kStepsPerSecond / 2) {
-      EXPECT_NEAR(solver.system().bodies[0].velocities(0, 1), -1.285588836, 10 * kTableError);
-      EXPECT_NEAR(solver.system().bodies[0].velocities(1, 1), -2.354737000, 10 * kTableError);
+  for (const IntegratorKind integrator :
+       {IntegratorKind::kRungeKutta4, IntegratorKind::kYoshida4, IntegratorKind::kDormandPrince5}) {
+    SpringSolver solver = solver_of(spring_pendulum(), integrator);
+    int done = 0;
+    for (const auto& row : table) {
+      for (; done < std::lround(row[0] * kStepsPerSecond); ++done) {
+        (void)solver.step(1.0 / kStepsPerSecond);
+      }
+      EXPECT_NEAR(solver.system().bodies[0].positions(0, 1), row[1], kTableError)
+          << row[0] << name_of(integrator);
+      EXPECT_NEAR(solver.system().bodies[0].positions(1, 1), row[2], kTableError)
+          << row[0] << name_of(integrator);
+      if (done == kStepsPerSecond / 2) {
+        EXPECT_NEAR(solver.system().bodies[0].velocities(0, 1), -1.285588836, 10 * kTableError);
+        EXPECT_NEAR(solver.system().bodies[0].velocities(1, 1), -2.354737000, 10 * kTableError);
+      }
     }
   }
 }
@@ -204,15 +261,18 @@ void expect_orders(Body (*make)()) {
   const struct {
     IntegratorKind integrator;
     int order;
-    int steps;  // enough to be in the asymptotic range
-  } cases[] = {{IntegratorKind::kExplicitEuler, 1, 8000},
-               {IntegratorKind::kModifiedEuler, 1, 2000},
-               {IntegratorKind::kVelocityVerlet, 2, 200},
-               {IntegratorKind::kRungeKutta4, 4, 100}};
+    int steps;         // enough to be in the asymptotic range
+    int halvings = 3;  // few enough to stay above rounding, 1e-14 m
+  } cases[] = {
+      {IntegratorKind::kExplicitEuler, 1, 8000},   {IntegratorKind::kModifiedEuler, 1, 2000},
+      {IntegratorKind::kVelocityVerlet, 2, 200},   {IntegratorKind::kRungeKutta4, 4, 100},
+      {IntegratorKind::kYoshida4, 4, 100},         {IntegratorKind::kDormandPrince5, 5, 100, 2},
+      {IntegratorKind::kImplicitEuler, 1, 2000},   {IntegratorKind::kTrBdf2, 2, 200},
+      {IntegratorKind::kImplicitMidpoint, 2, 200}, {IntegratorKind::kGeneralizedAlpha, 2, 200}};
   constexpr double kOrderTolerance = 0.15;
   for (const auto& c : cases) {
     double previous = 0.0;
-    for (int halving = 0; halving < 4; ++halving) {
+    for (int halving = 0; halving <= c.halvings; ++halving) {
       const double error = (end_state(make(), c.integrator, c.steps << halving) - truth).norm();
       if (halving > 0) {
         EXPECT_NEAR(std::log2(previous / error), c.order, kOrderTolerance)

@@ -75,13 +75,21 @@ inline System system_of(Body body) {
   return system;
 }
 
+/// A solver whose steps are all taken as one, whatever its error: what a discrete formula is about.
+inline constexpr IntegratorSettings kNoErrorControl{.relative_tolerance = 1e200,
+                                                    .absolute_tolerance = 1e200};
+
 inline SpringSolver solver_of(Body body, IntegratorKind integrator) {
-  return SpringSolver(system_of(std::move(body)), {.integrator = integrator});
+  return SpringSolver(system_of(std::move(body)),
+                      {.integrator = integrator, .settings = kNoErrorControl});
 }
 
 inline constexpr IntegratorKind kAllIntegrators[] = {
-    IntegratorKind::kExplicitEuler, IntegratorKind::kModifiedEuler, IntegratorKind::kVelocityVerlet,
-    IntegratorKind::kRungeKutta4};
+    IntegratorKind::kExplicitEuler,    IntegratorKind::kModifiedEuler,
+    IntegratorKind::kVelocityVerlet,   IntegratorKind::kRungeKutta4,
+    IntegratorKind::kYoshida4,         IntegratorKind::kDormandPrince5,
+    IntegratorKind::kImplicitEuler,    IntegratorKind::kTrBdf2,
+    IntegratorKind::kImplicitMidpoint, IntegratorKind::kGeneralizedAlpha};
 
 inline std::string name_of(IntegratorKind integrator) {
   switch (integrator) {
@@ -93,6 +101,18 @@ inline std::string name_of(IntegratorKind integrator) {
       return "velocity Verlet";
     case IntegratorKind::kRungeKutta4:
       return "Runge-Kutta 4";
+    case IntegratorKind::kYoshida4:
+      return "Yoshida 4";
+    case IntegratorKind::kDormandPrince5:
+      return "Dormand-Prince 5(4)";
+    case IntegratorKind::kImplicitEuler:
+      return "implicit Euler";
+    case IntegratorKind::kTrBdf2:
+      return "TR-BDF2";
+    case IntegratorKind::kImplicitMidpoint:
+      return "implicit midpoint";
+    case IntegratorKind::kGeneralizedAlpha:
+      return "generalised alpha";
   }
   return "?";
 }

@@ -109,6 +109,7 @@ inline constexpr auto kMalformedCases = std::to_array<MalformedCase>({
     {"unknown_corner", 13, 19, "unknown corner, expected one of -u-v"},
     {"unknown_edge_set", 16, 25, "unknown edge set of this cloth, expected one of stretch, shear, bend"},
     {"unknown_integrator", 18, 14, "did you mean 'modified_euler'?"},
+    {"spectral_radius_out_of_range", 19, 19, "expected 0 to 1"},
     {"unknown_key", 21, 1, "collider.raduis: unknown key, did you mean 'radius'?"},
     {"unknown_law", 15, 7, "unknown law, did you mean 'tension'?"},
     {"unknown_parameter", 17, 1, "did you mean 'stiffness'?"},

@@ -82,8 +82,11 @@ shape = "plane"
 [bullet]
 position_iterations = 7
 [reference]
-integrator = "runge_kutta_4"
+integrator = "tr_bdf2"
+tolerance = 1e-8
+spectral_radius = 0.25
 contact = "projection"
+contact_points = "nodes_and_faces"
 step_guard = "substep"
 [camera]
 position = ["1 m", "2 m", "3 m"]
@@ -225,7 +228,10 @@ TEST(SceneFile, EveryKeyReachesTheScene) {
   EXPECT_EQ(std::get<BoxShape>(scene.colliders.at(1).shape).half_extents,
             Vector3<double>(0.5 / 3.0, 1.0, 1.5));
   EXPECT_TRUE(std::holds_alternative<PlaneShape>(scene.colliders.at(2).shape));
-  EXPECT_EQ(scene.reference.integrator, Integrator::kRungeKutta4);
+  EXPECT_EQ(scene.reference.integrator, Integrator::kTrBdf2);
+  EXPECT_EQ(scene.reference.tolerance, 1e-8);
+  EXPECT_EQ(scene.reference.spectral_radius, 0.25);
+  EXPECT_EQ(scene.reference.contact_points, ContactPoints::kNodesAndFaces);
   EXPECT_EQ(scene.reference.contact, ContactModel::kProjection);
   EXPECT_EQ(scene.reference.step_guard, StepGuard::kSubstep);
 }

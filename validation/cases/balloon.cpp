@@ -3,11 +3,15 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include <weft/custom_forces/core/icosphere.hpp>
 #include <weft/custom_forces/pressure.hpp>
 #include <weft/custom_forces/registry.hpp>
 #include <weft/validation/cases/analytic_cases.hpp>
+#include <weft/validation/cases/parameters.hpp>
 #include <weft/validation/cases/small_systems.hpp>
 
 namespace weft::validation {
@@ -161,7 +165,7 @@ double limit_load(double stiffness_factor) {
   return 0.5 * (low + high);
 }
 
-constexpr std::array kTargets = {0.05, 0.1, 0.2, 0.5, 1.0, 1.5};
+const std::vector<double> kTargets = {0.05, 0.1, 0.2, 0.5, 1.0, 1.5};
 
 struct Curve {
   Series series{"measured", {}, {}};
@@ -169,9 +173,9 @@ struct Curve {
   double largest_virial = 0;
 };
 
-Curve measured_curve(double stiffness_factor) {
+Curve measured_curve(double stiffness_factor, const std::vector<double>& targets) {
   Curve curve;
-  for (const double target : kTargets) {
+  for (const double target : targets) {
     const Equilibrium e = inflated(target, stiffness_factor);
     curve.series.x.push_back(e.stretch);
     curve.series.y.push_back(e.load);
@@ -202,21 +206,33 @@ void judge_with(CheckResult& check, const Tolerance& tolerance, double right, do
   check.sabotages.push_back({sabotage, wrong, judge(wrong, tolerance) == Verdict::kFail});
 }
 
+constexpr std::array kParameters = {
+    CaseParameter{"stretch", "1", "e = R / R0 - 1 of the balloon", 0.02, 2.0, 0.5},
+};
+
 }  // namespace
 
-void evaluate_balloon(const CaseInfo& info, const CaseOptions&, const EngineRuns&, Report& report) {
+std::span<const CaseParameter> balloon_parameters() {
+  return kParameters;
+}
+
+void evaluate_balloon(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
+                      Report& report) {
   constexpr double kWrong = 1.03;
   const std::string sabotage = "spring constant +3 %";
   const Tolerance one_percent{
       0.01, Basis::kTruncation,
       "the icosphere of 642 nodes is no lattice of equal triangles: the sum "
       "of its squared edges is 0.7 % larger for the same area"};
-  const Curve right = measured_curve(1.0);
-  const Curve wrong = measured_curve(kWrong);
+  const std::vector<double> targets =
+      asks_for_point(options) ? std::vector<double>{value_of(info, options, "stretch")} : kTargets;
+  const Curve right = measured_curve(1.0, targets);
+  const Curve wrong = measured_curve(kWrong, targets);
 
   CheckResult curve =
       check_of(info, "a balloon of springs follows the pressure curve of the lattice",
-               "largest relative error of the pressure, e = 0.05 to 1.5",
+               fmt::format("largest relative error of the pressure, e = {} to {}", targets.front(),
+                           targets.back()),
                "dp R0 / k = 2 sqrt(3) e / (1 + e)^2, e = (V / V0)^(1/3) - 1");
   curve.source = "Laplace's law with the tension sqrt(3) k e / (1 + e) of a triangular lattice";
   curve.note = "the pressure law, the tension law, or the balloon has not come to rest";
@@ -233,6 +249,7 @@ void evaluate_balloon(const CaseInfo& info, const CaseOptions&, const EngineRuns
              right.largest_virial, std::abs(inflated(1.0, 1.0, 1.0).virial - 1),
              "outside pressure of 1 Pa");
   report.checks.push_back(std::move(virial));
+  if (asks_for_point(options)) return;
 
   CheckResult limit = check_of(info, "above its limit load the balloon has no equilibrium",
                                "relative error of the largest constant pressure that it bears",

@@ -12,6 +12,7 @@
 #include <weft/custom_forces/core/cloth_grid.hpp>
 #include <weft/custom_forces/core/hinges.hpp>
 #include <weft/custom_forces/registry.hpp>
+#include <weft/validation/cases/lattice_strip.hpp>
 #include <weft/validation/reference/statics/coupling.hpp>
 
 namespace weft::validation {
@@ -234,12 +235,43 @@ reference::StaticProblem endless(const reference::StaticProblem& whole, const Pe
   return problem;
 }
 
+bool is_odd(const Strip& strip) {
+  return strip.angle != 0 && strip.angle != 45 && strip.angle != 90;
+}
+
+ClothMesh odd_strip(const Strip& strip) {
+  return make_lattice_strip(nearest_direction(strip.angle), strip.num_cells, strip.length,
+                            strip.area_density);
+}
+
+/// Across the strip, until its nodes repeat [m].
+double repeat_of(const Strip& strip, const ClothMesh& mesh) {
+  const double spacing = strip.length / strip.num_cells;
+  if (is_odd(strip)) {
+    // The two legs of a triangle are a spacing long.
+    const double edge = (mesh.rest_positions.col(mesh.triangles(1, 0)) -
+                         mesh.rest_positions.col(mesh.triangles(0, 0)))
+                            .norm();
+    const double other = (mesh.rest_positions.col(mesh.triangles(2, 0)) -
+                          mesh.rest_positions.col(mesh.triangles(0, 0)))
+                             .norm();
+    return nearest_direction(strip.angle).period() * std::min(edge, other);
+  }
+  return strip.angle == 45 ? strip.length / num_diagonals(strip) : 2 * spacing;
+}
+
+double width_of(const ClothMesh& mesh) {
+  return mesh.rest_positions.row(2).maxCoeff() - mesh.rest_positions.row(2).minCoeff();
+}
+
 }  // namespace
 
 ClothMesh make_strip(const Strip& strip) {
-  ClothMesh mesh = strip.angle == 45 ? diagonal_strip(strip) : straight_strip(strip);
+  ClothMesh mesh = is_odd(strip)       ? odd_strip(strip)
+                   : strip.angle == 45 ? diagonal_strip(strip)
+                                       : straight_strip(strip);
   const double near = 1e-3 * strip.length / strip.num_cells;
-  for (int node = 0; node < mesh.num_nodes(); ++node) {
+  for (int node = 0; node < mesh.num_nodes() && !is_odd(strip); ++node) {
     if (mesh.rest_positions(0, node) < near) mesh.pinned.push_back(node);
   }
   if (strip.jitter > 0) jitter(strip, mesh);
@@ -259,23 +291,50 @@ StripTip strip_tip(const ClothMesh& mesh, ConstMatrix3XRef<double> positions) {
   return {tip.drop / count, tip.reach / count};
 }
 
-BentStrip bend_strip(const StripModel& model, const Matrix3X<double>& start) {
-  BentStrip result;
+reference::Body make_strip_body(const StripModel& model) {
   const Strip& strip = model.strip;
   reference::Body body;
   body.name = "strip";
   body.mesh = make_strip(strip);
   if (model.cut_one_way) body.mesh.crossed_triangles.resize(3, 0);
   const double weight = strip.area_density * kGravity * strip.length;  // per width [N/m]
+  if (model.is_tip_load) {
+    const double end = body.mesh.rest_positions.row(0).maxCoeff() * (1 - 1e-9);
+    const double whole = strip.area_density * strip.length * width_of(body.mesh);
+    double at_tip = 0;
+    for (int node = 0; node < body.mesh.num_nodes(); ++node) {
+      if (body.mesh.rest_positions(0, node) >= end) at_tip += body.mesh.masses[node];
+    }
+    for (int node = 0; node < body.mesh.num_nodes(); ++node) {
+      // What the others weigh is below rounding.
+      const bool is_tip = body.mesh.rest_positions(0, node) >= end;
+      body.mesh.masses[node] *= is_tip ? whole / at_tip : 1e-20;
+    }
+  }
   const double rigidity = weight * strip.length * strip.length / model.gamma;
+  const Vector3<double> gravity =
+      kGravity * Vector3<double>(std::sin(model.tilt), -std::cos(model.tilt), 0);
   for (const forces::LawSpecification& law : std::vector<forces::LawSpecification>{
            {"tension", {}, {{"stiffness", {weight / model.strain}}}},
            {"hinge_torsion",
             {},
             {{"rigidity", {rigidity}}, {"clamp_factor", {model.clamp_factor}}}},
-           {"gravity", {}, {{"acceleration", {0, -kGravity, 0}}}}}) {
+           {"gravity", {}, {{"acceleration", {gravity.x(), gravity.y(), gravity.z()}}}}}) {
     body.laws.add(forces::make_law<double>(law, body.mesh));
   }
+  return body;
+}
+
+BentStrip bend_strip(const StripModel& model, const Matrix3X<double>& start) {
+  constexpr double kFirstGamma = 2.0;  // a straight strip finds its way to this load at once
+  if (start.cols() == 0 && model.gamma > kFirstGamma) {
+    StripModel softer = model;
+    softer.gamma = std::max(kFirstGamma, model.gamma / 3);
+    return bend_strip(model, bend_strip(softer).positions);
+  }
+  BentStrip result;
+  const Strip& strip = model.strip;
+  reference::Body body = make_strip_body(model);
   const reference::StaticProblem whole =
       reference::static_problem(body, body.mesh.masses.sum() * kGravity);
   reference::StaticOptions options;
@@ -285,14 +344,16 @@ BentStrip bend_strip(const StripModel& model, const Matrix3X<double>& start) {
   Matrix3X<double> positions = start.cols() > 0 ? start : body.mesh.rest_positions;
   if (model.is_endless) {
     // The period in the middle; the rest is there so that it has neighbours.
-    const double spacing = strip.angle == 45 ? strip.length / num_diagonals(strip)
-                                             : 2 * strip.length / strip.num_cells;
+    const double spacing = repeat_of(strip, body.mesh);
     const double middle =
         (body.mesh.rest_positions.row(2).minCoeff() + body.mesh.rest_positions.row(2).maxCoeff()) /
         2;
     const double begin =
         body.mesh.rest_positions.row(2).minCoeff() +
-        std::floor((middle - body.mesh.rest_positions.row(2).minCoeff()) / spacing) * spacing;
+        (is_odd(strip)
+             ? middle - body.mesh.rest_positions.row(2).minCoeff() - spacing / 2
+             : std::floor((middle - body.mesh.rest_positions.row(2).minCoeff()) / spacing) *
+                   spacing);
     const Periodicity period = periodicity_of(body.mesh, spacing, begin);
     const reference::StaticProblem problem = endless(whole, period);
     Matrix3X<double> unknowns = fold(period, positions);
@@ -302,7 +363,10 @@ BentStrip bend_strip(const StripModel& model, const Matrix3X<double>& start) {
     result.converged = reference::solve_statics(whole, positions, options).converged;
   }
   const StripTip tip = strip_tip(body.mesh, positions);
-  result.drop_over_reach = tip.drop / tip.reach;
+  const double c = std::cos(model.tilt);
+  const double sine = std::sin(model.tilt);
+  result.tip = {c * tip.drop + sine * tip.reach, c * tip.reach - sine * tip.drop};
+  result.drop_over_reach = result.tip.drop / result.tip.reach;
   result.positions = std::move(positions);
   result.mesh = std::move(body.mesh);
   return result;

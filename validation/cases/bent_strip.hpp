@@ -8,8 +8,9 @@ namespace weft::validation {
 /// A strip of cloth along x, clamped left of x = 0, that hangs down under gravity along -y.
 struct Strip {
   /// Direction of the grid's lines to the strip [deg]: 0, 90, or 45, where the strip is cut along
-  /// the diagonals.
-  int angle = 0;
+  /// the diagonals; any other is for an endless sheet (is_endless), in the nearest direction in which a grid
+  /// repeats (lattice_strip.hpp).
+  double angle = 0.0;
   int num_cells = 40;   ///< N: length over the spacing of the grid's nodes; even for 45 degrees,
                         ///< where the nearest whole number of diagonals is taken
   int width_cells = 2;  ///< across the strip, in cells or diagonals
@@ -35,7 +36,10 @@ struct StripModel {
   double gamma = 1.0;         ///< rho g L^3 / D [-]
   double clamp_factor = 2.0;  ///< of hinge_torsion
   double strain = 1e-4;       ///< of springs under the strip's whole weight [-]
-  bool cut_one_way = false;   ///< deliberate mistake: the cells' other diagonals do not count
+  /// All the weight hangs at the tip, and gamma means P L^2 / D.
+  bool is_tip_load = false;
+  double tilt = 0.0;         ///< of the clamp below the horizontal [rad]
+  bool cut_one_way = false;  ///< deliberate mistake: the cells' other diagonals do not count
   /// The strip is a part of an endless sheet: what leaves on one side comes in on the other.
   bool is_endless = false;
 };
@@ -43,12 +47,16 @@ struct StripModel {
 struct BentStrip {
   bool converged = false;
   double drop_over_reach = 0.0;  ///< H / W [-]
+  StripTip tip;                  ///< drop and reach along the vertical and the horizontal
   ClothMesh mesh;
   Matrix3X<double> positions;  ///< 3 x n [m]
 };
 
+/// The strip with its laws, at its rest shape: the clamp along x, gravity turned by the tilt.
+[[nodiscard]] reference::Body make_strip_body(const StripModel& model);
+
 /// Equilibrium of the strip under hinge_torsion, gravity and springs that stretch by about 1e-5.
-/// start: positions to start from, those of the rest shape if empty.
+/// start: positions to start from; if empty those of the rest shape, for a heavy strip in several steps of load.
 [[nodiscard]] BentStrip bend_strip(const StripModel& model, const Matrix3X<double>& start = {});
 
 }  // namespace weft::validation

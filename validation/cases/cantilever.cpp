@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 
 #include <weft/validation/cases/analytic_cases.hpp>
 #include <weft/validation/cases/bent_strip.hpp>
 #include <weft/validation/cases/elastica.hpp>
+#include <weft/validation/cases/lattice_strip.hpp>
+#include <weft/validation/cases/parameters.hpp>
 #include <weft/validation/metrics/convergence.hpp>
 
 namespace weft::validation {
@@ -170,10 +174,94 @@ void add_free_sides_row(const CaseInfo& info, Report& report) {
   report.checks.push_back(std::move(check));
 }
 
+/// One strip that anyone may ask for.
+struct Point {
+  double gamma = 1.0;
+  double angle = 0.0;  ///< of the grid to the strip [deg]
+  double tilt = 0.0;   ///< of the clamp below the horizontal [deg]
+  int cells = 40;
+};
+
+/// Cells that the layer of bending at the clamp, L / sqrt(2 Gamma), needs.
+int chosen_cells(double gamma) {
+  return std::max(kNumCells, static_cast<int>(std::ceil(4 * std::sqrt(gamma))));
+}
+
+/// Way of the tip from the straight strip: error over length, so that a tip straight below counts like any other.
+double way_error(const Point& point, double rigidity_factor) {
+  const double tilt = point.tilt * std::numbers::pi / 180;
+  StripModel model;
+  model.strip.angle = point.angle;
+  model.strip.num_cells = point.cells;
+  model.strip.width_cells = point.angle == 45 ? 4 : 2;
+  model.is_endless = point.angle != 0 && point.angle != 90;
+  model.strain = kStrain;
+  model.gamma = point.gamma / rigidity_factor;
+  model.tilt = tilt;
+  const BentStrip strip = bend_strip(model);
+  if (!strip.converged) return std::numeric_limits<double>::infinity();
+  const HeavyElastica exact = solve_elastica({.gamma = point.gamma, .tilt = tilt});
+  if (point.tilt == 0) {
+    return std::abs(strip.drop_over_reach / (exact.drop / exact.reach) - 1);
+  }
+  return std::hypot(strip.tip.drop / model.strip.length - exact.drop,
+                    strip.tip.reach / model.strip.length - exact.reach) /
+         std::hypot(exact.drop - std::sin(tilt), exact.reach - std::cos(tilt));
+}
+
+void add_point_check(const CaseInfo& info, const Point& point, Report& report) {
+  const LatticeDirection direction = nearest_direction(point.angle);
+  CheckResult check = check_of(
+      info, fmt::format("a heavy strip hangs as the elastica, Gamma = {}, grid at {} degrees{}",
+                        point.gamma, point.angle,
+                        point.tilt == 0 ? "" : fmt::format(", clamp {} degrees down", point.tilt)));
+  check.metric =
+      fmt::format("relative error of {}, N = {}, grid at {:.1f} degrees",
+                  point.tilt == 0 ? "H / W" : "the tip's way", point.cells, direction.angle());
+  if (point.tilt != 0) {
+    check.formula = "theta'' + Gamma (1 - s) cos(theta) = 0, theta(0) = tilt, theta'(1) = 0";
+  }
+  check.measured = way_error(point, 1.0);
+  const double fine = static_cast<double>(chosen_cells(point.gamma)) / point.cells;
+  const Tolerance tolerance{0.01 * std::max(1.0, fine * fine), Basis::kTruncation,
+                            "1 % with cells enough for the layer of bending at the clamp"};
+  check.tolerance = tolerance;
+  check.verdict = judge(check.measured, tolerance);
+  // Where the clamp hangs down a heavy strip hangs straight, however stiff.
+  const double stiffer = 1 + (point.tilt == 0 ? 5 : 50) * tolerance.value;
+  const double sabotaged = way_error(point, stiffer);
+  check.sabotages.push_back({fmt::format("rigidity +{:.0f} %", 100 * (stiffer - 1)), sabotaged,
+                             judge(sabotaged, tolerance) == Verdict::kFail});
+  check.note = "hinge_torsion, its clamp, or the static solver";
+  report.checks.push_back(std::move(check));
+}
+
+constexpr std::array kParameters = {
+    CaseParameter{"gamma", "1", "rho g L^3 / D", 0.05, 500.0, 1.0},
+    CaseParameter{"nodes", "1", "cells along the strip", 10, 160, std::nullopt, true},
+    CaseParameter{"angle", "deg",
+                  "of the grid's lines to the strip; the nearest at which a grid repeats is taken",
+                  0.0, 90.0, 0.0},
+    CaseParameter{"tilt", "deg", "of the clamp below the horizontal", -80.0, 60.0, 0.0},
+};
+
 }  // namespace
 
-void evaluate_cantilever(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
+std::span<const CaseParameter> cantilever_parameters() {
+  return kParameters;
+}
+
+void evaluate_cantilever(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
                          Report& report) {
+  if (asks_for_point(options)) {
+    const auto value = [&](const char* name) { return value_of(info, options, name); };
+    const double gamma = value("gamma");
+    add_point_check(info,
+                    {gamma, value("angle"), value("tilt"),
+                     static_cast<int>(value_or(options, "nodes", chosen_cells(gamma)))},
+                    report);
+    return;
+  }
   std::vector<Sweep> sweeps;
   for (const int angle : {0, 45, 90}) {
     sweeps.push_back(sweep(title_of(angle), strip_model(angle)));
@@ -182,6 +270,12 @@ void evaluate_cantilever(const CaseInfo& info, const CaseOptions&, const EngineR
   }
   sweeps.push_back(add_jittered_check(info, report));
   add_free_sides_row(info, report);
+  for (const Point& point : {Point{0.05}, Point{200}, Point{500}, Point{3.7, 17}, Point{30, 63},
+                             Point{3.7, 0, 30}, Point{3.7, 0, -40}}) {
+    Point chosen = point;
+    chosen.cells = chosen_cells(point.gamma);
+    add_point_check(info, chosen, report);
+  }
 
   Section section{std::string(info.id), std::string(info.summary), {}, {}, {}, ""};
   Plot plot{"Tip drop over tip reach", "Gamma = rho g L^3 / D [1]", "H / W [1]", true, true, {}};

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <map>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -8,10 +11,34 @@
 
 namespace weft::validation {
 
+/// How long a case takes, and so how often it is run.
+enum class Tier {
+  kCommit,   ///< seconds: with every change
+  kNightly,  ///< longer: every night, and before a release
+};
+
+/// A number of a case that can be asked for on the command line.
+struct CaseParameter {
+  std::string_view name;     ///< "gamma", the name of the option
+  std::string_view unit;     ///< "1", "m"
+  std::string_view summary;  ///< half a sentence
+  double minimum = 0.0;      ///< inclusive
+  double maximum = 0.0;      ///< inclusive
+  /// Where it is not asked for but another one is. None: the case chooses it from the others.
+  std::optional<double> default_value = std::nullopt;
+  bool is_whole = false;  ///< a whole number
+};
+
+/// Values of parameters by name.
+using CaseValues = std::map<std::string, double, std::less<>>;
+
 /// What a case may use.
 struct CaseOptions {
   bool pictures = true;  ///< render pictures for the report
   bool bullet = true;    ///< this program was built with Bullet
+  /// Asked for on the command line: the case is evaluated at this one point in place of its table.
+  CaseValues values = {};
+  std::string engine = {};  ///< asked for; empty: all of the case's
 };
 
 /// A row of the case table.
@@ -23,6 +50,8 @@ struct CaseInfo {
   /// Judges them and adds checks and a section to the report.
   void (*evaluate)(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
                    Report& report);
+  Tier tier = Tier::kCommit;
+  std::span<const CaseParameter> parameters = {};
 };
 
 }  // namespace weft::validation

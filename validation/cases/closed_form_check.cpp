@@ -5,7 +5,7 @@ namespace weft::validation {
 CheckResult judged(const CaseInfo& info, const ClosedForm& form, double measured) {
   CheckResult check;
   check.case_id = info.id;
-  check.engine = "reference";
+  check.engine = form.engine;
   check.claim = form.claim;
   check.metric = form.metric;
   check.unit = "1";

@@ -15,6 +15,7 @@ struct ClosedForm {
   std::string source;
   Tolerance tolerance;
   std::string note;  ///< what to look at when it fails
+  std::string engine = "reference";
 };
 
 [[nodiscard]] CheckResult judged(const CaseInfo& info, const ClosedForm& form, double measured);

@@ -16,4 +16,12 @@ void evaluate_momentum(const CaseInfo&, const CaseOptions&, const EngineRuns&, R
 void plan_materials(const CaseInfo&, const CaseOptions&, EngineRuns&);
 void evaluate_materials(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
+/// Cloths on a slope, 20 x 20 frictions and angles: the reference is gated, Bullet's worlds beside it.
+void plan_incline(const CaseInfo&, const CaseOptions&, EngineRuns&);
+void evaluate_incline(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+
+/// Ropes of Bullet's links: one spring is gated, chains are mapped.
+void plan_stiffness_map(const CaseInfo&, const CaseOptions&, EngineRuns&);
+void evaluate_stiffness_map(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+
 }  // namespace weft::validation

@@ -26,6 +26,11 @@ constexpr Ladder kLadders[] = {
     {IntegratorKind::kModifiedEuler, 1000, 1},
     {IntegratorKind::kVelocityVerlet, 500, 2},
     {IntegratorKind::kRungeKutta4, 200, 4},
+    {IntegratorKind::kYoshida4, 200, 4},
+    {IntegratorKind::kImplicitEuler, 4000, 1},
+    {IntegratorKind::kTrBdf2, 200, 2},
+    {IntegratorKind::kImplicitMidpoint, 200, 2},
+    {IntegratorKind::kGeneralizedAlpha, 200, 2},
 };
 
 Vector3<double> end_position(IntegratorKind integrator, int num_steps, bool unset_velocity) {

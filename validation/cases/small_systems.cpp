@@ -96,6 +96,18 @@ const char* name_of(reference::IntegratorKind integrator) {
       return "modified Euler";
     case reference::IntegratorKind::kVelocityVerlet:
       return "velocity Verlet";
+    case reference::IntegratorKind::kYoshida4:
+      return "Yoshida 4";
+    case reference::IntegratorKind::kDormandPrince5:
+      return "Dormand-Prince 5(4)";
+    case reference::IntegratorKind::kImplicitEuler:
+      return "implicit Euler";
+    case reference::IntegratorKind::kTrBdf2:
+      return "TR-BDF2";
+    case reference::IntegratorKind::kImplicitMidpoint:
+      return "implicit midpoint";
+    case reference::IntegratorKind::kGeneralizedAlpha:
+      return "generalised alpha";
     case reference::IntegratorKind::kRungeKutta4:
       break;
   }

@@ -1,5 +1,7 @@
 #include <weft/validation/reference/body_dynamics.hpp>
 
+#include <weft/validation/reference/statics/coupling.hpp>
+
 namespace weft::reference {
 
 BodyDynamics::BodyDynamics(Body& body)
@@ -34,6 +36,30 @@ void BodyDynamics::evaluate(ConstMatrix3XRef<double> positions, ConstMatrix3XRef
       accelerations.col(i) /= body_->mesh.masses[i];
     }
   }
+}
+
+void BodyDynamics::multiply_jacobian(Reach reach, ConstMatrix3XRef<double> positions,
+                                     ConstMatrix3XRef<double> velocities, double time_in_step,
+                                     ConstMatrix3XRef<double> displacements,
+                                     ConstMatrix3XRef<double> velocity_changes,
+                                     Matrix3XRef<double> product) {
+  using Level = forces::LawTraits::Level;
+  const forces::State<double> state{positions, velocities, body_->mesh.masses,
+                                    time_ + time_in_step};
+  const auto add = [&](bool velocity_level) {
+    for (const auto& law : body_->laws.laws()) {
+      const forces::LawTraits& traits = law->info().traits;
+      if ((traits.level == Level::kVelocity) != velocity_level) continue;
+      if (reach == Reach::kShort && !has_short_reach(traits)) continue;
+      if (scratch_.cols() < law->scratch_columns()) scratch_.setZero(3, law->scratch_columns());
+      law->add_stiffness_product(state, displacements, scratch_, product);
+      law->add_damping_product(state, velocity_changes, scratch_, product);
+    }
+  };
+  product.setZero();
+  add(false);
+  if (reach == Reach::kAll) body_->laws.redistribute_forces(state, product);
+  add(true);
 }
 
 void BodyDynamics::advance_velocities(ConstMatrix3XRef<double> positions, double time_step,

@@ -28,6 +28,19 @@ class BodyDynamics {
   void advance_velocities(ConstMatrix3XRef<double> positions, double time_step,
                           Matrix3X<double>& velocities);
 
+  /// Which laws a product with the derivative of the forces holds.
+  enum class Reach {
+    kAll,    ///< every law
+    kShort,  ///< laws of springs, lines, hinges and faces: what a sparse matrix can hold
+  };
+  /// product = df/dx displacements + df/dv velocity_changes [N], every law as a force, 3 x n.
+  /// Inertia-level laws redistribute it as they do the forces; that their own share depends on the
+  /// positions is left out. velocity_changes are those of free nodes.
+  void multiply_jacobian(Reach reach, ConstMatrix3XRef<double> positions,
+                         ConstMatrix3XRef<double> velocities, double time_in_step,
+                         ConstMatrix3XRef<double> displacements,
+                         ConstMatrix3XRef<double> velocity_changes, Matrix3XRef<double> product);
+
   [[nodiscard]] const Body& body() const { return *body_; }
   [[nodiscard]] const VectorX<double>& inverse_masses() const { return inverse_masses_; }
 
@@ -38,6 +51,7 @@ class BodyDynamics {
   Body* body_;
   VectorX<double> inverse_masses_;  // 0 for pinned nodes
   Matrix3X<double> before_;         // velocities as the velocity-level laws see them
+  Matrix3X<double> scratch_;        // of laws that are asked one by one
   double time_ = 0.0;               // [s]
   std::optional<int> first_non_finite_node_;
 };

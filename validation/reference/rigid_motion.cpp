@@ -35,10 +35,10 @@ RigidMotion free_motion(const Collider& collider, const Vector3<double>& gravity
     case IntegratorKind::kExplicitEuler:
       break;
     case IntegratorKind::kModifiedEuler:
+    case IntegratorKind::kImplicitEuler:
       motion.mean_velocity = motion.end_velocity;
       break;
-    case IntegratorKind::kVelocityVerlet:
-    case IntegratorKind::kRungeKutta4: {
+    default: {
       motion.mean_velocity += 0.5 * time_step * gravity;
       const Eigen::Quaterniond middle =
           rotated(collider.orientation, 0.5 * time_step * collider.angular_velocity);

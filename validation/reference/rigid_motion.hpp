@@ -23,7 +23,7 @@ struct Pose {
 
 /// Motion under gravity alone, with the same method as the cloth: the translation of each method is
 /// exact for it; the rotation is q1 = exp(h Omega) q0 with Omega at the start (Euler methods, order
-/// 1) or at the midpoint (Verlet and Runge-Kutta, order 2; exact for a sphere).
+/// 1) or at the midpoint (all others, order 2; exact for a sphere).
 [[nodiscard]] RigidMotion free_motion(const Collider& collider, const Vector3<double>& gravity,
                                       IntegratorKind integrator, double time_step);
 

@@ -27,16 +27,16 @@ std::optional<std::string> fault_of(const Vector3<double>& position,
 SpringSolver::SpringSolver(System system, SolverOptions options)
     : system_(std::make_unique<System>(std::move(system))),
       options_(options),
-      integrator_(make_integrator(options.integrator)),
       contact_(make_contact_model(options.contact)) {
   check_system(*system_);
   for (Body& body : system_->bodies) {
     set_pinned_velocities(body.mesh, body.velocities);
     dynamics_.emplace_back(body);
+    integrators_.push_back(make_integrator(options.integrator, options.settings));
     motion_.inverse_masses.push_back(dynamics_.back().inverse_masses());
   }
   motion_.bodies.resize(system_->bodies.size());
-  motion_.mean_is_end = options.integrator == IntegratorKind::kModifiedEuler;
+  motion_.mean_is_end = moves_with_end_velocity(options.integrator);
   blow_up_ = find_blow_up();
 }
 
@@ -47,6 +47,7 @@ StepOutcome SpringSolver::step(double time_step) {
     throw InvalidArgument(message.str());
   }
   StepOutcome outcome;
+  outcome.integration.inner_steps = 0;
   if (blow_up_) {
     outcome.blow_up = blow_up_;
     return outcome;
@@ -64,10 +65,7 @@ StepOutcome SpringSolver::step(double time_step) {
   outcome.is_step_stable = substep_size < outcome.stable_step;
 
   for (int i = 0; i < outcome.substeps && !blow_up_; ++i) {
-    const ContactOutcome contact = substep(time_ + i * substep_size, substep_size);
-    const int last_contacts = contact.num_contacts;
-    outcome.contact = combined(outcome.contact, contact);
-    outcome.contact.num_contacts = last_contacts;
+    substep(time_ + i * substep_size, substep_size, outcome);
     blow_up_ = find_blow_up();
   }
   time_ += time_step;
@@ -87,25 +85,28 @@ void SpringSolver::replace_body(std::size_t index, Body body) {
   place = std::move(alone.bodies.front());
   set_pinned_velocities(place.mesh, place.velocities);
   dynamics_[index] = BodyDynamics(place);
+  integrators_[index] = make_integrator(options_.integrator, options_.settings);
   motion_.inverse_masses[index] = dynamics_[index].inverse_masses();
   motion_.bodies[index] = {};
   if (options_.guard != GuardPolicy::kReport) stability_.reset();
 }
 
-ContactOutcome SpringSolver::substep(double time, double time_step) {
+void SpringSolver::substep(double time, double time_step, StepOutcome& outcome) {
   motion_.time_step = time_step;
   for (std::size_t b = 0; b < dynamics_.size(); ++b) {
     dynamics_[b].set_time(time);
-    integrator_->advance(dynamics_[b], time_step, motion_.bodies[b]);
+    integrators_[b]->advance(dynamics_[b], time_step, motion_.bodies[b]);
+    outcome.integration = combined(outcome.integration, motion_.bodies[b].report);
   }
   motion_.rigids.clear();
   for (const Collider& collider : system_->colliders) {
     motion_.rigids.push_back(
         free_motion(collider, system_->gravity, options_.integrator, time_step));
   }
-  const ContactOutcome outcome = contact_->resolve(*system_, motion_);
+  const ContactOutcome contact = contact_->resolve(*system_, motion_);
+  outcome.contact = combined(outcome.contact, contact);
+  outcome.contact.num_contacts = contact.num_contacts;
   write(time_step);
-  return outcome;
 }
 
 void SpringSolver::write(double time_step) {
@@ -113,7 +114,7 @@ void SpringSolver::write(double time_step) {
     Body& body = system_->bodies[b];
     body.positions += time_step * motion_.bodies[b].mean_velocities;
     body.velocities = motion_.bodies[b].end_velocities;
-    integrator_->finish(dynamics_[b], body.positions, time_step, body.velocities);
+    integrators_[b]->finish(dynamics_[b], body.positions, time_step, body.velocities);
   }
   for (std::size_t k = 0; k < system_->colliders.size(); ++k) {
     write_motion(motion_.rigids[k], time_step, system_->colliders[k]);

@@ -28,8 +28,9 @@ inline constexpr double kBlowUpSpeed = 1e6;
 /// What one step did.
 struct StepOutcome {
   int substeps = 1;
-  double stable_step = 0.0;    ///< [s], as last estimated; infinite if nothing limits it
-  bool is_step_stable = true;  ///< the (sub)step is below it
+  double stable_step = 0.0;       ///< [s], as last estimated; infinite if nothing limits it
+  bool is_step_stable = true;     ///< the (sub)step is below it
+  IntegrationReport integration;  ///< all bodies and substeps
   ContactOutcome contact;  ///< impulses and sweeps summed over substeps, contacts of the last one
   std::optional<BlowUp> blow_up;  ///< once set, further steps do nothing
 };
@@ -80,13 +81,13 @@ class SpringSolver {
   [[nodiscard]] Stability stability();
 
  private:
-  ContactOutcome substep(double time, double time_step);
+  void substep(double time, double time_step, StepOutcome& outcome);
   void write(double time_step);
   [[nodiscard]] std::optional<BlowUp> find_blow_up() const;
 
   std::unique_ptr<System> system_;  // on the heap: dynamics_ refer to its bodies
   SolverOptions options_;
-  std::unique_ptr<Integrator> integrator_;
+  std::vector<std::unique_ptr<Integrator>> integrators_;  // one per body
   std::unique_ptr<ContactModel> contact_;
   std::vector<BodyDynamics> dynamics_;
   SystemStep motion_;

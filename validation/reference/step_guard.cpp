@@ -29,6 +29,12 @@ double runge_kutta_step(const Spectrum& s) {
   return ratio(kRungeKuttaHalfDisc, std::max(s.omega_max, damping));
 }
 
+double yoshida_step(const Spectrum& s) {
+  const double damping = s.gamma_force_max + s.gamma_velocity_max;
+  if (damping == 0.0) return ratio(kYoshidaUndamped, s.omega_max);
+  return ratio(kYoshidaDamped, std::max(s.omega_max, damping));
+}
+
 double explicit_euler_step(const Spectrum& s) {
   const double oscillation = ratio(s.top_mode_damping, s.omega_max * s.omega_max);
   return std::min(oscillation, ratio(2.0, s.gamma_force_max + s.gamma_velocity_max));
@@ -46,6 +52,14 @@ double stable_step(IntegratorKind integrator, const Spectrum& spectrum) {
       return verlet_step(spectrum);
     case IntegratorKind::kRungeKutta4:
       return runge_kutta_step(spectrum);
+    case IntegratorKind::kYoshida4:
+      return yoshida_step(spectrum);
+    case IntegratorKind::kDormandPrince5:
+    case IntegratorKind::kImplicitEuler:
+    case IntegratorKind::kTrBdf2:
+    case IntegratorKind::kImplicitMidpoint:
+    case IntegratorKind::kGeneralizedAlpha:
+      return kInfinity;
   }
   throw InvalidArgument(
       "reference solver: integrator = " + std::to_string(static_cast<int>(integrator)) +

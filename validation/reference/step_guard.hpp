@@ -23,12 +23,20 @@ namespace weft::reference {
 ///       |1 + h lambda| < 1. Exact for an underdamped body whose damping is Rayleigh's (a mass part
 ///       plus a stiffness part: velocity_damping plus spring_damping in step with tension), where
 ///       the top mode is the first to grow; for other damping an estimate.
+///   Yoshida 4        h w < 1.573 undamped; h max(w, f + g) < 1.36 damped
+///       the first is exact; the second is the largest such box in which trace and determinant of the
+///       propagation matrix of an oscillator pass the Jury criterion, by a scan of w and f + g.
+///   Dormand-Prince   infinity: it shortens its own inner steps
+///   implicit methods infinity: A-stable, so no mode of a stable spring network grows
 [[nodiscard]] double stable_step(IntegratorKind integrator, const Spectrum& spectrum);
 
 /// Radius of the largest left half disc in the stability region of the classical Runge-Kutta method
 /// [-], rounded down; and its bound on the imaginary axis, 2 sqrt 2.
 inline constexpr double kRungeKuttaHalfDisc = 2.615;
 inline constexpr double kRungeKuttaImaginary = 2.8284271247461900;
+/// Bounds of Yoshida's method [-], rounded down.
+inline constexpr double kYoshidaUndamped = 1.5734;
+inline constexpr double kYoshidaDamped = 1.36;
 
 /// What the guard found.
 struct Stability {

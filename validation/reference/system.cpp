@@ -55,18 +55,48 @@ void check_body(const Body& body) {
   }
   require_not_negative(where, "collision_margin [m]", body.collision_margin);
   require_not_negative(where, "friction [-]", body.friction);
+  if (body.self_contact || body.mutual_contact) {
+    require_positive(where, "self_thickness [m]", body.self_thickness);
+  }
 }
+
+/// Checks the sizes of a shape; whether it may have a mass.
+struct CheckShape {
+  bool operator()(const Sphere& sphere) const {
+    require_positive(where, "radius [m]", sphere.radius);
+    return true;
+  }
+  bool operator()(const Box& box) const {
+    for (const double extent : box.half_extents) {
+      require_positive(where, "half extent [m]", extent);
+    }
+    return true;
+  }
+  bool operator()(const Plane& /*plane*/) const { return false; }
+  bool operator()(const Mesh& mesh) const {
+    if (!mesh.surface) refuse(where, "surface", "null", "a mesh surface");
+    return false;
+  }
+  // The centre of mass of a cone is not its origin.
+  bool operator()(const Cone& cone) const { return upright(cone) && false; }
+  bool operator()(const Capsule& capsule) const { return upright(capsule); }
+  bool operator()(const Cylinder& cylinder) const { return upright(cylinder); }
+
+  template <class Upright>
+  bool upright(const Upright& shape) const {
+    require_positive(where, "radius [m]", shape.radius);
+    require_positive(where, "height [m]", shape.height);
+    return true;
+  }
+
+  const std::string& where;
+};
 
 void check_collider(const Collider& collider) {
   const std::string where = "collider '" + collider.name + "'";
-  if (const auto* sphere = std::get_if<Sphere>(&collider.shape)) {
-    require_positive(where, "radius [m]", sphere->radius);
-  } else if (const auto* box = std::get_if<Box>(&collider.shape)) {
-    for (const double extent : box->half_extents) {
-      require_positive(where, "half extent [m]", extent);
-    }
-  } else if (collider.mass) {
-    refuse(where, "mass [kg]", *collider.mass, "none: a plane has no inertia");
+  const bool may_have_mass = std::visit(CheckShape{where}, collider.shape);
+  if (collider.mass && !may_have_mass) {
+    refuse(where, "mass [kg]", *collider.mass, "none for this shape");
   }
   if (collider.mass) require_positive(where, "mass [kg]", *collider.mass);
   require_not_negative(where, "friction [-]", collider.friction);
@@ -76,6 +106,39 @@ void check_collider(const Collider& collider) {
   const double norm = collider.orientation.norm();
   if (!(std::abs(norm - 1.0) < kUnitTolerance)) refuse(where, "|orientation| [-]", norm, "1");
 }
+
+/// Principal moments of homogeneous solids [kg m^2].
+struct Inertia {
+  Vector3<double> operator()(const Sphere& sphere) const {
+    return Vector3<double>::Constant(0.4 * mass * sphere.radius * sphere.radius);
+  }
+  Vector3<double> operator()(const Box& box) const {
+    const Vector3<double> squared = box.half_extents.cwiseAbs2();
+    return mass / 3.0 * (Vector3<double>::Constant(squared.sum()) - squared);
+  }
+  Vector3<double> operator()(const Cylinder& c) const {
+    const double across = mass * (3.0 * c.radius * c.radius + c.height * c.height) / 12.0;
+    return {across, 0.5 * mass * c.radius * c.radius, across};
+  }
+  Vector3<double> operator()(const Capsule& c) const {
+    const double r2 = c.radius * c.radius;
+    // Volumes over pi r^2: the cylinder, and both caps, which are a sphere.
+    const double tube = c.height, caps = 4.0 / 3.0 * c.radius;
+    const double m_tube = mass * tube / (tube + caps), m_caps = mass * caps / (tube + caps);
+    const double half = 0.5 * c.height;
+    // A half ball: 83/320 m r^2 about its own centre, which is 3/8 r from its face.
+    const double reach = half + 0.375 * c.radius;
+    const double across = m_tube * (3.0 * r2 + c.height * c.height) / 12.0 +
+                          m_caps * (83.0 / 320.0 * r2 + reach * reach);
+    return {across, 0.5 * m_tube * r2 + 0.4 * m_caps * r2, across};
+  }
+  template <class Other>
+  Vector3<double> operator()(const Other& /*shape*/) const {
+    throw InvalidArgument("reference solver: a plane, cone or mesh has no mass");
+  }
+
+  double mass;
+};
 
 }  // namespace
 
@@ -97,12 +160,7 @@ void set_pinned_velocities(const ClothMesh& mesh, Matrix3XRef<double> velocities
 }
 
 Vector3<double> principal_inertia(const Collider& collider) {
-  const double mass = collider.mass.value();
-  if (const auto* sphere = std::get_if<Sphere>(&collider.shape)) {
-    return Vector3<double>::Constant(0.4 * mass * sphere->radius * sphere->radius);
-  }
-  const Vector3<double> squared = std::get<Box>(collider.shape).half_extents.cwiseAbs2();
-  return mass / 3.0 * (Vector3<double>::Constant(squared.sum()) - squared);
+  return std::visit(Inertia{collider.mass.value()}, collider.shape);
 }
 
 Matrix3<double> world_inertia(const Collider& collider) {

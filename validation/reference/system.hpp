@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -23,6 +24,11 @@ struct Body {
   Matrix3X<double> external_forces = {};
   double collision_margin = 0.0;  ///< [m] distance from a surface at which a node rests, >= 0
   double friction = 0.0;          ///< Coulomb coefficient [-], >= 0; with a collider: the product
+  /// Triangles meet colliders too, not nodes alone: for a cloth that is coarser than they are.
+  bool face_contact = false;
+  bool self_contact = false;     ///< layers of the cloth keep self_thickness and never cross
+  bool mutual_contact = false;   ///< the same with other bodies that have it set
+  double self_thickness = 0.01;  ///< [m] distance that layers keep, > 0; of two bodies: the mean
 };
 
 struct Sphere {
@@ -33,7 +39,26 @@ struct Box {
 };
 /// The half space below the plane through the collider's position with its local y axis as normal.
 struct Plane {};
-using Shape = std::variant<Sphere, Box, Plane>;
+/// Capsule, cylinder and cone stand along the y axis, their middle at the origin.
+struct Capsule {
+  double radius;  ///< [m], > 0
+  double height;  ///< [m], > 0, of the cylinder between the caps
+};
+struct Cylinder {
+  double radius;  ///< [m], > 0
+  double height;  ///< [m], > 0
+};
+/// Base at y = -height / 2, tip at height / 2.
+struct Cone {
+  double radius;  ///< [m] of the base, > 0
+  double height;  ///< [m], > 0
+};
+class MeshSurface;
+/// A closed surface of triangles, solid inside (contact/mesh_surface.hpp).
+struct Mesh {
+  std::shared_ptr<const MeshSurface> surface;  ///< not null
+};
+using Shape = std::variant<Sphere, Box, Plane, Capsule, Cylinder, Cone, Mesh>;
 
 /// A rigid body that touches cloth, and cloth only: colliders do not meet each other.
 /// Without a mass nothing moves it but its own given velocities; with a mass the cloth pushes back.
@@ -43,7 +68,7 @@ struct Collider {
   Vector3<double> position{0, 0, 0};  ///< centre of mass [m]
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   double friction = 1.0;                      ///< [-], >= 0
-  std::optional<double> mass{};               ///< [kg], > 0; homogeneous sphere or box
+  std::optional<double> mass{};               ///< [kg], > 0; homogeneous; not a plane, cone or mesh
   Vector3<double> velocity{0, 0, 0};          ///< [m/s]
   Vector3<double> angular_velocity{0, 0, 0};  ///< world frame [rad/s]
 };

@@ -68,9 +68,10 @@ class LiveView {
 
   private make(): void {
     if (this.world) return;
-    this.world = makeWorld(this.view);
-    const controls = orbit(this.parts.canvas, this.world, () => this.drawSoon());
-    turnByKeys(this.parts.canvas, this.world, controls);
+    const { canvas } = this.parts;
+    this.world = makeWorld(this.view, canvas.clientWidth / Math.max(canvas.clientHeight, 1) || 1);
+    const controls = orbit(canvas, this.world, () => this.drawSoon());
+    turnByKeys(canvas, this.world, controls);
     this.update();
   }
 

@@ -85,6 +85,30 @@ function boundsOf(view: DistanceView): Bounds {
   };
 }
 
+/** Distance from the centre at which a camera that looks at it sees the cloth of every frame. */
+function fittingDistance(
+  view: DistanceView,
+  centre: Vector3,
+  towards: Vector3,
+  camera: PerspectiveCamera,
+): number {
+  const slope = Math.tan((0.5 * camera.fov * Math.PI) / 180);
+  const right = new Vector3(0, 1, 0).cross(towards).normalize();
+  const up = towards.clone().cross(right);
+  const place = new Vector3();
+  let distance = 1e-6;
+  for (const positions of view.positions) {
+    for (let i = 0; i + 2 < positions.length; i += 3) {
+      place.set(positions[i] ?? 0, positions[i + 1] ?? 0, positions[i + 2] ?? 0).sub(centre);
+      const needed =
+        Math.max(Math.abs(place.dot(up)), Math.abs(place.dot(right)) / camera.aspect) / slope +
+        place.dot(towards);
+      if (needed > distance) distance = needed; // false where a node is not finite
+    }
+  }
+  return distance;
+}
+
 function clothMesh(view: DistanceView): World["cloth"] {
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(new Float32Array(3 * view.drawnNodes), 3));
@@ -95,7 +119,7 @@ function clothMesh(view: DistanceView): World["cloth"] {
   return mesh;
 }
 
-export function makeWorld(view: DistanceView): World {
+export function makeWorld(view: DistanceView, aspect: number): World {
   const { centre, radius } = boundsOf(view);
   const scene = new Scene();
   // Mostly from all sides, so that a colour on the cloth is near that on the scale.
@@ -126,15 +150,12 @@ export function makeWorld(view: DistanceView): World {
     scene.add(mesh);
   }
 
-  const camera = new PerspectiveCamera(30, 1, radius / 50, radius * 50);
+  const camera = new PerspectiveCamera(30, aspect, radius / 50, radius * 50);
   const reset = (): void => {
-    // From the front right and above. A ball around a cloth is mostly empty: its corners may touch the border.
-    const away = (0.85 * radius) / Math.sin((0.5 * camera.fov * Math.PI) / 180);
-    camera.position
-      .set(0.55, 0.5, 0.85)
-      .normalize()
-      .multiplyScalar(away / Math.min(1, camera.aspect))
-      .add(centre);
+    // From the front right and above, as near as all frames of the cloth fit.
+    const towards = new Vector3(0.55, 0.5, 0.85).normalize();
+    const away = 1.08 * fittingDistance(view, centre, towards, camera);
+    camera.position.copy(towards).multiplyScalar(away).add(centre);
     camera.lookAt(centre);
   };
   reset();

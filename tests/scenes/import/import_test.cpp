@@ -62,6 +62,27 @@ TEST(Import, ATetrahedronIsTheSameFromEveryFormat) {
   EXPECT_EQ(import_mesh(kHere / "good/tetrahedron.stl").report.welded_vertices, 12 - 4);
 }
 
+// tools/models/make_flag.py: the weight of "Tip" is x / 0.3 m, that of "Pole" the rest.
+TEST(Import, WeightsOfBonesBecomeGroupsFromEveryFormatThatHasThem) {
+  for (const char* name : {"flag.glb", "flag.fbx"}) {
+    const ImportedMesh mesh = import_mesh(kHere / "good" / name);
+    ASSERT_EQ(mesh.surface.positions.cols(), 12) << name;
+    EXPECT_NEAR(surface_area(mesh.surface), 0.06, 1e-7) << name;  // metres, in single precision
+    int found = 0;
+    for (const NodeGroup& group : mesh.groups) {
+      if (group.is_part) continue;
+      ++found;
+      EXPECT_EQ(group.nodes.size(), 9U) << name << ' ' << group.name;  // three columns of three
+      for (std::size_t i = 0; i < group.nodes.size(); ++i) {
+        const double share = mesh.surface.positions(0, group.nodes[i]) / 0.3;
+        const double expected = group.name == "Tip" ? share : 1.0 - share;
+        EXPECT_NEAR(group.weights[i], expected, 1e-6) << name << ' ' << group.name;
+      }
+    }
+    EXPECT_EQ(found, 2) << name;
+  }
+}
+
 TEST(Import, LeavesOutWhatIsNoSurfaceAndSaysSo) {
   const MeshReport report = check_mesh(kHere / "good/square.obj");
   EXPECT_EQ(report.num_nodes, 5);

@@ -23,6 +23,7 @@ ContactOutcome combined(const ContactOutcome& first, const ContactOutcome& secon
   sum.sweeps += second.sweeps;
   sum.passes += second.passes;
   sum.converged = first.converged && second.converged;
+  sum.num_stopped_nodes += second.num_stopped_nodes;
   sum.normal_impulse += second.normal_impulse;
   return sum;
 }

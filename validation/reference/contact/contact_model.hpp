@@ -19,10 +19,13 @@ struct SystemStep {
 };
 
 struct ContactOutcome {
-  int num_contacts = 0;         ///< pairs of node and collider that exchanged an impulse
-  int sweeps = 0;               ///< Gauss-Seidel sweeps in all
-  int passes = 0;               ///< how often the surface was linearised anew
-  bool converged = true;        ///< sweeps and passes both ended before their limits
+  int num_contacts = 0;   ///< pairs of node and collider that exchanged an impulse
+  int sweeps = 0;         ///< Gauss-Seidel sweeps in all
+  int passes = 0;         ///< how often the surface was linearised anew
+  bool converged = true;  ///< sweeps and passes both ended before their limits
+  /// Nodes that stood still for a step because contact between layers did not converge: 0 in a
+  /// result that shall count.
+  int num_stopped_nodes = 0;
   double normal_impulse = 0.0;  ///< sum over the contacts of the step [N s]
 };
 

@@ -21,9 +21,24 @@ Matrix3<double> cross_matrix(const Vector3<double>& v) {
   return matrix;
 }
 
+/// Calls visit(point, weight) for the points of a contact.
+template <class Problem, class Visit>
+void for_each_point(Problem& problem, const Contact& contact, const Visit& visit) {
+  for (std::size_t i = 0; i < contact.on.points.size(); ++i) {
+    const int point = contact.on.points[i];
+    if (point >= 0) visit(problem.points[static_cast<std::size_t>(point)], contact.on.weights[i]);
+  }
+}
+
 Response response_of(const ContactProblem& problem, const Contact& contact) {
-  const ContactRigid& rigid = problem.rigids[contact.rigid];
-  const double inverse_mass = problem.points[contact.point].inverse_mass + rigid.inverse_mass;
+  double inverse_mass = 0.0;
+  for_each_point(problem, contact, [&](const ContactPoint& point, double weight) {
+    inverse_mass += weight * weight * point.inverse_mass;
+  });
+  static const ContactRigid kNone;
+  const ContactRigid& rigid =
+      contact.rigid == kNoRigid ? kNone : problem.rigids[static_cast<std::size_t>(contact.rigid)];
+  inverse_mass += rigid.inverse_mass;
   Response response;
   response.mobility = inverse_mass * Matrix3<double>::Identity();
   response.normal_mobility = inverse_mass;
@@ -45,11 +60,13 @@ Response response_of(const ContactProblem& problem, const Contact& contact) {
 }
 
 void apply(ContactProblem& problem, Contact& contact, const Vector3<double>& change) {
-  ContactPoint& point = problem.points[contact.point];
-  ContactRigid& rigid = problem.rigids[contact.rigid];
   contact.impulse += change;
-  point.velocity += point.inverse_mass * change;
-  point.impulse += change;
+  for_each_point(problem, contact, [&](ContactPoint& point, double weight) {
+    point.velocity += weight * point.inverse_mass * change;
+    point.impulse += weight * change;
+  });
+  if (contact.rigid == kNoRigid) return;
+  ContactRigid& rigid = problem.rigids[static_cast<std::size_t>(contact.rigid)];
   if (rigid.inverse_mass == 0.0) return;
   const Vector3<double> torque = contact.lever.cross(change);
   rigid.velocity -= rigid.inverse_mass * change;
@@ -83,20 +100,27 @@ double visit(ContactProblem& problem, Contact& contact, const Response& response
 
 /// Sum of the speeds that a relative velocity is the difference of [m/s].
 double speed_scale(const ContactProblem& problem, const Contact& contact) {
-  const ContactRigid& rigid = problem.rigids[contact.rigid];
-  return problem.points[contact.point].velocity.norm() + rigid.velocity.norm() +
-         rigid.angular_velocity.norm() * contact.lever.norm() + std::abs(contact.target_speed);
+  double sum = std::abs(contact.target_speed);
+  for_each_point(problem, contact, [&](const ContactPoint& point, double weight) {
+    sum += std::abs(weight) * point.velocity.norm();
+  });
+  if (contact.rigid == kNoRigid) return sum;
+  const ContactRigid& rigid = problem.rigids[static_cast<std::size_t>(contact.rigid)];
+  return sum + rigid.velocity.norm() + rigid.angular_velocity.norm() * contact.lever.norm();
 }
 
 }  // namespace
 
 Vector3<double> relative_velocity(const ContactProblem& problem, const Contact& contact) {
-  const ContactRigid& rigid = problem.rigids[contact.rigid];
-  return problem.points[contact.point].velocity - rigid.velocity -
-         rigid.angular_velocity.cross(contact.lever);
+  Vector3<double> sum = Vector3<double>::Zero();
+  for_each_point(problem, contact,
+                 [&](const ContactPoint& point, double weight) { sum += weight * point.velocity; });
+  if (contact.rigid == kNoRigid) return sum;
+  const ContactRigid& rigid = problem.rigids[static_cast<std::size_t>(contact.rigid)];
+  return sum - rigid.velocity - rigid.angular_velocity.cross(contact.lever);
 }
 
-SweepReport solve_contacts(ContactProblem& problem) {
+SweepReport solve_contacts(ContactProblem& problem, const SweepLimits& limits) {
   SweepReport report;
   if (problem.contacts.empty()) return report;
   std::vector<Response> responses;
@@ -106,7 +130,7 @@ SweepReport solve_contacts(ContactProblem& problem) {
   }
   report.converged = false;
   double scale = 0.0;  // largest velocity seen: what rounding errors are relative to [m/s]
-  while (report.sweeps < kMaxSweeps && !report.converged) {
+  while (report.sweeps < limits.max_sweeps && !report.converged) {
     double largest_change = 0.0;
     for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
       Contact& contact = problem.contacts[c];
@@ -115,7 +139,7 @@ SweepReport solve_contacts(ContactProblem& problem) {
       largest_change = std::max(largest_change, mobility * visit(problem, contact, responses[c]));
     }
     ++report.sweeps;
-    report.converged = largest_change <= kSweepTolerance * scale;
+    report.converged = largest_change <= limits.tolerance * scale;
   }
   return report;
 }

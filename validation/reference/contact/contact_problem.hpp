@@ -1,12 +1,14 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <weft/custom_forces/core/types.hpp>
 
 namespace weft::reference {
 
-/// Unilateral contacts with Coulomb friction between points and rigid bodies, at one instant.
+/// Unilateral contacts with Coulomb friction between weighted points and rigid bodies, or among
+/// weighted points alone, at one instant.
 /// Unknowns are impulses; the velocities below change with them.
 
 struct ContactPoint {
@@ -26,17 +28,26 @@ struct ContactRigid {
   Vector3<double> angular_impulse{0, 0, 0};                   ///< about the centre [N m s]
 };
 
-/// u = relative velocity of the point. Wanted: normal . u >= target_speed, normal impulse >= 0, one
+/// Points that share a contact: a node, a place on a triangle, or two places that meet.
+struct WeightedPoints {
+  std::array<int, 4> points{-1, -1, -1, -1};  ///< indices in ContactProblem::points; -1: none
+  std::array<double, 4> weights{1, 0, 0, 0};  ///< [-], of the velocities in the contact's one
+};
+
+inline constexpr int kNoRigid = -1;
+
+/// u = weighted velocity of the points, relative to the rigid body if there is one. Wanted: normal . u >= target_speed, normal impulse >= 0, one
 /// of both an equality; the tangential impulse stops the slip if it can, else it is friction x
 /// normal impulse against it.
 struct Contact {
-  int point = 0;                     ///< index in ContactProblem::points
-  int rigid = 0;                     ///< index in ContactProblem::rigids
-  Vector3<double> normal{0, 1, 0};   ///< outward from the rigid body
-  Vector3<double> lever{0, 0, 0};    ///< from the centre of the rigid body to the point [m]
-  double target_speed = 0.0;         ///< [m/s]
-  double friction = 0.0;             ///< combined coefficient [-]
-  Vector3<double> impulse{0, 0, 0};  ///< on the point [N s]; the rigid body receives the opposite
+  WeightedPoints on = {};
+  int rigid = kNoRigid;             ///< index in ContactProblem::rigids
+  Vector3<double> normal{0, 1, 0};  ///< outward from the rigid body
+  Vector3<double> lever{0, 0, 0};   ///< from the centre of the rigid body to the contact [m]
+  double target_speed = 0.0;        ///< [m/s]
+  double friction = 0.0;            ///< combined coefficient [-]
+  Vector3<double> impulse{0, 0,
+                          0};  ///< [N s]; a point gets its weight of it, the rigid body minus it
 };
 
 struct ContactProblem {
@@ -45,7 +56,7 @@ struct ContactProblem {
   std::vector<Contact> contacts;
 };
 
-/// Velocity of the point relative to the surface that it touches [m/s].
+/// u [m/s].
 [[nodiscard]] Vector3<double> relative_velocity(const ContactProblem& problem,
                                                 const Contact& contact);
 
@@ -62,9 +73,17 @@ inline constexpr double kSweepTolerance = 1e-13;
 /// says "not converged".
 inline constexpr int kMaxSweeps = 10000;
 
+/// When sweeps stop.
+struct SweepLimits {
+  double tolerance = kSweepTolerance;  ///< [-], as kSweepTolerance
+  int max_sweeps = kMaxSweeps;
+};
+/// Where contacts share nodes with many others.
+inline constexpr SweepLimits kSharedLimits{.tolerance = 1e-8, .max_sweeps = 300};
+
 /// Gauss-Seidel over the contacts in their order, with accumulated impulses. No regularisation: a
 /// contact that can stick has exactly no slip, one that slips has exactly friction x normal
 /// impulse. Starts from the impulses in the contacts, which the velocities must already contain.
-[[nodiscard]] SweepReport solve_contacts(ContactProblem& problem);
+[[nodiscard]] SweepReport solve_contacts(ContactProblem& problem, const SweepLimits& limits = {});
 
 }  // namespace weft::reference

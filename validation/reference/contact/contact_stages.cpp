@@ -1,24 +1,24 @@
 #include <weft/validation/reference/contact/contact_stages.hpp>
 
+#include <weft/validation/reference/contact/contact_points.hpp>
 #include <weft/validation/reference/contact/contact_problem.hpp>
+#include <weft/validation/reference/contact/face_contacts.hpp>
+#include <weft/validation/reference/contact/self_contacts.hpp>
 #include <weft/validation/reference/contact/signed_distance.hpp>
 
 namespace weft::reference {
 namespace {
 
-/// Collects contacts of a step and writes their impulses back. Order: collider, body, node.
+/// Collects contacts of nodes with colliders in a step. Order: collider, body, node.
 class Stage {
  public:
-  Stage(const System& system, SystemStep& step) : system_(system), step_(step) {
-    for (const Body& body : system.bodies) {
-      first_node_.push_back(num_nodes_);
-      num_nodes_ += body.mesh.num_nodes();
-    }
-    contact_of_.assign(num_nodes_ * system.colliders.size(), kNone);
-    point_of_.assign(num_nodes_, kNone);
+  Stage(const System& system, SystemStep& step)
+      : points(system, step), system_(system), step_(step) {
+    contact_of_.assign(points.num_nodes() * system.colliders.size(), kNone);
   }
 
   ContactProblem problem;
+  ContactPoints points;
 
   template <class Visit>
   void for_each_pair(const Visit& visit) {
@@ -35,41 +35,26 @@ class Stage {
 
   Contact* find(std::size_t k, std::size_t b, int node) {
     const int index = contact_of_[pair_index(k, b, node)];
-    return index == kNone ? nullptr : &problem.contacts[index];
+    return index == kNone ? nullptr : &problem.contacts[static_cast<std::size_t>(index)];
   }
 
   Contact& add(std::size_t k, std::size_t b, int node, const Vector3<double>& velocity) {
-    int& point = point_of_[first_node_[b] + node];
-    if (point == kNone) {
-      point = static_cast<int>(problem.points.size());
-      problem.points.push_back({.body = static_cast<int>(b),
-                                .node = node,
-                                .inverse_mass = step_.inverse_masses[b][node],
-                                .velocity = velocity});
-    }
+    const int point = points.point(b, node, velocity, problem);
     contact_of_[pair_index(k, b, node)] = static_cast<int>(problem.contacts.size());
-    problem.contacts.push_back({.point = point, .rigid = static_cast<int>(k)});
+    problem.contacts.push_back(
+        {.on = {.points = {point, -1, -1, -1}}, .rigid = static_cast<int>(k)});
     return problem.contacts.back();
-  }
-
-  /// Velocity of a node as the problem knows it now, or the given one if it has no contact.
-  Vector3<double> velocity(std::size_t b, int node, const Matrix3X<double>& otherwise) const {
-    const int point = point_of_[first_node_[b] + node];
-    return point == kNone ? Vector3<double>(otherwise.col(node)) : problem.points[point].velocity;
   }
 
  private:
   static constexpr int kNone = -1;
   std::size_t pair_index(std::size_t k, std::size_t b, int node) const {
-    return k * num_nodes_ + first_node_[b] + node;
+    return k * points.num_nodes() + points.number(b, node);
   }
 
   const System& system_;
   SystemStep& step_;
-  std::size_t num_nodes_ = 0;
-  std::vector<std::size_t> first_node_;
   std::vector<int> contact_of_;  // per collider and node
-  std::vector<int> point_of_;    // per node
 };
 
 ContactOutcome outcome_of(const ContactProblem& problem) {
@@ -86,25 +71,8 @@ double combined_friction(const System& system, std::size_t k, std::size_t b) {
   return system.bodies[b].friction * system.colliders[k].friction;
 }
 
-/// The point that a position-stage impulse acts at, relative to the collider's: see
-/// make_impulse_contact().
-Vector3<double> position_stage_lever(const System& system, const SystemStep& step, std::size_t k,
-                                     std::size_t b, int node) {
-  const double h = step.time_step;
-  const BodyStep& body = step.bodies[b];
-  const RigidMotion& rigid = step.rigids[k];
-  const Vector3<double> point =
-      system.bodies[b].positions.col(node) +
-      h * (body.mean_velocities.col(node) - body.end_velocities.col(node));
-  const Vector3<double> centre =
-      system.colliders[k].position + h * (rigid.mean_velocity - rigid.end_velocity);
-  return point - centre;
-}
-
-/// Linearises every surface at the predicted end of the step, or only those of new contacts.
-/// False: nothing new, the solution stands.
-bool linearise(const System& system, const PositionStage& options, const SystemStep& step,
-               bool only_new, Stage& stage) {
+/// Where the colliders end the step with the velocities of the problem.
+std::vector<Pose> end_poses(const System& system, const SystemStep& step, const Stage& stage) {
   std::vector<Pose> poses;
   for (std::size_t k = 0; k < system.colliders.size(); ++k) {
     RigidMotion motion = step.rigids[k];
@@ -112,10 +80,18 @@ bool linearise(const System& system, const PositionStage& options, const SystemS
     motion.mean_angular_velocity = stage.problem.rigids[k].angular_velocity;
     poses.push_back(end_pose(system.colliders[k], motion, step.time_step));
   }
+  return poses;
+}
+
+/// Linearises every surface at the predicted end of the step, or only those of new contacts.
+/// False: nothing new, the solution stands.
+bool linearise(const System& system, const PositionStage& options, const SystemStep& step,
+               const std::vector<Pose>& poses, bool only_new, Stage& stage) {
   bool changed = false;
   stage.for_each_pair([&](std::size_t k, std::size_t b, int node) {
     const Body& body = system.bodies[b];
-    const Vector3<double> velocity = stage.velocity(b, node, step.bodies[b].mean_velocities);
+    const Vector3<double> velocity =
+        stage.points.velocity(b, node, step.bodies[b].mean_velocities, stage.problem);
     const Vector3<double> end = body.positions.col(node) + step.time_step * velocity;
     const SurfaceDistance surface = signed_distance(system.colliders[k].shape, poses[k], end);
     const double depth = body.collision_margin - surface.distance;
@@ -136,6 +112,37 @@ bool linearise(const System& system, const PositionStage& options, const SystemS
         surface.normal.dot(relative_velocity(stage.problem, *contact)) + depth / step.time_step;
   });
   return changed;
+}
+
+/// Adds what touched in the position stage to a velocity stage.
+void add_touches(const System& system, const SystemStep& step, const std::vector<Pose>& poses,
+                 const Touches& touches, bool friction, Stage& stage) {
+  for (const FaceTouch& touch : touches.faces) {
+    const Body& body = system.bodies[touch.body];
+    Contact contact = contact_at(touch, step, stage.points, stage.problem, true);
+    Vector3<double> end = Vector3<double>::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int node = touch.nodes[k];
+      end += touch.weights[static_cast<Eigen::Index>(k)] *
+             (body.positions.col(node) +
+              step.time_step * step.bodies[touch.body].mean_velocities.col(node));
+    }
+    const Pose& pose = poses[touch.collider];
+    contact.normal = signed_distance(system.colliders[touch.collider].shape, pose, end).normal;
+    contact.lever = end - pose.position;
+    contact.friction = friction ? combined_friction(system, touch.collider, touch.body) : 0.0;
+    stage.problem.contacts.push_back(contact);
+  }
+  for (const PairTouch& touch : touches.pairs) {
+    Contact contact{.normal = touch.normal, .friction = friction ? touch.friction : 0.0};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Matrix3X<double>& velocities = step.bodies[touch.bodies[k]].end_velocities;
+      contact.on.points[k] = stage.points.point(touch.bodies[k], touch.nodes[k],
+                                                velocities.col(touch.nodes[k]), stage.problem);
+      contact.on.weights[k] = touch.weights[k];
+    }
+    stage.problem.contacts.push_back(contact);
+  }
 }
 
 void write_position_stage(const ContactProblem& problem, const PositionStage& options,
@@ -168,8 +175,21 @@ void write_position_stage(const ContactProblem& problem, const PositionStage& op
 
 }  // namespace
 
+Vector3<double> position_stage_lever(const System& system, const SystemStep& step, std::size_t k,
+                                     std::size_t b, int node) {
+  const double h = step.time_step;
+  const BodyStep& body = step.bodies[b];
+  const RigidMotion& rigid = step.rigids[k];
+  const Vector3<double> point =
+      system.bodies[b].positions.col(node) +
+      h * (body.mean_velocities.col(node) - body.end_velocities.col(node));
+  const Vector3<double> centre =
+      system.colliders[k].position + h * (rigid.mean_velocity - rigid.end_velocity);
+  return point - centre;
+}
+
 ContactOutcome run_position_stage(const System& system, const PositionStage& options,
-                                  SystemStep& step) {
+                                  SystemStep& step, Touches& touches) {
   Stage stage(system, step);
   for (const RigidMotion& motion : step.rigids) {
     stage.problem.rigids.push_back({.inverse_mass = motion.inverse_mass,
@@ -177,26 +197,47 @@ ContactOutcome run_position_stage(const System& system, const PositionStage& opt
                                     .velocity = motion.mean_velocity,
                                     .angular_velocity = motion.mean_angular_velocity});
   }
+  FaceContacts faces(system);
+  SelfContacts pairs(system);
+  // Faces and pairs share nodes: their sweeps converge linearly, and what they leave is looked at
+  // again in the next pass.
+  const SweepLimits limits = faces.is_needed() || pairs.is_needed() ? kSharedLimits : SweepLimits{};
+  const auto look = [&](bool only_new) {
+    const std::vector<Pose> poses = end_poses(system, step, stage);
+    bool changed = linearise(system, options, step, poses, only_new, stage);
+    if (faces.is_needed()) {
+      changed |= faces.update(system, step, poses, options.friction, only_new, stage.points,
+                              stage.problem);
+    }
+    if (pairs.is_needed()) {
+      changed |= pairs.update(system, step, options.friction, stage.points, stage.problem);
+    }
+    return changed;
+  };
   int passes = 0;
   int sweeps = 0;
   bool converged = true;
-  bool changed = linearise(system, options, step, false, stage);
+  bool changed = look(false);
   while (changed && passes < kMaxPasses) {
-    const SweepReport report = solve_contacts(stage.problem);
+    const SweepReport report = solve_contacts(stage.problem, limits);
     ++passes;
     sweeps += report.sweeps;
     converged = report.converged;
-    changed = linearise(system, options, step, passes >= kSmoothPasses, stage);
+    changed = look(passes >= kSmoothPasses);
   }
   ContactOutcome outcome = outcome_of(stage.problem);
   outcome.passes = passes;
   outcome.sweeps = sweeps;
   outcome.converged = converged && !changed;
   write_position_stage(stage.problem, options, step);
+  faces.collect(stage.problem, touches.faces);
+  pairs.collect(stage.problem, touches.pairs);
+  if (pairs.is_needed()) outcome.num_stopped_nodes = pairs.stop_crossings(system, step);
   return outcome;
 }
 
-ContactOutcome run_velocity_stage(const System& system, bool friction, SystemStep& step) {
+ContactOutcome run_velocity_stage(const System& system, bool friction, const Touches& touches,
+                                  SystemStep& step) {
   Stage stage(system, step);
   std::vector<Pose> poses;
   for (std::size_t k = 0; k < system.colliders.size(); ++k) {
@@ -221,7 +262,10 @@ ContactOutcome run_velocity_stage(const System& system, bool friction, SystemSte
     contact.lever = end - poses[k].position;
     contact.friction = friction ? combined_friction(system, k, b) : 0.0;
   });
-  const SweepReport report = solve_contacts(stage.problem);
+  add_touches(system, step, poses, touches, friction, stage);
+  const bool is_shared = !touches.faces.empty() || !touches.pairs.empty();
+  const SweepReport report =
+      solve_contacts(stage.problem, is_shared ? kSharedLimits : SweepLimits{});
   ContactOutcome outcome = outcome_of(stage.problem);
   outcome.sweeps = report.sweeps;
   outcome.converged = report.converged;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <weft/validation/reference/contact/contact_model.hpp>
+#include <weft/validation/reference/contact/touches.hpp>
 
 namespace weft::reference {
 
@@ -16,13 +17,20 @@ struct PositionStage {
 /// the node would end and this is repeated until the normals stand still (implicit normal), so that
 /// a node rests on a curved surface without creep. All shapes are convex: even one pass leaves no
 /// node inside a fixed collider.
+/// touches: filled with what pushed beside nodes on colliders.
 [[nodiscard]] ContactOutcome run_position_stage(const System& system, const PositionStage& stage,
-                                                SystemStep& step);
+                                                SystemStep& step, Touches& touches);
 
 /// Changes end velocities so that no touching node approaches its surface, with or without
-/// friction.
+/// friction; nor what touched in the position stage.
 [[nodiscard]] ContactOutcome run_velocity_stage(const System& system, bool friction,
-                                                SystemStep& step);
+                                                const Touches& touches, SystemStep& step);
+
+/// The point that a position-stage impulse on a node acts at, relative to the collider's: see
+/// make_impulse_contact() [m].
+[[nodiscard]] Vector3<double> position_stage_lever(const System& system, const SystemStep& step,
+                                                   std::size_t collider, std::size_t body,
+                                                   int node);
 
 /// Passes over the linearised surface. The error of the normal shrinks by (distance per step /
 /// radius) per pass, so ten are far more than any step short enough to be of use needs on a smooth

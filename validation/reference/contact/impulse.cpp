@@ -6,9 +6,10 @@ namespace {
 class ImpulseContact final : public ContactModel {
  public:
   [[nodiscard]] ContactOutcome resolve(const System& system, SystemStep& step) const override {
-    const ContactOutcome landing = run_position_stage(system, {}, step);
+    Touches touches;
+    const ContactOutcome landing = run_position_stage(system, {}, step, touches);
     if (step.mean_is_end) return landing;
-    return combined(landing, run_velocity_stage(system, /*friction=*/true, step));
+    return combined(landing, run_velocity_stage(system, /*friction=*/true, touches, step));
   }
 };
 

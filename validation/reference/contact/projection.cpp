@@ -6,10 +6,11 @@ namespace {
 class ProjectionContact final : public ContactModel {
  public:
   [[nodiscard]] ContactOutcome resolve(const System& system, SystemStep& step) const override {
-    ContactOutcome shift =
-        run_position_stage(system, {.friction = false, .change_end_velocity = false}, step);
+    Touches touches;
+    ContactOutcome shift = run_position_stage(
+        system, {.friction = false, .change_end_velocity = false}, step, touches);
     shift.normal_impulse = 0.0;  // the shift of positions carries no momentum
-    return combined(shift, run_velocity_stage(system, /*friction=*/false, step));
+    return combined(shift, run_velocity_stage(system, /*friction=*/false, touches, step));
   }
 };
 

@@ -11,9 +11,9 @@ struct SurfaceDistance {
   Vector3<double> normal;  ///< unit gradient of the distance, world frame, outward
 };
 
-/// Distance of a point [m, world frame] from a shape in a pose. All three shapes are convex, so the
-/// distance is a convex function of the point: distance(p + d) >= distance(p) + normal . d. Where
-/// the direction is not unique (centre of a sphere, middle planes of a box) the first axis is
+/// Distance of a point [m, world frame] from a shape in a pose. All shapes but the mesh are convex, so
+/// the distance is a convex function of the point: distance(p + d) >= distance(p) + normal . d. Where
+/// the direction is not unique (centre of a sphere, middle planes of a box, axes) the first axis is
 /// taken.
 [[nodiscard]] SurfaceDistance signed_distance(const Shape& shape, const Pose& pose,
                                               const Vector3<double>& point);

@@ -41,20 +41,8 @@ void add_connections(const ClothMesh& mesh, Pairs& pairs) {
   }
 }
 
-}  // namespace
-
-Edges coupled_nodes(const Body& body) {
+Edges pairs_of(const ClothMesh& mesh, const std::set<forces::ElementKind>& kinds) {
   Pairs pairs;
-  const ClothMesh& mesh = body.mesh;
-  std::set<forces::ElementKind> kinds;
-  for (const auto& law : body.laws.laws()) {
-    const forces::LawInfo& info = law->info();
-    if (info.traits.needs_closed_surface) {
-      throw InvalidArgument("statics: law '" + std::string(info.id) +
-                            "' couples every node with every other, expected laws of short reach");
-    }
-    kinds.insert(info.traits.elements);
-  }
   using Kind = forces::ElementKind;
   if (kinds.count(Kind::kEdges) != 0) {
     for (const EdgeSet& set : mesh.edge_sets) add_all_pairs(set.edges, pairs);
@@ -75,6 +63,37 @@ Edges coupled_nodes(const Body& body) {
     coupled.col(static_cast<Eigen::Index>(p)) << pairs[p].first, pairs[p].second;
   }
   return coupled;
+}
+
+}  // namespace
+
+Edges coupled_nodes(const Body& body) {
+  std::set<forces::ElementKind> kinds;
+  for (const auto& law : body.laws.laws()) {
+    const forces::LawInfo& info = law->info();
+    if (info.traits.needs_closed_surface) {
+      throw InvalidArgument("statics: law '" + std::string(info.id) +
+                            "' couples every node with every other, expected laws of short reach");
+    }
+    kinds.insert(info.traits.elements);
+  }
+  return pairs_of(body.mesh, kinds);
+}
+
+bool has_short_reach(const forces::LawTraits& traits) {
+  using Kind = forces::ElementKind;
+  const bool is_local = traits.elements == Kind::kEdges || traits.elements == Kind::kLines ||
+                        traits.elements == Kind::kHinges || traits.elements == Kind::kFaces;
+  return is_local && !traits.needs_closed_surface;
+}
+
+Edges nearly_coupled_nodes(const Body& body) {
+  std::set<forces::ElementKind> kinds;
+  for (const auto& law : body.laws.laws()) {
+    const forces::LawTraits& traits = law->info().traits;
+    if (has_short_reach(traits)) kinds.insert(traits.elements);
+  }
+  return pairs_of(body.mesh, kinds);
 }
 
 std::vector<int> column_colors(const Edges& coupled, int num_nodes) {

@@ -3,93 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/SparseCholesky>
-
+#include <weft/validation/reference/statics/colored_matrix.hpp>
 #include <weft/validation/reference/statics/coupling.hpp>
+#include <weft/validation/reference/statics/definite_factor.hpp>
 
 namespace weft::reference {
 namespace {
-
-using Sparse = Eigen::SparseMatrix<double>;
-
-/// -df/dx on the free nodes.
-class StiffnessMatrix {
- public:
-  explicit StiffnessMatrix(const StaticProblem& problem)
-      : problem_(problem), num_nodes_(static_cast<int>(problem.fixed.size())) {
-    row_of_.assign(problem.fixed.size(), -1);
-    for (std::size_t node = 0; node < problem.fixed.size(); ++node) {
-      if (!problem.fixed[node]) row_of_[node] = 3 * num_free_++;
-    }
-    colors_ = column_colors(problem.coupled, num_nodes_);
-    num_colors_ = colors_.empty() ? 0 : *std::max_element(colors_.begin(), colors_.end()) + 1;
-    for (int node = 0; node < num_nodes_; ++node) blocks_.emplace_back(node, node);
-    for (Eigen::Index e = 0; e < problem.coupled.cols(); ++e) {
-      blocks_.emplace_back(problem.coupled(0, e), problem.coupled(1, e));
-      blocks_.emplace_back(problem.coupled(1, e), problem.coupled(0, e));
-    }
-  }
-
-  [[nodiscard]] int num_free() const { return num_free_; }
-  [[nodiscard]] int row_of(int node) const { return row_of_[static_cast<std::size_t>(node)]; }
-
-  [[nodiscard]] Sparse assemble(const Matrix3X<double>& positions) const {
-    std::vector<std::vector<std::pair<int, int>>> blocks_of_color(
-        static_cast<std::size_t>(num_colors_));
-    for (const auto& [row, column] : blocks_) {
-      if (row_of(row) < 0 || row_of(column) < 0) continue;
-      const auto color = static_cast<std::size_t>(colors_[static_cast<std::size_t>(column)]);
-      blocks_of_color[color].emplace_back(row, column);
-    }
-    std::vector<Eigen::Triplet<double>> triplets;
-    Matrix3X<double> direction(3, num_nodes_);
-    Matrix3X<double> product(3, num_nodes_);
-    for (int color = 0; color < num_colors_; ++color) {
-      for (int axis = 0; axis < 3; ++axis) {
-        direction.setZero();
-        for (int node = 0; node < num_nodes_; ++node) {
-          const auto n = static_cast<std::size_t>(node);
-          if (colors_[n] == color && !problem_.fixed[n]) direction(axis, node) = 1.0;
-        }
-        problem_.stiffness_product(positions, direction, product);
-        for (const auto& [row, column] : blocks_of_color[static_cast<std::size_t>(color)]) {
-          for (int k = 0; k < 3; ++k) {
-            triplets.emplace_back(row_of(row) + k, row_of(column) + axis, -product(k, row));
-          }
-        }
-      }
-    }
-    Sparse matrix(3 * num_free_, 3 * num_free_);
-    matrix.setFromTriplets(triplets.begin(), triplets.end());
-    return matrix;
-  }
-
- private:
-  const StaticProblem& problem_;
-  int num_nodes_;
-  int num_free_ = 0;
-  std::vector<int> row_of_;  // first row of a free node, -1 for a fixed one
-  std::vector<int> colors_;
-  int num_colors_ = 0;
-  std::vector<std::pair<int, int>> blocks_;
-};
-
-/// Solves (K + shift) step = right, with the smallest shift tried that makes it positive definite.
-Eigen::VectorXd downhill_step(const Sparse& stiffness, const Eigen::VectorXd& right,
-                              Eigen::SimplicialLDLT<Sparse>& factor) {
-  const double scale = stiffness.diagonal().cwiseAbs().mean();
-  Sparse identity(stiffness.rows(), stiffness.cols());
-  identity.setIdentity();
-  constexpr double kFirstShift = 1e-9;  // of the mean diagonal: far below any mode that matters
-  constexpr int kMaxShifts = 12;
-  double shift = 0.0;
-  for (int attempt = 0; attempt <= kMaxShifts; ++attempt) {
-    factor.factorize(shift > 0.0 ? Sparse(stiffness + shift * identity) : stiffness);
-    if (factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0.0) break;
-    shift = shift > 0.0 ? 10 * shift : kFirstShift * scale;
-  }
-  return factor.solve(right);
-}
 
 double largest_free_force(const Matrix3X<double>& forces, const std::vector<bool>& fixed) {
   double largest = 0.0;
@@ -101,42 +20,58 @@ double largest_free_force(const Matrix3X<double>& forces, const std::vector<bool
   return largest;
 }
 
+/// Moves positions along a step that goes downhill, as far as options allow and not much beyond the
+/// lowest place on the way; forces become those there. The forces' work along the step says where
+/// that is, so no energy is needed.
+void move_downhill(const StaticProblem& problem, const StaticOptions& options,
+                   const Matrix3X<double>& step, Matrix3X<double>& positions,
+                   Matrix3X<double>& forces) {
+  const double longest = std::sqrt(step.colwise().squaredNorm().maxCoeff());
+  const double pull = forces.cwiseProduct(step).sum();
+  const double residual = largest_free_force(forces, problem.fixed);
+  const Matrix3X<double> start = positions;
+  double part = longest > options.max_move ? options.max_move / longest : 1.0;
+  constexpr int kMaxHalvings = 30;
+  constexpr double kOvershoot = 0.9;  // part of the first pull with which it may be pulled back
+  for (int halving = 0; halving <= kMaxHalvings; ++halving, part *= 0.5) {
+    positions = start + part * step;
+    problem.forces(positions, forces);
+    if (forces.cwiseProduct(step).sum() >= -kOvershoot * pull) return;
+    if (largest_free_force(forces, problem.fixed) < residual) return;
+  }
+}
+
 }  // namespace
 
 StaticOutcome solve_statics(const StaticProblem& problem, Matrix3X<double>& positions,
                             const StaticOptions& options) {
-  const StiffnessMatrix matrix(problem);
-  const auto num_nodes = positions.cols();
-  Matrix3X<double> forces = Matrix3X<double>::Zero(3, num_nodes);
-  Eigen::SimplicialLDLT<Sparse> factor;
+  const ColoredMatrix matrix(problem.coupled, problem.fixed);
+  Matrix3X<double> forces = Matrix3X<double>::Zero(3, positions.cols());
+  DefiniteFactor factor;
   StaticOutcome outcome;
-  bool is_analyzed = false;
+  problem.forces(positions, forces);
   for (;; ++outcome.iterations) {
-    problem.forces(positions, forces);
     outcome.residual = largest_free_force(forces, problem.fixed) / problem.load;
     outcome.converged = outcome.residual <= options.residual;
     if (outcome.converged || !std::isfinite(outcome.residual) ||
         outcome.iterations == options.max_iterations || matrix.num_free() == 0) {
       return outcome;
     }
-    const Sparse stiffness = matrix.assemble(positions);
-    if (!is_analyzed) factor.analyzePattern(stiffness);
-    is_analyzed = true;
+    factor.factorize(
+        matrix.assemble([&](const Matrix3X<double>& direction, Matrix3X<double>& product) {
+          problem.stiffness_product(positions, direction, product);
+          product = -product;
+        }));
     Eigen::VectorXd right(3 * matrix.num_free());
-    for (int node = 0; node < num_nodes; ++node) {
+    for (int node = 0; node < positions.cols(); ++node) {
       if (matrix.row_of(node) >= 0) right.segment<3>(matrix.row_of(node)) = forces.col(node);
     }
-    const Eigen::VectorXd step = downhill_step(stiffness, right, factor);
-    double longest = 0.0;
-    for (Eigen::Index row = 0; row < step.size(); row += 3) {
-      longest = std::max(longest, step.segment<3>(row).norm());
+    const Eigen::VectorXd solution = factor.solve(right);
+    Matrix3X<double> step = Matrix3X<double>::Zero(3, positions.cols());
+    for (int node = 0; node < positions.cols(); ++node) {
+      if (matrix.row_of(node) >= 0) step.col(node) = solution.segment<3>(matrix.row_of(node));
     }
-    const double part = longest > options.max_move ? options.max_move / longest : 1.0;
-    for (int node = 0; node < num_nodes; ++node) {
-      if (matrix.row_of(node) >= 0) {
-        positions.col(node) += part * step.segment<3>(matrix.row_of(node));
-      }
-    }
+    move_downhill(problem, options, step, positions, forces);
   }
 }
 

@@ -35,7 +35,7 @@ struct StaticOutcome {
 
 /// Newton's method from the given positions. Where the stiffness is not positive definite it is
 /// shifted until it is, so that the iteration goes downhill and does not stop at an unstable
-/// equilibrium on its way. The matrix is assembled from products with the stiffness, one for all
+/// equilibrium on its way; a line search keeps it from leaping over the next low place. The matrix is assembled from products with the stiffness, one for all
 /// nodes of a colour and each axis. A failure is in the outcome.
 [[nodiscard]] StaticOutcome solve_statics(const StaticProblem& problem, Matrix3X<double>& positions,
                                           const StaticOptions& options = {});

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+
+#include <weft/validation/reference/contact/primitive_distance.hpp>
+
+namespace weft::reference {
+
+enum class PairKind { kPointTriangle, kEdges };
+
+/// Nearest places of a pair, by its kind.
+[[nodiscard]] Nearest nearest(PairKind kind, const FourPoints& points);
+
+/// Part of a straight motion, 0 to 1, at which a pair comes nearer than a distance [m]; nothing if
+/// it does not. Conservative: nothing means that the distance is never below 0.9 of it. The motion
+/// is advanced by what the distance certainly allows (conservative advancement), so no root of a
+/// polynomial can be missed.
+[[nodiscard]] std::optional<double> first_approach(PairKind kind, const FourPoints& start,
+                                                   const FourPoints& motion, double distance);
+
+}  // namespace weft::reference

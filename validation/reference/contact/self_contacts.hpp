@@ -1,0 +1,69 @@
+#pragma once
+
+#include <vector>
+
+#include <weft/validation/reference/contact/contact_points.hpp>
+#include <weft/validation/reference/contact/continuous_distance.hpp>
+#include <weft/validation/reference/contact/touches.hpp>
+
+namespace weft::reference {
+
+/// Contacts of cloth with itself and with other cloth over one step: a node and a triangle, or two
+/// edges. Layers keep their thickness, or half the distance that the pair has at rest if that is
+/// less. Two things make a contact: places that would end the step nearer than that, and a path on
+/// which a pair comes nearer than kNearestPart of what it had. The second one is continuous, so that
+/// nothing passes through anything in a step.
+class SelfContacts {
+ public:
+  explicit SelfContacts(const System& system);
+  [[nodiscard]] bool is_needed() const { return !triangles_.empty(); }
+
+  /// Adds contacts that the velocities of the problem ask for. True if there was one.
+  bool update(const System& system, const SystemStep& step, bool friction, ContactPoints& points,
+              ContactProblem& problem);
+
+  /// The contacts that pushed, for the velocity part of the step.
+  void collect(const ContactProblem& problem, std::vector<PairTouch>& touches) const;
+
+  /// Last resort, on the mean velocities of the step: nodes of a pair that would still come together
+  /// stay where they are for this step. Returns their number: 0 where the impulses converged. Nodes
+  /// without a free motion cannot be stopped.
+  [[nodiscard]] int stop_crossings(const System& system, SystemStep& step) const;
+
+ private:
+  struct Node {
+    std::size_t body;
+    int node;
+  };
+  struct Candidate {
+    PairKind kind;
+    std::array<int, 4> nodes;  // of nodes_
+  };
+  struct Entry {
+    std::size_t contact;  // index in the problem
+    PairTouch touch;
+  };
+
+  [[nodiscard]] std::vector<Candidate> candidates(const Matrix3X<double>& start,
+                                                  const Matrix3X<double>& end) const;
+  [[nodiscard]] bool may_meet(int first, int second) const;
+  [[nodiscard]] double gap(const System& system, const Candidate& candidate) const;
+  [[nodiscard]] Matrix3X<double> positions(const System& system) const;
+
+  std::vector<Node> nodes_;                    // of bodies that take part
+  std::vector<std::array<int, 3>> triangles_;  // of nodes_
+  std::vector<std::array<int, 2>> edges_;
+  std::vector<bool> meets_itself_, meets_others_;  // per body
+  double largest_thickness_ = 0.0;                 // [m]
+  std::vector<Entry> entries_;
+};
+
+/// Part of the distance at the start of a step, or of the thickness if that is less, below which a
+/// path must not come [-].
+inline constexpr double kNearestPart = 0.2;
+/// Of the gap that may be missing at the end of a step [-].
+inline constexpr double kGapTolerance = 0.05;
+/// The same as kNearestPart for what is stopped in the end.
+inline constexpr double kStopPart = 0.02;
+
+}  // namespace weft::reference
