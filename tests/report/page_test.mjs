@@ -30,11 +30,11 @@ function launch(...more) {
     ],
   });
 }
-// One with WebGL in software, one that has none at all.
+// One with WebGL in software, which is slow in everything, and one that has none at all.
 const browser = await launch("--use-angle=swiftshader", "--enable-unsafe-swiftshader");
 const browserWithoutWebGL = await launch("--disable-gpu", "--disable-3d-apis");
 
-async function open(name, { width = 1200, colorScheme = "light", webgl = true } = {}) {
+async function open(name, { width = 1200, colorScheme = "light", webgl = false } = {}) {
   const page = await (webgl ? browser : browserWithoutWebGL).newPage();
   const complaints = [];
   page.on("console", (message) => {
@@ -47,7 +47,7 @@ async function open(name, { width = 1200, colorScheme = "light", webgl = true } 
   await page.emulateMedia({ colorScheme });
   await page.setViewportSize({ width, height: 900 });
   await page.goto(pathToFileURL(resolve(samples, name, "index.html")).href);
-  await page.waitForSelector("#verdict", { timeout: 10_000 });
+  await page.waitForSelector("#verdict", { timeout: 30_000 });
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   return { page, complaints };
 }

@@ -1,9 +1,12 @@
 // What a program that shares no line with Weft and Bullet says about the same cloth.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include <weft/validation/cases/sabotage.hpp>
 #include <weft/validation/cases/scene_cases.hpp>
 #include <weft/validation/cases/scene_metrics.hpp>
 #include <weft/validation/peers/peer_result.hpp>
@@ -59,6 +62,45 @@ CheckResult shown(const CaseInfo& info, const PeerResult& peer, const History& h
   return check;
 }
 
+/// Largest of the series up to a time [s]; infinite if it ends before.
+double largest_until(const Series& series, double end) {
+  double value = 0.0;
+  double covered = -1.0;
+  for (std::size_t i = 0; i < series.x.size() && series.x[i] < end + 0.01; ++i) {
+    value = std::max(value, series.y[i]);
+    covered = series.x[i];
+  }
+  return covered > end - 0.01 ? value : std::numeric_limits<double>::infinity();
+}
+
+/// Where nothing is chaotic yet two programs that know nothing of each other must say the same.
+CheckResult check_early(const CaseInfo& info, const PeerResult& peer, const SceneMetrics& metrics,
+                        const History& reference) {
+  constexpr double kEnd = 0.5;  // [s]
+  CheckResult check;
+  check.case_id = info.id;
+  check.engine = reference.engine.title();
+  check.claim = fmt::format("{} moves as in {}", peer.scene.name, peer.peer);
+  check.metric = fmt::format("RMS node distance / cloth size, 0 to {:g} s", kEnd);
+  check.unit = "1";
+  check.source = "validation/peers/run.sh";
+  check.tolerance = Tolerance{
+      0.015, Basis::kModelGap,
+      "Blender steps implicitly, to first order, with 1/4000 s, and Weft's reference with "
+      "1/2000 s; measured 0.005"};
+  check.measured = largest_until(distances(metrics, peer, reference), kEnd);
+  check.verdict = judge(check.measured, *check.tolerance);
+  check.note = reference.failure.empty() ? "the mapping of units, in the tables of the case"
+                                         : reference.failure;
+  History wrong;
+  wrong.engine = reference.engine;
+  wrong.frames = run_sabotaged(peer.scene, damping_sign(), kEnd);
+  const double off = largest_until(distances(metrics, peer, wrong), kEnd);
+  check.sabotages.push_back({damping_sign().name, off,
+                             std::isfinite(off) && judge(off, *check.tolerance) == Verdict::kFail});
+  return check;
+}
+
 void add_tables(Section& section, const PeerResult& peer) {
   Table mapping{fmt::format("{}: how {} was given the material", peer.scene.name, peer.peer),
                 {"mapping"},
@@ -104,6 +146,9 @@ void evaluate_third_opinion(const CaseInfo& info, const CaseOptions& options,
       const History history = load_history(runs, label_of(peer), engine);
       Series series = distances(metrics, peer, history);
       report.checks.push_back(shown(info, peer, history, series));
+      if (engine.engine == "reference" && peer.scene.name == "hang") {
+        report.checks.push_back(check_early(info, peer, metrics, history));
+      }
       if (!series.x.empty()) plot.series.push_back(std::move(series));
     }
     section.plots.push_back(std::move(plot));
