@@ -241,7 +241,7 @@ Action add_run_command(CLI::App& parser, const CommandLine& command_line) {
       ->add_option("-e,--engine", options->engine,
                    "Which engine simulates (default: the first that the scene names, else the "
                    "reference)")
-      ->check(CLI::IsMember({"bullet_soft", "bullet_forces", "bullet_deformable",
+      ->check(CLI::IsMember({"bullet_soft", "bullet_forces", "bullet_weft", "bullet_deformable",
                              "bullet_deformable_implicit", "reference"}));
   command
       ->add_option("-p,--precision", options->precision,

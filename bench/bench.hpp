@@ -19,6 +19,8 @@ void bench_frame(const Settings& settings);
 #ifdef WEFT_WITH_BULLET
 /// A step of the classic scene with Bullet alone, and with laws.
 void bench_bullet(const Settings& settings);
+/// Bullet's links against the fast solver: time and error in the same run.
+void bench_fast(const Settings& settings);
 /// A step of a character's cape at each level of detail.
 void bench_detail(const Settings& settings);
 #endif

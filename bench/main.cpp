@@ -20,6 +20,7 @@ int run(int argc, char** argv) {
       {"laws", bench_laws}, {"grain", bench_grain}, {"frame", bench_frame}};
 #ifdef WEFT_WITH_BULLET
   benches["bullet"] = bench_bullet;
+  benches["fast"] = bench_fast;
   benches["detail"] = bench_detail;
 #endif
   Settings settings{.folder = WEFT_SOURCE_DIR "/bench/results"};

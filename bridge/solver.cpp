@@ -6,6 +6,7 @@
 
 #include <BulletSoftBody/btSoftBody.h>
 
+#include <weft/bridge/fast_body.hpp>
 #include <weft/bridge/node_state.hpp>
 #include <weft/bridge/position_limits.hpp>
 #include <weft/custom_forces/core/error.hpp>
@@ -31,6 +32,7 @@ struct SoftBodySolver::Attachment {
   Matrix3X<btScalar> forces;
   std::optional<BodyBlowUp> blow_up;
   PositionLimits limits;
+  std::unique_ptr<FastBody> fast;  // none: Bullet's own constraints
   bool was_in_world = false;
   bool is_suspended = false;
   double time = 0.0;  // [s] of the steps since the body was attached
@@ -51,6 +53,14 @@ struct ContactEntry {
   ClothContact contact;
   bool was_in_world = false;
 };
+
+LawSet explicit_laws(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws) {
+  std::vector<forces::LawSpecification> rest;
+  for (const forces::LawSpecification& law : laws) {
+    if (!fast::is_implicit(law)) rest.push_back(law);
+  }
+  return make_laws(mesh, rest);
+}
 
 /// Forgets bodies that were in the world and are no more: they may be deleted, and another may stand
 /// at the same address tomorrow.
@@ -76,7 +86,7 @@ struct SoftBodySolver::Attachments {
 bool SoftBodySolver::Attachment::acts_after_projection(Level level) const {
   if (!laws.has_level(level)) return false;
   if (damping != DampingPlace::kAutomatic) return damping == DampingPlace::kAfterProjection;
-  return level == Level::kVelocity || body->m_links.size() > 0;
+  return level == Level::kVelocity || body->m_links.size() > 0 || fast != nullptr;
 }
 
 // Velocity-level laws state how fast velocities decay: inertia does not slow them down.
@@ -201,6 +211,51 @@ void SoftBodySolver::replace_laws(btSoftBody& body, LawSet laws, VectorX<btScala
   if (was_begun && !is_still(body)) find(body)->begin_forces();
 }
 
+std::optional<std::string> SoftBodySolver::attach_fast(
+    btSoftBody& body, const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
+    const FastSettings& settings) {
+  if (auto reason = FastBody::obstacle(body)) {
+    attach(body, mesh, laws);
+    return reason;
+  }
+  auto fast = std::make_unique<FastBody>(mesh, laws, mesh.masses, settings);
+  attach(body, explicit_laws(mesh, laws), mesh.masses.cast<btScalar>());
+  find(body)->fast = std::move(fast);
+  return std::nullopt;
+}
+
+void SoftBodySolver::set_fast_settings(btSoftBody& body, const FastSettings& settings) {
+  Attachment* attachment = find(body);
+  if (!attachment || !attachment->fast) {
+    throw InvalidArgument("soft body solver: the body is not fast, expected attach_fast() first");
+  }
+  attachment->fast->set_settings(settings);
+}
+
+bool SoftBodySolver::is_fast(const btSoftBody& body) const {
+  const Attachment* attachment = find(body);
+  return attachment && attachment->fast;
+}
+
+int SoftBodySolver::num_contacts(const btSoftBody& body) const {
+  const Attachment* attachment = find(body);
+  const bool is_fast = attachment && attachment->fast;
+  return body.m_scontacts.size() +
+         (is_fast ? attachment->fast->num_contacts() : body.m_rcontacts.size());
+}
+
+void SoftBodySolver::replace_laws(btSoftBody& body, const ClothMesh& mesh,
+                                  const std::vector<forces::LawSpecification>& laws) {
+  const Attachment* const old = find(body);
+  if (!old || !old->fast) {
+    replace_laws(body, make_laws(mesh, laws), mesh.masses.cast<btScalar>());
+    return;
+  }
+  auto fast = std::make_unique<FastBody>(mesh, laws, mesh.masses, old->fast->settings());
+  replace_laws(body, explicit_laws(mesh, laws), mesh.masses.cast<btScalar>());
+  find(body)->fast = std::move(fast);
+}
+
 void SoftBodySolver::detach(btSoftBody& body) {
   auto& list = attachments_->list;
   list.erase(std::remove_if(list.begin(), list.end(),
@@ -298,8 +353,14 @@ void SoftBodySolver::predictMotion(btScalar time_step) {
     btSoftBody& body = *m_softBodySet[i];
     if (!body.isActive()) continue;
     if (is_still(body)) continue;
-    if (Attachment* attachment = find(body)) attachment->add_forces(time_step);
-    if (!is_still(body)) body.predictMotion(time_step);  // the forces may have exploded
+    Attachment* const attachment = find(body);
+    if (attachment) attachment->add_forces(time_step);
+    if (is_still(body)) continue;  // the forces may have exploded
+    if (attachment && attachment->fast) {
+      attachment->fast->predict(body, time_step);
+    } else {
+      body.predictMotion(time_step);
+    }
   }
 }
 
@@ -311,7 +372,12 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
     btSoftBody& body = *m_softBodySet[i];
     if (!body.isActive() || is_still(body)) continue;
     if (ClothContact* contact = find_contact(body)) contact->add_self_contacts(body, time_step_);
-    body.solveConstraints();
+    Attachment* attachment = find(body);
+    if (attachment && attachment->fast) {
+      attachment->fast->solve(body, time_step_);
+    } else {
+      body.solveConstraints();
+    }
   }
   settle_contact_velocities();
   for (int i = 0; i < m_softBodySet.size(); ++i) {
@@ -353,7 +419,13 @@ void SoftBodySolver::updateSoftBodies() {
 }
 
 void SoftBodySolver::processCollision(btSoftBody* body, const btCollisionObjectWrapper* object) {
-  if (!is_still(*body)) btDefaultSoftBodySolver::processCollision(body, object);
+  if (is_still(*body)) return;
+  Attachment* attachment = find(*body);
+  if (attachment && attachment->fast) {
+    attachment->fast->collide(*body, *object, time_step_);
+  } else {
+    btDefaultSoftBodySolver::processCollision(body, object);
+  }
 }
 
 void SoftBodySolver::processCollision(btSoftBody* body, btSoftBody* other) {

@@ -9,6 +9,7 @@
 
 #include <weft/bridge/bullet_guard.hpp>
 #include <weft/bridge/cloth_contact.hpp>
+#include <weft/bridge/fast_settings.hpp>
 #include <weft/bridge/law_attachment.hpp>
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/core/position_limits.hpp>
@@ -80,6 +81,18 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   /// The body must not gain or lose nodes while laws are attached, but as replace_laws() says.
   void attach(btSoftBody& body, forces::LawSet<btScalar> laws, VectorX<btScalar> masses,
               DampingPlace damping = DampingPlace::kAutomatic);
+  /// As attach(), with springs and their dampers solved implicitly in place of btSoftBody's own
+  /// constraints (FastBody): stable at any time step, stiffness in N/m whatever the step. Damping laws
+  /// act after the projection. A body with clusters or a pose to match cannot be stepped so: it gets
+  /// attach(), and the reason is returned; nothing otherwise. Throws InvalidArgument as attach().
+  std::optional<std::string> attach_fast(btSoftBody& body, const ClothMesh& mesh,
+                                         const std::vector<forces::LawSpecification>& laws,
+                                         const FastSettings& settings = {});
+  /// Other settings for a body with attach_fast(). Throws InvalidArgument for a body without.
+  void set_fast_settings(btSoftBody& body, const FastSettings& settings);
+  [[nodiscard]] bool is_fast(const btSoftBody& body) const;
+  /// Contacts with rigid bodies and with cloth that the last step looked at.
+  [[nodiscard]] int num_contacts(const btSoftBody& body) const;
   /// Back to plain Bullet. Call before deleting a body that never was in a stepped world. Does
   /// nothing if no laws are attached.
   void detach(btSoftBody& body);
@@ -89,6 +102,10 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   /// time goes on; where its damping acts stays; its position limits end. Throws InvalidArgument as attach(), and then
   /// nothing has changed; also for a body without laws.
   void replace_laws(btSoftBody& body, forces::LawSet<btScalar> laws, VectorX<btScalar> masses);
+  /// The same from the laws' names, for a body with attach() or attach_fast(), which it stays: other
+  /// parameters, or a torn mesh. A fast body is factorised anew in the next step.
+  void replace_laws(btSoftBody& body, const ClothMesh& mesh,
+                    const std::vector<forces::LawSpecification>& laws);
   [[nodiscard]] bool has_laws(const btSoftBody& body) const;
   /// Set once the body has exploded; it does not move any more.
   [[nodiscard]] std::optional<BodyBlowUp> blow_up(const btSoftBody& body) const;

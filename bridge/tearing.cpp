@@ -116,7 +116,9 @@ Tear part(SoftBodySolver& solver, btSoftBody& body, ClothMesh& mesh, const Cloth
   forces::LawSet<btScalar> new_laws = make_laws(tear.mesh, laws);
   apply_tear(tear, settings, body);
   solver.add_copies(body, tear.origins);
-  if (solver.has_laws(body)) {
+  if (solver.is_fast(body)) {
+    solver.replace_laws(body, tear.mesh, laws);
+  } else if (solver.has_laws(body)) {
     solver.replace_laws(body, std::move(new_laws), tear.mesh.masses.cast<btScalar>());
   }
   mesh = tear.mesh;

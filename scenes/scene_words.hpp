@@ -10,8 +10,12 @@ namespace weft::scenes {
 
 inline constexpr std::string_view kSchema = "weft-scene/1";
 
-inline constexpr std::array<std::string_view, 5> kEngineWords = {
-    "bullet_soft", "bullet_forces", "bullet_deformable", "bullet_deformable_implicit", "reference"};
+inline constexpr std::array<std::string_view, 6> kEngineWords = {"bullet_soft",
+                                                                 "bullet_forces",
+                                                                 "bullet_weft",
+                                                                 "bullet_deformable",
+                                                                 "bullet_deformable_implicit",
+                                                                 "reference"};
 inline constexpr std::array<std::string_view, 3> kStencilWords = {"24-neighbour", "12-neighbour",
                                                                   "8-neighbour"};
 inline constexpr std::array<std::string_view, 2> kLumpingWords = {"area", "uniform"};

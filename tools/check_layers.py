@@ -12,13 +12,14 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 _SCENES = {"custom_forces", "characters", "scenes", "scenes/import", "scenes/recording", "scenes/playback"}
-_ENGINES = _SCENES | {"bridge", "validation/reference", "scenes/engines"}
+_ENGINES = _SCENES | {"fast_solver", "bridge", "validation/reference", "scenes/engines"}
 _ALL = _ENGINES | {"validation", "validation/metrics", "validation/report"}
 
 # Module folder -> the modules it may include. The longest matching folder decides.
 MAY_INCLUDE = {
     "custom_forces": {"custom_forces"},
-    "bridge": {"bridge", "custom_forces"},
+    "fast_solver": {"fast_solver", "custom_forces"},
+    "bridge": {"bridge", "fast_solver", "custom_forces"},
     "validation/reference": {"validation/reference", "custom_forces"},
     "characters": {"characters", "custom_forces"},
     "scenes": {"scenes", "characters", "scenes/import", "custom_forces"},

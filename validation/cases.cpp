@@ -25,7 +25,7 @@ const std::array kCases = {
              Tier::kNightly},
     CaseInfo{"heavy_strip", "A stiff strip bends under its own weight", &plan_scene,
              &evaluate_scene, Tier::kNightly},
-    CaseInfo{"oscillator", "Four integrators against their own exact recurrence", nullptr,
+    CaseInfo{"oscillator", "Eight integrators against their own exact recurrences", nullptr,
              &evaluate_oscillator, Tier::kCommit, oscillator_parameters()},
     CaseInfo{"observed_orders", "The error falls with the step as each integrator promises",
              nullptr, &evaluate_observed_orders},

@@ -15,7 +15,7 @@
 namespace weft::scenes {
 namespace {
 
-enum class Tension { kLinks, kLaws };
+enum class Tension { kLinks, kLaws, kImplicit };
 
 class BulletSimulator final : public Simulator {
  public:
@@ -96,7 +96,11 @@ void BulletSimulator::add_cloth(const Cloth& cloth, const Scene& scene) {
   // A skin is drawn only. Bullet would look each of its nodes up in the colliders' distance fields.
   const auto* skin = std::get_if<SkinSource>(&cloth.source);
   if (skin != nullptr && !skin->is_cloth) body.m_cfg.collisions = 0;
-  world_->solver().attach(body, mesh, laws);
+  if (tension_ == Tension::kImplicit) {
+    (void)world_->solver().attach_fast(body, mesh, laws);  // never refused: no clusters, no pose
+  } else {
+    world_->solver().attach(body, mesh, laws);
+  }
   bodies_.add(cloth, mesh, body);
   if (cloth.tear) {
     tears_.add(bodies_.cloths().size() - 1, *cloth.tear, mesh, std::move(settings),
@@ -141,7 +145,7 @@ StepReport BulletSimulator::step(double time_step) {
   bodies_.end_step(steering, report_.time_step);
   report_.num_contacts = 0;
   for (const btSoftBody* cloth : bodies_.cloths())
-    report_.num_contacts += cloth->m_rcontacts.size() + cloth->m_scontacts.size();
+    report_.num_contacts += world_->solver().num_contacts(*cloth);
   bodies_.read_state(report_.time);
   report_.blow_up = find_blow_up();
   if (!report_.blow_up && tears_.tear(world_->solver(), bodies_)) bodies_.read_state(report_.time);
@@ -156,6 +160,10 @@ std::unique_ptr<Simulator> make_bullet_soft() {
 
 std::unique_ptr<Simulator> make_bullet_forces() {
   return std::make_unique<BulletSimulator>(Tension::kLaws);
+}
+
+std::unique_ptr<Simulator> make_bullet_weft() {
+  return std::make_unique<BulletSimulator>(Tension::kImplicit);
 }
 
 StoredPrecision bullet_precision() {

@@ -14,6 +14,10 @@ namespace weft::scenes {
 /// bullet_forces: every law is Weft's, Bullet has no links and does integration and contact.
 [[nodiscard]] std::unique_ptr<Simulator> make_bullet_forces();
 
+/// bullet_weft: springs and their dampers by the fast implicit solver, everything else as
+/// bullet_forces.
+[[nodiscard]] std::unique_ptr<Simulator> make_bullet_weft();
+
 /// The precision this program's Bullet was built with.
 [[nodiscard]] StoredPrecision bullet_precision();
 [[nodiscard]] std::string bullet_version_text();

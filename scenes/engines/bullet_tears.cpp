@@ -18,7 +18,11 @@ void BulletTears::apply(const Tear& tear, Entry& entry, bridge::SoftBodySolver& 
   forces::LawSet<btScalar> laws = bridge::make_laws(tear.mesh, entry.laws);
   bridge::apply_tear(tear, entry.settings, body);
   solver.add_copies(body, tear.origins);
-  solver.replace_laws(body, std::move(laws), tear.mesh.masses.cast<btScalar>());
+  if (solver.is_fast(body)) {
+    solver.replace_laws(body, tear.mesh, entry.laws);
+  } else {
+    solver.replace_laws(body, std::move(laws), tear.mesh.masses.cast<btScalar>());
+  }
   entry.torn.adopt(tear);
   bodies.set_torn(entry.cloth, entry.torn.mesh(), entry.torn.topology());
 }

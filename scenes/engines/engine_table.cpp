@@ -19,6 +19,8 @@ std::span<const EngineInfo> engine_table() {
       {"bullet_forces", bullet_precision(),
        "Weft's laws in Bullet's world, no links: the equations of the reference",
        &make_bullet_forces},
+      {"bullet_weft", bullet_precision(),
+       "Weft's fast solver in Bullet's world: springs implicit, any time step", &make_bullet_weft},
       {"bullet_deformable", bullet_precision(),
        "Weft's laws in Bullet's deformable world: forces explicit, dampers implicit",
        &make_bullet_deformable},

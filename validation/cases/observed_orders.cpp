@@ -22,14 +22,10 @@ struct Ladder {
 };
 
 constexpr Ladder kLadders[] = {
-    {IntegratorKind::kExplicitEuler, 8000, 1},
-    {IntegratorKind::kModifiedEuler, 1000, 1},
-    {IntegratorKind::kVelocityVerlet, 500, 2},
-    {IntegratorKind::kRungeKutta4, 200, 4},
-    {IntegratorKind::kYoshida4, 200, 4},
-    {IntegratorKind::kImplicitEuler, 4000, 1},
-    {IntegratorKind::kTrBdf2, 200, 2},
-    {IntegratorKind::kImplicitMidpoint, 200, 2},
+    {IntegratorKind::kExplicitEuler, 8000, 1},   {IntegratorKind::kModifiedEuler, 1000, 1},
+    {IntegratorKind::kVelocityVerlet, 500, 2},   {IntegratorKind::kRungeKutta4, 200, 4},
+    {IntegratorKind::kYoshida4, 200, 4},         {IntegratorKind::kImplicitEuler, 4000, 1},
+    {IntegratorKind::kTrBdf2, 200, 2},           {IntegratorKind::kImplicitMidpoint, 200, 2},
     {IntegratorKind::kGeneralizedAlpha, 200, 2},
 };
 

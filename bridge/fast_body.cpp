@@ -1,0 +1,277 @@
+#include <weft/bridge/fast_body.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
+
+#include <weft/bridge/node_state.hpp>
+#include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/core/trace.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+namespace {
+
+/// Between the inertia of an Euler step and the 9/4 of it of a BDF2 step: one factor serves both.
+constexpr btScalar kInertiaStep = btScalar(0.816496580927726);  // sqrt(2 / 3)
+/// A step may be longer or shorter than that of the factor by this before it is made anew.
+constexpr btScalar kStepRatio = btScalar(1.3);
+/// How often contacts between cloths are projected at the end of a step.
+constexpr int kClothContactSweeps = 8;
+/// How often contacts that the solution needs are looked for after it.
+constexpr int kMostLooks = 2;
+
+Vector3<btScalar> from_bullet(const btVector3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+btVector3 to_bullet(const Vector3<btScalar>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+void check(const FastSettings& settings) {
+  const auto require = [](int value, const char* name) {
+    if (value >= 1) return;
+    throw InvalidArgument(std::string("fast body: ") + name + " = " + std::to_string(value) +
+                          ", expected >= 1");
+  };
+  require(settings.effort.rounds, "rounds");
+  require(settings.effort.iterations, "iterations");
+}
+
+/// Of a rigid body that an impulse moves; nullptr for others.
+btRigidBody* movable(const btCollisionObject* object) {
+  auto* rigid = const_cast<btRigidBody*>(btRigidBody::upcast(object));
+  return rigid != nullptr && !rigid->isStaticOrKinematicObject() ? rigid : nullptr;
+}
+
+/// What a force at a place has to move, in the direction in which that is easiest [kg].
+btScalar mass_at(const btRigidBody& rigid, const btVector3& place) {
+  const btVector3 arm = place - rigid.getCenterOfMassPosition();
+  const btVector3 inverse_inertia = rigid.getInvInertiaDiagLocal();
+  const btScalar turning = inverse_inertia[inverse_inertia.maxAxis()] * arm.length2();
+  return 1 / (rigid.getInvMass() + turning);
+}
+
+void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& place) {
+  rigid.activate();
+  rigid.applyImpulse(impulse, place - rigid.getCenterOfMassPosition());
+}
+
+}  // namespace
+
+FastBody::FastBody(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
+                   VectorX<double> masses, const FastSettings& settings)
+    : network_(fast::make_network(mesh, laws)), masses_(std::move(masses)), settings_(settings) {
+  check(settings);
+}
+
+std::optional<std::string> FastBody::obstacle(const btSoftBody& body) {
+  if (body.m_clusters.size() > 0) return "it has clusters";
+  if (body.m_pose.m_bframe && body.m_cfg.kMT > 0) return "it is matched to a pose";
+  if (body.m_cfg.timescale != btScalar(1)) return "its m_cfg.timescale is not 1";
+  return std::nullopt;
+}
+
+void FastBody::predict(btSoftBody& body, btScalar time_step) {
+  last_starts_.swap(starts_);
+  last_velocities_.swap(start_velocities_);
+  read_nodes(body, starts_, start_velocities_);
+  contacts_.clear();
+  obstacles_.clear();
+  body.predictMotion(time_step);
+  btVector3 low = body.m_bounds[0];
+  btVector3 high = body.m_bounds[1];
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    low.setMin(body.m_nodes[i].m_q);
+    high.setMax(body.m_nodes[i].m_q);
+  }
+  body.m_bounds[0] = low;
+  body.m_bounds[1] = high;
+  if (btBroadphaseProxy* const proxy = body.getBroadphaseHandle()) {
+    body.m_worldInfo->m_broadphase->setAabb(proxy, low, high, body.m_worldInfo->m_dispatcher);
+  }
+}
+
+void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& object,
+                       btScalar time_step) {
+  if ((body.m_cfg.collisions & btSoftBody::fCollision::SDF_RS) == 0) return;
+  obstacles_.push_back(
+      {object.getCollisionObject(), object.getCollisionShape(), object.getWorldTransform()});
+  add_rigid_contacts(body, object, time_step, contacts_);
+}
+
+bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
+  const std::size_t num_known = contacts_.size();
+  for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_x = to_bullet(places_.col(i));
+  for (const Obstacle& obstacle : obstacles_) {
+    const btCollisionObjectWrapper object(nullptr, obstacle.shape, obstacle.object, obstacle.place,
+                                          -1, -1);
+    add_rigid_contacts(body, object, time_step, contacts_);
+  }
+  // Those that are known again, and those that the solution keeps to anyway.
+  const auto is_superfluous = [&](const RigidContact& found) {
+    if (btDot(found.normal, body.m_nodes[found.node].m_x) >= found.offset) return true;
+    return std::any_of(contacts_.begin(),
+                       contacts_.begin() + static_cast<std::ptrdiff_t>(num_known),
+                       [&](const RigidContact& known) {
+                         return known.node == found.node && known.object == found.object;
+                       });
+  };
+  contacts_.erase(std::remove_if(contacts_.begin() + static_cast<std::ptrdiff_t>(num_known),
+                                 contacts_.end(), is_superfluous),
+                  contacts_.end());
+  return contacts_.size() > num_known;
+}
+
+void FastBody::prepare_solver(const btSoftBody& body, btScalar time_step) {
+  bool is_same = solver_ != nullptr && time_step < solver_step_ * kStepRatio &&
+                 time_step > solver_step_ / kStepRatio;
+  is_free_.resize(static_cast<std::size_t>(body.m_nodes.size()), false);
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    const bool is_free = body.m_nodes[i].m_im > 0;
+    if (is_free_[static_cast<std::size_t>(i)] != is_free) is_same = false;
+    is_free_[static_cast<std::size_t>(i)] = is_free;
+  }
+  if (is_same) return;
+  const TraceScope trace("factorise");
+  solver_ = std::make_unique<fast::ImplicitSolver<btScalar>>(
+      network_, masses_, is_free_, static_cast<double>(time_step * kInertiaStep));
+  solver_step_ = time_step;
+}
+
+bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) const {
+  if (!settings_.is_second_order || last_step_ != time_step || !contacts_.empty() ||
+      body.m_scontacts.size() > 0 || places_.cols() != starts_.cols()) {
+    return false;
+  }
+  for (int i = 0; i < body.m_nodes.size(); ++i) {  // somebody may have moved a node since
+    if (body.m_nodes[i].m_im > 0 && places_.col(i) != starts_.col(i)) return false;
+  }
+  return true;
+}
+
+void FastBody::read_constraints(const btSoftBody& body) {
+  plane_contacts_.clear();
+  for (const RigidContact& contact : contacts_) {
+    fast::PlaneContact<btScalar> plane;
+    plane.node = contact.node;
+    plane.normal = from_bullet(contact.normal);
+    plane.offset = contact.offset;
+    plane.motion = from_bullet(contact.motion);
+    plane.friction = body.m_cfg.kDF * contact.object->getFriction();
+    if (const btRigidBody* const rigid = movable(contact.object)) {
+      const auto shares = std::count_if(contacts_.begin(), contacts_.end(), [&](const auto& other) {
+        return other.object == contact.object;
+      });
+      plane.mass = mass_at(*rigid, body.m_nodes[contact.node].m_x) / static_cast<btScalar>(shares);
+    }
+    plane_contacts_.push_back(plane);
+  }
+  led_.clear();
+  for (int a = 0; a < body.m_anchors.size(); ++a) {
+    const btSoftBody::Anchor& anchor = body.m_anchors[a];
+    const auto node = static_cast<int>(anchor.m_node - &body.m_nodes[0]);
+    if (!is_free_[static_cast<std::size_t>(node)]) continue;
+    const btVector3 place = anchor.m_body->getWorldTransform() * anchor.m_local;
+    fast::LedNode<btScalar> led;
+    led.node = node;
+    led.place = from_bullet(place);
+    if (const btRigidBody* const rigid = movable(anchor.m_body)) {
+      int shares = 0;
+      for (int b = 0; b < body.m_anchors.size(); ++b) {
+        shares += body.m_anchors[b].m_body == anchor.m_body ? 1 : 0;
+      }
+      led.mass = mass_at(*rigid, place) / static_cast<btScalar>(shares);
+    }
+    led_.push_back(led);
+  }
+}
+
+void FastBody::give_impulses(btSoftBody& body, btScalar time_step) {
+  const auto impulse_on = [&](int node) {
+    return -time_step * to_bullet(solver_->holding_forces().col(node));
+  };
+  const auto place_of = [&](int node) { return to_bullet(places_.col(node)); };
+  for (int a = 0; a < body.m_anchors.size(); ++a) {
+    const btSoftBody::Anchor& anchor = body.m_anchors[a];
+    const auto node = static_cast<int>(anchor.m_node - &body.m_nodes[0]);
+    if (movable(anchor.m_body) == nullptr) continue;
+    push(*anchor.m_body, anchor.m_influence * impulse_on(node), place_of(node));
+  }
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const int node = contacts_[c].node;
+    if (solver_->contact_of(node) != static_cast<int>(c)) continue;
+    if (btRigidBody* const rigid = movable(contacts_[c].object)) {
+      push(*rigid, impulse_on(node), place_of(node));
+    }
+  }
+}
+
+void FastBody::write_back(btSoftBody& body, btScalar time_step, btScalar inertia_step) {
+  for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_x = to_bullet(places_.col(i));
+  const bool meets_cloth = body.m_scontacts.size() > 0;
+  if (meets_cloth) {
+    for (int sweep = 0; sweep < kClothContactSweeps; ++sweep) {
+      btSoftBody::PSolve_SContacts(&body, 1, 0);
+    }
+    for (int i = 0; i < body.m_nodes.size(); ++i) places_.col(i) = from_bullet(body.m_nodes[i].m_x);
+  }
+  const btScalar rate = (1 - body.m_cfg.kDP) / inertia_step;
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    btSoftBody::Node& node = body.m_nodes[i];
+    node.m_f.setZero();
+    if (node.m_im > 0) {
+      node.m_v = to_bullet(rate * (places_.col(i) - origins_.col(i)));
+    } else {
+      node.m_v = (node.m_x - node.m_q) / time_step;
+    }
+  }
+}
+
+void FastBody::solve(btSoftBody& body, btScalar time_step) {
+  const TraceScope trace("fast body");
+  prepare_solver(body, time_step);
+  // Bullet has predicted velocities v + h a; what it would do to nodes without springs.
+  const bool uses_history = may_use_history(body, time_step);
+  const btScalar inertia_step = uses_history ? time_step * 2 / 3 : time_step;
+  if (uses_history) {
+    origins_ = (4 * starts_ - last_starts_) / 3;
+  } else {
+    origins_ = starts_;
+  }
+  targets_.resize(3, starts_.cols());
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    const btSoftBody::Node& node = body.m_nodes[i];
+    if (node.m_im <= 0) {
+      targets_.col(i) = from_bullet(node.m_x);
+      continue;
+    }
+    const Vector3<btScalar> start = start_velocities_.col(i);
+    Vector3<btScalar> velocity = from_bullet(node.m_v);
+    if (uses_history) {
+      const Vector3<btScalar> last = last_velocities_.col(i);
+      velocity = (4 * start - last) / 3 + (velocity - start) * btScalar(2) / 3;
+    }
+    targets_.col(i) = origins_.col(i) + inertia_step * velocity;
+  }
+  places_ = starts_ + time_step * start_velocities_;
+  const auto solve = [&](const fast::SolverEffort& effort) {
+    read_constraints(body);
+    solver_->solve({targets_, starts_, time_step, inertia_step, plane_contacts_, led_}, effort,
+                   places_);
+  };
+  solve(settings_.effort);
+  for (int look = 0; look < kMostLooks && find_missed_contacts(body, time_step); ++look) {
+    solve({1, settings_.effort.iterations});
+  }
+  give_impulses(body, time_step);
+  const bool met_something = !contacts_.empty() || body.m_scontacts.size() > 0;
+  write_back(body, time_step, inertia_step);
+  last_step_ = met_something ? btScalar(0) : time_step;
+}
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <weft/bridge/fast_settings.hpp>
+#include <weft/bridge/precision.hpp>
+#include <weft/bridge/rigid_contacts.hpp>
+#include <weft/custom_forces/core/cloth_mesh.hpp>
+#include <weft/custom_forces/law_info.hpp>
+#include <weft/fast_solver/implicit_solver.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+/// Implicit springs for one btSoftBody of the classic world: what stands in the place of
+/// btSoftBody::solveConstraints. Bullet's bookkeeping stays: btSoftBody::predictMotion runs, m_q keeps
+/// the places at the start of the step, m_v follows from places, m_f is cleared.
+///
+/// Solved together: springs and dampers of the network, stabilised bending, anchors, contact with rigid
+/// shapes and Coulomb friction. Contacts with cloth (m_scontacts) are projected afterwards, as Bullet
+/// does it. A dynamic body takes part with its inertia, shared out over what touches it, and gets the impulses
+/// at the end of the step.
+/// Bullet's own links are not looked at.
+class FastBody {
+ public:
+  /// laws: all of the body's; those that are not implicit only lend their stiffness. masses: n [kg].
+  /// Throws InvalidArgument as make_network() and for an effort below 1.
+  FastBody(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
+           VectorX<double> masses, const FastSettings& settings);
+
+  /// Why a body cannot be stepped so; nothing for one that can.
+  [[nodiscard]] static std::optional<std::string> obstacle(const btSoftBody& body);
+
+  [[nodiscard]] const FastSettings& settings() const { return settings_; }
+  void set_settings(const FastSettings& settings) { settings_ = settings; }
+
+  /// btSoftBody::predictMotion, and bounds that hold the whole way of each node.
+  void predict(btSoftBody& body, btScalar time_step);
+  /// In place of btSoftBody::defaultCollisionHandler.
+  void collide(const btSoftBody& body, const btCollisionObjectWrapper& object, btScalar time_step);
+  /// In place of btSoftBody::solveConstraints.
+  void solve(btSoftBody& body, btScalar time_step);
+
+  [[nodiscard]] int num_contacts() const { return static_cast<int>(contacts_.size()); }
+  /// Unbalanced forces that the last step left, over those that it began with [-].
+  [[nodiscard]] double residual() const { return solver_ ? solver_->residual() : 0.0; }
+
+ private:
+  void prepare_solver(const btSoftBody& body, btScalar time_step);
+  [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step) const;
+  /// Contacts that the solution would need, and that nobody looked for where Bullet had predicted the
+  /// nodes. True if there are any.
+  [[nodiscard]] bool find_missed_contacts(btSoftBody& body, btScalar time_step);
+  void read_constraints(const btSoftBody& body);
+  void give_impulses(btSoftBody& body, btScalar time_step);
+  void write_back(btSoftBody& body, btScalar time_step, btScalar inertia_step);
+
+  fast::SpringNetwork network_;
+  VectorX<double> masses_;
+  FastSettings settings_;
+  std::unique_ptr<fast::ImplicitSolver<btScalar>> solver_;
+  std::vector<bool> is_free_;
+  btScalar solver_step_ = 0;  ///< [s] of the steps that solver_ was made for
+
+  // Of the present step, 3 x n.
+  Matrix3X<btScalar> starts_;            ///< q [m]
+  Matrix3X<btScalar> start_velocities_;  ///< v [m/s]
+  Matrix3X<btScalar> origins_;           ///< what velocities are counted from [m]
+  Matrix3X<btScalar> targets_;           ///< y [m]
+  Matrix3X<btScalar> places_;            ///< solution [m]
+  // Of the step before.
+  Matrix3X<btScalar> last_starts_;
+  Matrix3X<btScalar> last_velocities_;
+  btScalar last_step_ = 0;  ///< [s]; 0: no history
+  /// What the body's bounds have met in this step.
+  struct Obstacle {
+    const btCollisionObject* object;
+    const btCollisionShape* shape;
+    btTransform place;
+  };
+  std::vector<Obstacle> obstacles_;
+  std::vector<RigidContact> contacts_;
+  std::vector<fast::PlaneContact<btScalar>> plane_contacts_;
+  std::vector<fast::LedNode<btScalar>> led_;
+};
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <weft/fast_solver/solver_effort.hpp>
+
+namespace weft::bridge {
+
+/// How a body with implicit springs is stepped.
+struct FastSettings {
+  fast::SolverEffort effort = {};  ///< work per step, against error (docs/fast_solver.md)
+  /// Of second order (BDF2) while nothing touches the body; implicit Euler with contacts and at
+  /// changes. Off: always implicit Euler, which takes much more energy out of a motion.
+  bool is_second_order = true;
+};
+
+}  // namespace weft::bridge

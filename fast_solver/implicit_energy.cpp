@@ -1,0 +1,155 @@
+// What keeps a step from gaining energy or momentum, however badly it has converged.
+#include <algorithm>
+
+#include <Eigen/Cholesky>
+
+#include <weft/fast_solver/implicit_solver.hpp>
+
+namespace weft::fast {
+namespace {
+
+/// Of a step that is taken at least.
+constexpr double kSmallestShare = 0.1;
+/// Squared motion of a step over that without springs from which on its energy is looked at.
+constexpr double kMostMotion = 1.2;
+/// Rounds, then halvings of the step, until a step that gains energy does not any more.
+constexpr int kExtraRounds = 6;
+constexpr int kHalvings = 6;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+// A linearisation may promise too much where springs turn far in one step. The work of the forces
+// that are left tells: if it opposes the step by more than half of what drove it, back to where a
+// straight line between the two is zero.
+template <class Scalar>
+void ImplicitSolver<Scalar>::hold_back(const StepProblem<Scalar>& problem, double work_before,
+                                       Matrix3XRef<Scalar> places) {
+  double work_after = 0;
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    if (holds_[at(static_cast<int>(i))] != Hold::kFree) continue;
+    work_after += static_cast<double>(unbalanced_.col(i).dot(step_.col(i).template cast<Scalar>()));
+  }
+  if (!(work_before > 0 && work_after < -0.5 * work_before)) return;
+  const double share = std::max(kSmallestShare, work_before / (work_before - work_after));
+  const auto excess = static_cast<Scalar>(1.0 - share);
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    if (holds_[at(static_cast<int>(i))] != Hold::kFree) continue;
+    places.col(i) -= excess * step_.col(i).template cast<Scalar>();
+  }
+  evaluate(problem, places);
+}
+
+/// What an implicit step minimises [J], with bodies that are tied to it and with what friction does.
+template <class Scalar>
+double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem,
+                                      ConstMatrix3XRef<Scalar> places) const {
+  double sum = forces_.potential(places, problem.starts);
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    sum += 0.5 * static_cast<double>(inertia_[i]) *
+           static_cast<double>((places.col(i) - problem.targets.col(i)).squaredNorm());
+  }
+  for (const Tie& tie : ties_) {
+    Vector3<Scalar> away = places.col(tie.node) - tie.place;
+    if (!tie.normal.isZero(0)) away = tie.normal.dot(away) * tie.normal;
+    sum += 0.5 * static_cast<double>(tie.stiffness * away.squaredNorm());
+  }
+  for (const int i : held_) {
+    if (contact_of_[at(i)] < 0) continue;
+    // A surface that moves may do work by friction; slip only takes it away.
+    const Vector3<Scalar>& motion = problem.contacts[at(contact_of_[at(i)])].motion;
+    const Vector3<Scalar> friction = friction_.col(i).template cast<Scalar>();
+    const Vector3<Scalar> slip = places.col(i) - problem.starts.col(i) - motion;
+    sum -= static_cast<double>(friction.dot(motion) + std::min(Scalar(0), friction.dot(slip)));
+  }
+  return sum;
+}
+
+// A contact may have stretched springs; without one, more motion than without springs: they may have
+// pulled, or the solution may be off.
+template <class Scalar>
+bool ImplicitSolver<Scalar>::is_suspicious(const StepProblem<Scalar>& problem,
+                                           ConstMatrix3XRef<Scalar> places) const {
+  if (!held_.empty()) return true;
+  double moved = 0;
+  double expected = 0;
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    const auto mass = static_cast<double>(masses_[i]);
+    moved += mass * static_cast<double>((places.col(i) - problem.starts.col(i)).squaredNorm());
+    expected +=
+        mass * static_cast<double>((problem.targets.col(i) - problem.starts.col(i)).squaredNorm());
+  }
+  return !(moved <= kMostMotion * expected);
+}
+
+// Where nothing has moved but what is led, in front of all planes.
+template <class Scalar>
+void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
+  unmoved_ = problem.starts;
+  for (const int node : pinned_) unmoved_.col(node) = problem.targets.col(node);
+  for (const LedNode<Scalar>& led : problem.led) {
+    if (led.mass <= 0) unmoved_.col(led.node) = led.place;
+  }
+  for (const PlaneContact<Scalar>& contact : problem.contacts) {
+    if (!is_free_[at(contact.node)] || contact.mass > 0) continue;
+    if (holds_[at(contact.node)] == Hold::kFixed) {
+      unmoved_.col(contact.node) = problem.starts.col(contact.node) + contact.motion;
+    }
+    const Scalar gap = contact.normal.dot(unmoved_.col(contact.node)) - contact.offset;
+    if (gap < 0) unmoved_.col(contact.node) -= gap * contact.normal;
+  }
+}
+
+// The exact solution has no more of the energy that it minimises than the places at the start. One
+// that has is iterated on, and at last drawn back: so an implicit step gains no energy, however badly
+// it has converged.
+template <class Scalar>
+void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterations,
+                                  Matrix3XRef<Scalar> places) {
+  stay_at_start(problem);
+  const double most = energy(problem, unmoved_);
+  for (int attempt = 0; !(energy(problem, places) <= most); ++attempt) {
+    if (attempt < kExtraRounds) {
+      do_round(problem, iterations, false, places);
+      continue;
+    }
+    if (attempt == kExtraRounds + kHalvings) break;
+    for (Eigen::Index i = 0; i < places.cols(); ++i) {
+      const bool is_finite = places.col(i).allFinite();
+      places.col(i) = is_finite ? Vector3<Scalar>(Scalar(0.5) * (places.col(i) + unmoved_.col(i)))
+                                : Vector3<Scalar>(unmoved_.col(i));
+    }
+    evaluate(problem, places);
+  }
+}
+
+// What conjugate gradients have left over would push the body as a whole. Where nothing immovable
+// holds it, a shift of all nodes, which no spring feels, takes that away to rounding.
+template <class Scalar>
+void ImplicitSolver<Scalar>::balance(Matrix3XRef<Scalar> places) {
+  if (!pinned_.empty()) return;
+  Matrix3<double> stiffness =
+      Matrix3<double>::Identity() * static_cast<double>(inertia_.template cast<double>().sum());
+  for (const int i : held_) {
+    if (holds_[at(i)] != Hold::kTied) return;
+  }
+  const Vector3<double> left =
+      (unbalanced_ + holding_forces_).template cast<double>().rowwise().sum();
+  for (const Tie& tie : ties_) {
+    const Vector3<double> normal = tie.normal.template cast<double>();
+    Matrix3<double> directions = Matrix3<double>::Identity();
+    if (!tie.normal.isZero(0)) directions = normal * normal.transpose();
+    stiffness += static_cast<double>(tie.stiffness) * directions;
+  }
+  const Vector3<Scalar> shift = stiffness.llt().solve(left).template cast<Scalar>();
+  places.colwise() += shift;
+  find_holding_forces(places);
+}
+
+template class ImplicitSolver<float>;
+template class ImplicitSolver<double>;
+
+}  // namespace weft::fast

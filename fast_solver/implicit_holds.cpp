@@ -1,0 +1,174 @@
+// What contacts, ties and what leads a node do to it during a solve.
+#include <algorithm>
+
+#include <weft/fast_solver/implicit_solver.hpp>
+
+namespace weft::fast {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+// What holds a node is decided by what it would do if it stuck: the force that is left there is
+// weighed against what friction can bear.
+template <class Scalar>
+void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
+                                          ConstMatrix3XRef<Scalar> places, bool is_first) {
+  held_before_.assign(holds_.begin(), holds_.end());
+  std::fill(holds_.begin(), holds_.end(), Hold::kFree);
+  std::fill(contact_of_.begin(), contact_of_.end(), -1);
+  held_.clear();
+  ties_.clear();
+  for (const LedNode<Scalar>& led : problem.led) {
+    holds_[at(led.node)] = led.mass > 0 ? Hold::kTied : Hold::kFixed;
+  }
+  const auto gap_at = [&](const PlaneContact<Scalar>& contact, const auto& place) {
+    return contact.normal.dot(place) - contact.offset;
+  };
+  for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
+    const PlaneContact<Scalar>& contact = problem.contacts[c];
+    if (!is_free_[at(contact.node)] || holds_[at(contact.node)] != Hold::kFree) continue;
+    int& best = contact_of_[at(contact.node)];
+    if (best < 0 || gap_at(contact, places.col(contact.node)) <
+                        gap_at(problem.contacts[at(best)], places.col(contact.node))) {
+      best = static_cast<int>(c);
+    }
+  }
+  for (const PlaneContact<Scalar>& candidate : problem.contacts) {
+    const int i = candidate.node;
+    if (contact_of_[at(i)] < 0 || &problem.contacts[at(contact_of_[at(i)])] != &candidate) continue;
+    const Vector3<Scalar> normal = candidate.normal;
+    const Scalar gap = gap_at(candidate, places.col(i));
+    const Scalar inertia = Scalar(inertia_[i]);
+    const bool was_held = !is_first && held_before_[at(i)] != Hold::kFree;
+    const Scalar tie = candidate.mass / (problem.inertia_step * problem.inertia_step);
+    Scalar pressure = -normal.dot(unbalanced_.col(i)) + inertia * std::max(Scalar(0), -gap);
+    if (candidate.mass > 0 && was_held) pressure = -tie * gap;
+    const bool is_near =
+        is_first ? std::min(gap, gap_at(candidate, problem.targets.col(i))) < 0 : gap < 0;
+    if (!(was_held ? pressure > 0 : is_near)) {
+      contact_of_[at(i)] = -1;
+      continue;
+    }
+    const Vector3<Scalar> slip = places.col(i) - problem.starts.col(i) - candidate.motion;
+    Vector3<Scalar> tendency = unbalanced_.col(i) + inertia * slip;
+    tendency -= normal.dot(tendency) * normal;
+    const Scalar most = candidate.friction * std::max(Scalar(0), pressure);
+    const Scalar size = tendency.norm();
+    const bool sticks = size <= most;
+    holds_[at(i)] = candidate.mass > 0 ? Hold::kTied : sticks ? Hold::kFixed : Hold::kOnPlane;
+    normals_.col(i) = normal.template cast<float>();
+    friction_.col(i).setZero();
+    if (!sticks) friction_.col(i) = (-(most / size) * tendency).template cast<float>();
+    if (candidate.mass > 0) {
+      Vector3<Scalar> place = places.col(i);
+      if (sticks) place -= slip;
+      place -= gap_at(candidate, place) * normal;
+      ties_.push_back({i, tie, sticks ? Vector3<Scalar>(Vector3<Scalar>::Zero()) : normal, place});
+    }
+    held_.push_back(i);
+  }
+  for (const LedNode<Scalar>& led : problem.led) {
+    held_.push_back(led.node);
+    friction_.col(led.node).setZero();
+    normals_.col(led.node).setZero();
+    if (led.mass <= 0) continue;
+    ties_.push_back({led.node, led.mass / (problem.inertia_step * problem.inertia_step),
+                     Vector3<Scalar>::Zero(), led.place});
+  }
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::project(Floats& vectors) const {
+  for (const int i : pinned_) vectors.col(i).setZero();
+  for (const int i : held_) {
+    if (holds_[at(i)] == Hold::kFixed) {
+      vectors.col(i).setZero();
+    } else if (holds_[at(i)] == Hold::kOnPlane) {
+      vectors.col(i) -= normals_.col(i).dot(vectors.col(i)) * normals_.col(i);
+    }
+  }
+}
+
+// The global matrix knows nothing of ties, and would move what is tied far too much.
+template <class Scalar>
+void ImplicitSolver<Scalar>::leave_out_ties(Floats& vectors) const {
+  for (const Tie& tie : ties_) {
+    if (tie.normal.isZero(0)) {
+      vectors.col(tie.node).setZero();
+    } else {
+      const Vector3<float> normal = tie.normal.template cast<float>();
+      vectors.col(tie.node) -= normal.dot(vectors.col(tie.node)) * normal;
+    }
+  }
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::add_tie_product(const Floats& displacements, Floats& product) const {
+  for (const Tie& tie : ties_) {
+    const auto stiffness = static_cast<float>(tie.stiffness);
+    const Vector3<float> d = displacements.col(tie.node);
+    if (tie.normal.isZero(0)) {
+      product.col(tie.node) += stiffness * d;
+    } else {
+      const Vector3<float> normal = tie.normal.template cast<float>();
+      product.col(tie.node) += stiffness * normal.dot(d) * normal;
+    }
+  }
+}
+
+// Planes that no round has met, and those of a node on several. True if anything had to move.
+template <class Scalar>
+bool ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem, Matrix3XRef<Scalar> places) {
+  bool any = false;
+  for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
+    const PlaneContact<Scalar>& contact = problem.contacts[c];
+    const int i = contact.node;
+    if (!is_free_[at(i)] || contact.mass > 0 || holds_[at(i)] == Hold::kTied) continue;
+    const Scalar gap = contact.normal.dot(places.col(i)) - contact.offset;
+    if (!(gap < 0)) continue;
+    places.col(i) -= gap * contact.normal;
+    any = true;
+    if (holds_[at(i)] != Hold::kFree) continue;
+    holds_[at(i)] = Hold::kOnPlane;
+    contact_of_[at(i)] = static_cast<int>(c);
+    normals_.col(i) = contact.normal.template cast<float>();
+    friction_.col(i).setZero();
+    held_.push_back(i);
+  }
+  return any;
+}
+
+template <class Scalar>
+Vector3<Scalar> ImplicitSolver<Scalar>::tie_force(const Tie& tie,
+                                                  ConstMatrix3XRef<Scalar> places) const {
+  const Vector3<Scalar> away = places.col(tie.node) - tie.place;
+  if (tie.normal.isZero(0)) return -tie.stiffness * away;
+  return -tie.stiffness * tie.normal.dot(away) * tie.normal;
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::find_holding_forces(ConstMatrix3XRef<Scalar> places) {
+  holding_forces_.setZero();
+  for (const int i : held_) {
+    if (holds_[at(i)] == Hold::kFixed) {
+      holding_forces_.col(i) = -unbalanced_.col(i);
+    } else if (holds_[at(i)] == Hold::kOnPlane) {
+      const Vector3<Scalar> normal = normals_.col(i).template cast<Scalar>();
+      holding_forces_.col(i) =
+          -normal.dot(unbalanced_.col(i)) * normal + friction_.col(i).template cast<Scalar>();
+    }
+  }
+  for (const Tie& tie : ties_) {
+    holding_forces_.col(tie.node) =
+        tie_force(tie, places) + friction_.col(tie.node).template cast<Scalar>();
+  }
+}
+
+template class ImplicitSolver<float>;
+template class ImplicitSolver<double>;
+
+}  // namespace weft::fast

@@ -1,0 +1,283 @@
+#include <weft/fast_solver/implicit_solver.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/core/trace.hpp>
+#include <weft/fast_solver/minimum_degree.hpp>
+
+namespace weft::fast {
+namespace {
+
+/// Share of the block correction that a smoothing takes: below 1, so that neighbours that move
+/// together do not overshoot; .5 to .7 converge alike.
+constexpr float kSmoothing = 0.6F;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// The matrix of a network whose springs resist as much across as along, over the free nodes.
+SymmetricMatrix isotropic_matrix(const SpringNetwork& network, const VectorX<double>& masses,
+                                 const std::vector<int>& unknown_of, int num_unknowns,
+                                 double inertia_step) {
+  std::vector<MatrixPart> parts;
+  parts.reserve(at(static_cast<int>(3 * network.edges.cols() + masses.size())));
+  for (int i = 0; i < static_cast<int>(masses.size()); ++i) {
+    const int u = unknown_of[at(i)];
+    if (u >= 0) parts.push_back({u, u, masses[i] / (inertia_step * inertia_step)});
+  }
+  for (Eigen::Index e = 0; e < network.edges.cols(); ++e) {
+    const double weight =
+        network.stiffness[e] + network.damping[e] / inertia_step + network.stabiliser[e];
+    const int a = unknown_of[at(network.edges(0, e))];
+    const int b = unknown_of[at(network.edges(1, e))];
+    if (a >= 0) parts.push_back({a, a, weight});
+    if (b >= 0) parts.push_back({b, b, weight});
+    if (a >= 0 && b >= 0) parts.push_back({a, b, -weight});
+  }
+  return sum_of_parts(num_unknowns, parts);
+}
+
+SparseCholesky factor_of(const SpringNetwork& network, const VectorX<double>& masses,
+                         const std::vector<bool>& is_free, double inertia_step) {
+  const auto n = static_cast<std::size_t>(masses.size());
+  if (is_free.size() != n) {
+    throw InvalidArgument("implicit solver: " + std::to_string(is_free.size()) +
+                          " flags of free nodes, expected one for each of the " +
+                          std::to_string(n) + " nodes");
+  }
+  std::vector<int> unknown_of(n, -1);
+  std::vector<int> names;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!is_free[i]) continue;
+    unknown_of[i] = static_cast<int>(names.size());
+    names.push_back(static_cast<int>(i));
+  }
+  const SymmetricMatrix matrix =
+      isotropic_matrix(network, masses, unknown_of, static_cast<int>(names.size()), inertia_step);
+  return {matrix, minimum_degree_order(matrix), names};
+}
+
+float dot(const Matrix3X<float>& a, const Matrix3X<float>& b) {
+  return a.cwiseProduct(b).sum();
+}
+
+}  // namespace
+
+template <class Scalar>
+ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const VectorX<double>& masses,
+                                       const std::vector<bool>& is_free, double inertia_step)
+    : forces_(network, static_cast<int>(masses.size())),
+      factor_(factor_of(network, masses, is_free, inertia_step)),
+      masses_(masses.cast<Scalar>()),
+      is_free_(is_free) {
+  const Eigen::Index n = masses.size();
+  for (int i = 0; i < static_cast<int>(n); ++i) {
+    if (!is_free_[at(i)]) pinned_.push_back(i);
+  }
+  inertia_.setZero(n);
+  holding_forces_.setZero(3, n);
+  unbalanced_.setZero(3, n);
+  unmoved_.setZero(3, n);
+  holds_.assign(at(static_cast<int>(n)), Hold::kFree);
+  contact_of_.assign(at(static_cast<int>(n)), -1);
+  blocks_.setZero(6, n);
+  for (Floats* vectors :
+       {&normals_, &friction_, &step_, &residual_vector_, &direction_, &direction_product_,
+        &correction_, &correction_product_, &work_, &coarse_, &product_}) {
+    vectors->setZero(3, n);
+  }
+  held_.reserve(at(static_cast<int>(n)));
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::evaluate(const StepProblem<Scalar>& problem,
+                                      ConstMatrix3XRef<Scalar> places) {
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    unbalanced_.col(i) = Scalar(inertia_[i]) * (problem.targets.col(i) - places.col(i));
+  }
+  forces_.add_forces(places, problem.starts, unbalanced_);
+  for (const int node : pinned_) unbalanced_.col(node).setZero();
+}
+
+// Inverses of symmetric 3 x 3 matrices by their adjugates.
+template <class Scalar>
+void ImplicitSolver<Scalar>::invert_blocks() {
+  forces_.diagonal_blocks(blocks_);
+  for (const Tie& tie : ties_) {
+    const auto k = static_cast<float>(tie.stiffness);
+    const Vector3<float> n = tie.normal.template cast<float>();
+    const bool is_full = tie.normal.isZero(0);
+    for (int c = 0; c < 3; ++c) {
+      blocks_(c, tie.node) += is_full ? k : k * n[c] * n[c];
+      if (!is_full) blocks_(3 + c, tie.node) += k * n[c] * n[(c + 1) % 3];
+    }
+  }
+  for (Eigen::Index i = 0; i < blocks_.cols(); ++i) {
+    const float a = blocks_(0, i) + inertia_[i];
+    const float b = blocks_(1, i) + inertia_[i];
+    const float c = blocks_(2, i) + inertia_[i];
+    const float d = blocks_(3, i);
+    const float e = blocks_(4, i);
+    const float f = blocks_(5, i);
+    const float xx = b * c - e * e;
+    const float xy = e * f - c * d;
+    const float xz = d * e - b * f;
+    const float determinant = a * xx + d * xy + f * xz;
+    const float scale = determinant > 0 ? kSmoothing / determinant : 0.0F;
+    blocks_(0, i) = scale * xx;
+    blocks_(1, i) = scale * (a * c - f * f);
+    blocks_(2, i) = scale * (a * b - d * d);
+    blocks_(3, i) = scale * xy;
+    blocks_(4, i) = scale * (d * f - a * e);
+    blocks_(5, i) = scale * xz;
+  }
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::smooth(const Floats& residual, Floats& correction) const {
+  const float* const r = residual.data();
+  float* const z = correction.data();
+  const float* const b = blocks_.data();
+  for (Eigen::Index i = 0; i < residual.cols(); ++i) {
+    const float x = r[3 * i];
+    const float y = r[3 * i + 1];
+    const float w = r[3 * i + 2];
+    const float* const m = b + 6 * i;
+    z[3 * i] = m[0] * x + m[3] * y + m[5] * w;
+    z[3 * i + 1] = m[3] * x + m[1] * y + m[4] * w;
+    z[3 * i + 2] = m[5] * x + m[4] * y + m[2] * w;
+  }
+  project(correction);
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats& product) {
+  product = displacements * inertia_.asDiagonal();
+  forces_.add_product(displacements, product);
+  add_tie_product(displacements, product);
+  project(product);
+}
+
+// correction = P residual, and its product with the stiffness.
+template <class Scalar>
+void ImplicitSolver<Scalar>::precondition() {
+  smooth(residual_vector_, correction_);
+  multiply(correction_, correction_product_);
+  work_ = residual_vector_ - correction_product_;
+  coarse_.setZero();
+  leave_out_ties(work_);
+  factor_.solve(work_, coarse_);
+  leave_out_ties(coarse_);
+  project(coarse_);
+  multiply(coarse_, product_);
+  correction_ += coarse_;
+  correction_product_ += product_;
+  work_ = residual_vector_ - correction_product_;
+  smooth(work_, coarse_);
+  multiply(coarse_, product_);
+  correction_ += coarse_;
+  correction_product_ += product_;
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem,
+                                          ConstMatrix3XRef<Scalar> places, int iterations) {
+  invert_blocks();
+  step_.setZero();
+  residual_vector_ = unbalanced_.template cast<float>();
+  bool moves_held = false;
+  for (const int i : held_) {
+    if (holds_[at(i)] == Hold::kTied) residual_vector_.col(i) += friction_.col(i);
+    if (contact_of_[at(i)] < 0 || holds_[at(i)] == Hold::kTied) continue;
+    const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
+    Vector3<Scalar> move = Vector3<Scalar>::Zero();
+    if (holds_[at(i)] == Hold::kFixed) {
+      move = problem.starts.col(i) + contact.motion - places.col(i);
+    }
+    const Scalar height = contact.normal.dot(places.col(i) + move) - contact.offset;
+    step_.col(i) = (move - height * contact.normal).template cast<float>();
+    if (holds_[at(i)] == Hold::kOnPlane) residual_vector_.col(i) += friction_.col(i);
+    moves_held = true;
+  }
+  if (moves_held) {
+    work_ = step_ * inertia_.asDiagonal();
+    forces_.add_product(step_, work_);
+    residual_vector_ -= work_;
+  }
+  for (const Tie& tie : ties_) {
+    residual_vector_.col(tie.node) += tie_force(tie, places).template cast<float>();
+  }
+  project(residual_vector_);
+  float previous = 0;
+  for (int k = 0; k < iterations; ++k) {
+    precondition();
+    const float size = dot(residual_vector_, correction_);
+    if (!(size > 0)) break;
+    if (k == 0) {
+      direction_ = correction_;
+      direction_product_ = correction_product_;
+    } else {
+      direction_ = correction_ + (size / previous) * direction_;
+      direction_product_ = correction_product_ + (size / previous) * direction_product_;
+    }
+    previous = size;
+    const float curvature = dot(direction_, direction_product_);
+    if (!(curvature > 0)) break;
+    const float length = size / curvature;
+    step_ += length * direction_;
+    residual_vector_ -= length * direction_product_;
+  }
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, int iterations,
+                                      bool is_first, Matrix3XRef<Scalar> places) {
+  decide_holds(problem, places, is_first);
+  solve_linear(problem, places, iterations);
+  double work = 0;
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    if (holds_[at(static_cast<int>(i))] != Hold::kFree) continue;
+    work += static_cast<double>(unbalanced_.col(i).dot(step_.col(i).template cast<Scalar>()));
+  }
+  places += step_.template cast<Scalar>();
+  evaluate(problem, places);
+  hold_back(problem, work, places);
+  if (clamp(problem, places)) evaluate(problem, places);
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const SolverEffort& effort,
+                                   Matrix3XRef<Scalar> places) {
+  const TraceScope trace("implicit solve");
+  inertia_ = (masses_ / (problem.inertia_step * problem.inertia_step)).template cast<float>();
+  for (const int node : pinned_) {
+    inertia_[node] = 0;
+    places.col(node) = problem.targets.col(node);
+  }
+  for (const LedNode<Scalar>& led : problem.led) {
+    if (led.mass <= 0) places.col(led.node) = led.place;
+  }
+  forces_.begin_step(problem.starts, problem.time_step);
+  evaluate(problem, places);
+  const double first = static_cast<double>(unbalanced_.norm());
+  for (int round = 0; round < effort.rounds; ++round) {
+    do_round(problem, effort.iterations, round == 0, places);
+  }
+  if (is_suspicious(problem, places)) tame(problem, effort.iterations, places);
+  find_holding_forces(places);
+  double left = 0;
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    left += static_cast<double>((unbalanced_.col(i) + holding_forces_.col(i)).squaredNorm());
+  }
+  residual_ = first > 0 ? std::sqrt(left) / first : 0.0;
+  balance(places);
+}
+
+template class ImplicitSolver<float>;
+template class ImplicitSolver<double>;
+
+}  // namespace weft::fast

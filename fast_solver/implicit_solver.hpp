@@ -1,0 +1,129 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <weft/fast_solver/network_forces.hpp>
+#include <weft/fast_solver/node_constraints.hpp>
+#include <weft/fast_solver/solver_effort.hpp>
+#include <weft/fast_solver/sparse_cholesky.hpp>
+#include <weft/fast_solver/spring_network.hpp>
+
+namespace weft::fast {
+
+/// One implicit step: find x with
+///
+///   m_i (x_i - y_i) / h'^2 = f_i(x) + contact_i         for free nodes
+///
+/// f of a SpringNetwork, y where the node would go without f. Implicit Euler has h' = h.
+template <class Scalar>
+struct StepProblem {
+  Eigen::Ref<const Matrix3X<Scalar>> targets;  ///< y, 3 x n [m]; of pinned nodes: where they go
+  Eigen::Ref<const Matrix3X<Scalar>> starts;   ///< q, 3 x n [m] at the start of the step
+  Scalar time_step;                            ///< h [s]: of dampers
+  Scalar inertia_step;                         ///< h' [s]
+  std::span<const PlaneContact<Scalar>> contacts = {};
+  std::span<const LedNode<Scalar>> led = {};
+};
+
+/// Newton's method, each linear system by a few conjugate gradients. Their preconditioner joins two
+/// halves that a cloth needs. The prefactored matrix of a network that resists equally in all
+/// directions carries a corner's load through the whole cloth at once, but is far too stiff across
+/// the sheet. The blocks of the diagonal are exact there, where neighbours have little to say. Block
+/// smoothing before and after the global solve (a symmetric two-level cycle) leaves a condition
+/// number of a few, whatever the number of nodes. Contacts are eliminated: a node on a plane moves in
+/// the plane, one that sticks not at all (Baraff and Witkin 1998), and what it takes to hold them is
+/// the contact force, whose sign and friction decide how the next round holds them.
+///
+/// Places and forces in Scalar, corrections in single precision.
+/// Deterministic: the same bits for any number of threads. No allocation in solve(), except for more
+/// contacts than ever before.
+template <class Scalar>
+class ImplicitSolver {
+ public:
+  /// masses: n [kg], > 0; is_free: n. inertia_step [s], > 0: of most steps; others converge more
+  /// slowly. Throws InvalidArgument for sizes that do not fit.
+  ImplicitSolver(const SpringNetwork& network, const VectorX<double>& masses,
+                 const std::vector<bool>& is_free, double inertia_step);
+
+  [[nodiscard]] int num_nodes() const { return forces_.num_nodes(); }
+  [[nodiscard]] const SparseCholesky& factor() const { return factor_; }
+
+  /// places: 3 x n [m], in: a guess; out: the solution.
+  void solve(const StepProblem<Scalar>& problem, const SolverEffort& effort,
+             Matrix3XRef<Scalar> places);
+
+  /// After solve(): what each node is pushed with by contacts, and led nodes by what leads them, 3 x n
+  /// [N]. Zero elsewhere.
+  [[nodiscard]] const Matrix3X<Scalar>& holding_forces() const { return holding_forces_; }
+  /// After solve(): the contact of the problem that holds a node, or -1.
+  [[nodiscard]] int contact_of(int node) const {
+    return contact_of_[static_cast<std::size_t>(node)];
+  }
+  /// After solve(): root mean square of the unbalanced forces over that of the step's first guess [-].
+  [[nodiscard]] double residual() const { return residual_; }
+
+ private:
+  using Floats = Matrix3X<float>;
+  /// A spring of stiffness mass / h'^2 to a place, in all directions or along a normal only: the
+  /// inertia of a body that moves together with the node.
+  struct Tie {
+    int node;
+    Scalar stiffness;        ///< [N/m]
+    Vector3<Scalar> normal;  ///< zero: in all directions
+    Vector3<Scalar> place;   ///< [m]
+  };
+
+  void evaluate(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places);
+  void decide_holds(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places,
+                    bool is_first);
+  void invert_blocks();
+  void project(Floats& vectors) const;
+  void smooth(const Floats& residual, Floats& correction) const;
+  void leave_out_ties(Floats& vectors) const;
+  void add_tie_product(const Floats& displacements, Floats& product) const;
+  [[nodiscard]] Vector3<Scalar> tie_force(const Tie& tie, ConstMatrix3XRef<Scalar> places) const;
+  void multiply(const Floats& displacements, Floats& product);
+  void precondition();
+  void solve_linear(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places,
+                    int iterations);
+  void do_round(const StepProblem<Scalar>& problem, int iterations, bool is_first,
+                Matrix3XRef<Scalar> places);
+  [[nodiscard]] double energy(const StepProblem<Scalar>& problem,
+                              ConstMatrix3XRef<Scalar> places) const;
+  [[nodiscard]] bool is_suspicious(const StepProblem<Scalar>& problem,
+                                   ConstMatrix3XRef<Scalar> places) const;
+  void stay_at_start(const StepProblem<Scalar>& problem);
+  void tame(const StepProblem<Scalar>& problem, int iterations, Matrix3XRef<Scalar> places);
+  void hold_back(const StepProblem<Scalar>& problem, double work_before,
+                 Matrix3XRef<Scalar> places);
+  void find_holding_forces(ConstMatrix3XRef<Scalar> places);
+  void balance(Matrix3XRef<Scalar> places);
+  bool clamp(const StepProblem<Scalar>& problem, Matrix3XRef<Scalar> places);
+
+  NetworkForces<Scalar> forces_;
+  SparseCholesky factor_;
+  VectorX<Scalar> masses_;
+  std::vector<bool> is_free_;
+  std::vector<int> pinned_;
+  std::vector<int> held_;        ///< nodes with a hold
+  std::vector<Tie> ties_;        ///< of each tied node
+  VectorX<float> inertia_;       ///< m / h'^2 [N/m]; 0 for pinned nodes
+  Matrix3X<Scalar> unbalanced_;  ///< forces that are left [N]
+  Matrix3X<Scalar> holding_forces_;
+  Matrix3X<Scalar> unmoved_;
+  std::vector<Hold> holds_;        ///< of each node
+  std::vector<Hold> held_before_;  ///< the same in the round before
+  std::vector<int> contact_of_;    ///< of each node: the contact that holds it, or -1
+  Matrix3X<float> normals_;        ///< of each node on a plane
+  Matrix3X<float> friction_;       ///< of each sliding node [N]
+  Eigen::Matrix<float, 6, Eigen::Dynamic> blocks_;  ///< inverse of the diagonal's
+  Floats step_, residual_vector_, direction_, direction_product_;
+  Floats correction_, correction_product_, work_, coarse_, product_;
+  double residual_ = 0;
+};
+
+extern template class ImplicitSolver<float>;
+extern template class ImplicitSolver<double>;
+
+}  // namespace weft::fast

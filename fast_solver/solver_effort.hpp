@@ -1,0 +1,11 @@
+#pragma once
+
+namespace weft::fast {
+
+/// How much work a step is worth.
+struct SolverEffort {
+  int rounds = 2;      ///< linearisations, >= 1
+  int iterations = 3;  ///< conjugate gradients in each, >= 1
+};
+
+}  // namespace weft::fast

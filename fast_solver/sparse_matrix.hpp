@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace weft::fast {
+
+/// A sparse symmetric matrix, compressed by rows: both (i, j) and (j, i) are stored, the diagonal apart.
+struct SymmetricMatrix {
+  std::vector<int> starts;       ///< row i has entries starts[i] ... starts[i + 1] - 1
+  std::vector<int> columns;      ///< of each entry, ascending within a row, never the row itself
+  std::vector<double> values;    ///< of each entry
+  std::vector<double> diagonal;  ///< of each row
+
+  [[nodiscard]] int size() const { return static_cast<int>(diagonal.size()); }
+};
+
+/// An entry of a sum that makes a matrix: (row, column) and, if they differ, (column, row) as well.
+struct MatrixPart {
+  int row;
+  int column;
+  double value;
+};
+
+/// The sum of parts as a matrix of size x size. Parts of the same place are added in the order in
+/// which they are given.
+[[nodiscard]] SymmetricMatrix sum_of_parts(int size, const std::vector<MatrixPart>& parts);
+
+}  // namespace weft::fast

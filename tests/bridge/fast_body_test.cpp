@@ -1,0 +1,286 @@
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+
+#include <weft/bridge/cloth_body.hpp>
+#include <weft/bridge/node_state.hpp>
+#include <weft/bridge/soft_world.hpp>
+#include <weft/custom_forces/core/error.hpp>
+
+namespace weft::bridge {
+namespace {
+
+constexpr double kTimeStep = 1.0 / 60;  // [s]
+constexpr double kMargin = 0.01;        // [m]
+
+forces::LawSpecification law(const std::string& id, const std::string& parameter, double value) {
+  return {id, {}, {{parameter, {value}}}};
+}
+
+const forces::LawSpecification kGravity{"gravity", {}, {{"acceleration", {0.0, -9.81, 0.0}}}};
+
+ClothMesh cloth(int n, double size, double height, double mass = 0.25) {
+  ClothGrid grid;
+  grid.nodes = {n, n};
+  grid.size = {size, size};
+  grid.center = {0, height, 0};
+  grid.total_mass = mass;
+  return make_cloth_grid(grid);
+}
+
+/// A world with one cloth, and what a test puts into it.
+class Scene {
+ public:
+  explicit Scene(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
+                 double friction = 0.5, const FastSettings& fast = {})
+      : world_(SoftWorldSettings{}),
+        masses_(mesh.masses),
+        body_(&world_.add(make_cloth_body(world_.info(), mesh,
+                                          {.collision_margin = kMargin, .friction = friction}))) {
+    EXPECT_FALSE(world_.solver().attach_fast(*body_, mesh, laws, fast));
+  }
+
+  btRigidBody& add(std::shared_ptr<btCollisionShape> shape, double mass, const btTransform& place) {
+    btVector3 inertia(0, 0, 0);
+    if (mass > 0) shape->calculateLocalInertia(static_cast<btScalar>(mass), inertia);
+    btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(mass), nullptr, shape.get(),
+                                                  inertia);
+    info.m_startWorldTransform = place;
+    info.m_friction = 1;
+    auto rigid = std::make_unique<btRigidBody>(info);
+    rigid->setActivationState(DISABLE_DEACTIVATION);
+    return world_.add(std::move(rigid), std::move(shape));
+  }
+  void step(int num_steps = 1, double time_step = kTimeStep) {
+    for (int i = 0; i < num_steps; ++i) world_.step(time_step);
+  }
+  void set_velocity(const btVector3& velocity) {
+    for (int i = 0; i < body_->m_nodes.size(); ++i) body_->m_nodes[i].m_v = velocity;
+  }
+  [[nodiscard]] Matrix3X<double> positions() const { return read().first; }
+  [[nodiscard]] Matrix3X<double> velocities() const { return read().second; }
+  [[nodiscard]] Vector3<double> mean_velocity() const {
+    return velocities() * masses_ / masses_.sum();
+  }
+  [[nodiscard]] Vector3<double> momentum() const { return velocities() * masses_; }
+  [[nodiscard]] btSoftBody& body() { return *body_; }
+  [[nodiscard]] SoftBodySolver& solver() { return world_.solver(); }
+
+ private:
+  [[nodiscard]] std::pair<Matrix3X<double>, Matrix3X<double>> read() const {
+    Matrix3X<btScalar> x;
+    Matrix3X<btScalar> v;
+    read_nodes(*body_, x, v);
+    return {x.cast<double>(), v.cast<double>()};
+  }
+  SoftWorld world_;
+  VectorX<double> masses_;
+  btSoftBody* body_;
+};
+
+btTransform at(double x, double y, double z) {
+  return btTransform(
+      btQuaternion::getIdentity(),
+      btVector3(static_cast<btScalar>(x), static_cast<btScalar>(y), static_cast<btScalar>(z)));
+}
+
+std::shared_ptr<btCollisionShape> box(double x, double y, double z) {
+  auto shape = std::make_shared<btBoxShape>(
+      btVector3(static_cast<btScalar>(x), static_cast<btScalar>(y), static_cast<btScalar>(z)));
+  shape->setMargin(btScalar(0.001));
+  return shape;
+}
+
+TEST(FastBody, FallsFreely) {
+  Scene scene(cloth(6, 1, 0), {kGravity, law("tension", "stiffness", 1000)});
+  scene.step(30);
+  // Implicit Euler in its first step, BDF2 then: exact for a constant force but for that start, which
+  // is half a step's fall per step.
+  const double t = 30 * kTimeStep;
+  EXPECT_NEAR(scene.mean_velocity()[1], -9.81 * t, 1e-3 * 9.81 * t);
+  EXPECT_NEAR(scene.positions().row(1).mean(), -0.5 * 9.81 * t * t, 0.5 * 9.81 * t * kTimeStep);
+}
+
+TEST(FastBody, HangsWithTheStretchOfItsSpringsAtAnyStep) {
+  // One spring with a weight: m g / k = 9.81 mm, whatever the time step.
+  ClothMesh mesh;
+  mesh.rest_positions = Matrix3X<double>::Zero(3, 2);
+  mesh.rest_positions(1, 1) = -1.0;
+  mesh.triangles.resize(3, 0);
+  Edges edge(2, 1);
+  edge << 0, 1;
+  mesh.edge_sets.push_back({"spring", edge});
+  mesh.masses = VectorX<double>::Ones(2);
+  mesh.pinned = {0};
+  for (const double h : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
+    Scene scene(
+        mesh, {kGravity, law("tension", "stiffness", 1000), law("spring_damping", "damping", 30)});
+    scene.step(static_cast<int>(3 / h), h);
+    // Single precision: the place 1 m is known to 1.2e-7 m, and m / h^2 = 57600 N/m make 7 mN of it.
+    EXPECT_NEAR(scene.positions()(1, 1), -1.00981, 1e-5) << h;
+  }
+}
+
+TEST(FastBody, ThreadsChangeNoBit) {
+  const auto run = [](std::size_t num_threads) {
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, num_threads);
+    Scene scene(cloth(40, 1, 0.3), {kGravity, law("tension", "stiffness", 500)});
+    scene.add(std::make_shared<btSphereShape>(btScalar(0.2)), 0, at(0, 0, 0));
+    scene.step(30);
+    return scene.positions();
+  };
+  EXPECT_EQ(run(1), run(4));
+}
+
+class FastBodyDrop : public testing::TestWithParam<double> {};
+
+TEST_P(FastBodyDrop, IsStoppedByAThinFloor) {
+  Scene scene(cloth(20, 1, 0.5), {kGravity, law("tension", "stiffness", 300)});
+  scene.add(box(2, 0.01, 2), 0, at(0, -0.01, 0));  // its top is y = 0, 2 cm thick
+  scene.set_velocity(btVector3(0, static_cast<btScalar>(-GetParam()), 0));
+  for (int i = 0; i < 60; ++i) {
+    scene.step();
+    // A tenth of the margin: the distance field is interpolated.
+    ASSERT_GT(scene.positions().row(1).minCoeff(), 0.0) << i;
+  }
+  EXPECT_NEAR(scene.positions().row(1).minCoeff(), kMargin, 0.1 * kMargin);
+}
+
+INSTANTIATE_TEST_SUITE_P(Speeds, FastBodyDrop, testing::Values(0.0, 2.0, 5.0, 10.0, 20.0));
+
+struct Slope {
+  double friction;
+  double angle;  // [deg]
+};
+
+class FastBodySlope : public testing::TestWithParam<Slope> {};
+
+TEST_P(FastBodySlope, SticksOrSlidesAsCoulombSays) {
+  const double angle = GetParam().angle * std::numbers::pi / 180;
+  const Vector3<double> down(std::cos(angle), -std::sin(angle), 0);
+  ClothGrid grid;
+  grid.nodes = {8, 8};
+  grid.size = {0.5, 0.5};
+  grid.u_axis = down;
+  grid.center = Vector3<double>(std::sin(angle), std::cos(angle), 0) * kMargin;
+  Scene scene(make_cloth_grid(grid), {kGravity, law("tension", "stiffness", 300)},
+              GetParam().friction);
+  btTransform place(btQuaternion(btVector3(0, 0, 1), static_cast<btScalar>(-angle)));
+  place.setOrigin(place.getBasis() * btVector3(0, -0.5, 0));
+  scene.add(box(10, 0.5, 10), 0, place);
+  const double start = (down.transpose() * scene.positions()).mean();
+  scene.step(60);
+  const double slid = (down.transpose() * scene.positions()).mean() - start;
+  const double pull = std::sin(angle) - GetParam().friction * std::cos(angle);
+  if (pull < 0) {
+    // No creep. The nodes may settle by what the distance field says before they stick.
+    EXPECT_LT(std::abs(slid), 0.1 * kMargin);
+    EXPECT_LT(scene.velocities().norm(), 1e-3);
+  } else {
+    EXPECT_NEAR(down.dot(scene.mean_velocity()), 9.81 * pull, 0.05 * 9.81 * pull);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Grid, FastBodySlope,
+                         testing::Values(Slope{0.3, 10}, Slope{0.3, 15}, Slope{0.3, 19},
+                                         Slope{0.3, 25}, Slope{0.6, 25}, Slope{0.6, 35},
+                                         Slope{0.0, 10}));
+
+TEST(FastBody, GivesADynamicBodyTheMomentumThatItLoses) {
+  Scene scene(cloth(12, 0.6, 0.0), {law("tension", "stiffness", 200)});
+  btRigidBody& ball =
+      scene.add(std::make_shared<btSphereShape>(btScalar(0.1)), 0.5, at(0, -0.15, 0));
+  ball.setGravity(btVector3(0, 0, 0));
+  ball.setLinearVelocity(btVector3(btScalar(0.2), 3, 0));
+  const auto momentum_of_ball = [&] {
+    const btVector3 v = ball.getLinearVelocity();
+    return Vector3<double>(0.5 * static_cast<double>(v.x()), 0.5 * static_cast<double>(v.y()),
+                           0.5 * static_cast<double>(v.z()));
+  };
+  const Vector3<double> before = scene.momentum() + momentum_of_ball();
+  scene.step(30);
+  const Vector3<double> after = scene.momentum() + momentum_of_ball();
+  EXPECT_GT(scene.momentum()[1], 0.1);  // they have met
+  EXPECT_LT((after - before).norm(), 0.02 * before.norm());
+}
+
+TEST(FastBody, HoldsABoxOnAnchors) {
+  ClothMesh mesh = cloth(9, 1, 2);
+  mesh.pinned = {0, 8};
+  Scene scene(mesh,
+              {kGravity, law("tension", "stiffness", 2000), law("velocity_damping", "rate", 2)});
+  btRigidBody& load = scene.add(box(0.5, 0.1, 0.1), 2.0, at(0, 2, -0.5));
+  scene.body().appendAnchor(72, &load, false, 1);
+  scene.body().appendAnchor(80, &load, false, 1);
+  scene.step(600);
+  const btVector3 v = load.getLinearVelocity();
+  // It swings: what it may have fallen from its start is no more than 0.5 m.
+  EXPECT_LT(v.length(), std::sqrt(2 * 9.81 * 0.5));
+  EXPECT_GT(load.getCenterOfMassPosition().y(), 0.5);
+  EXPECT_FALSE(scene.solver().blow_up(scene.body()));
+}
+
+TEST(FastBody, TakesPinsThatChangeAtRunTime) {
+  Scene scene(cloth(8, 1, 1), {kGravity, law("tension", "stiffness", 300)});
+  scene.body().m_nodes[0].m_im = 0;
+  scene.step(30);
+  EXPECT_EQ(scene.positions()(1, 0), 1.0);
+  scene.body().m_nodes[0].m_im = scene.body().m_nodes[63].m_im;
+  scene.step(30);
+  EXPECT_LT(scene.positions()(1, 0), 0.9);
+}
+
+TEST(FastBody, DoesNotExplodeWithRandomMaterials) {
+  std::mt19937 random(11);
+  const auto between = [&](double low, double high) {  // uniform in the exponent
+    const double share = static_cast<double>(random()) / 4294967296.0;
+    return low * std::pow(high / low, share);
+  };
+  for (int run = 0; run < 40; ++run) {
+    const double h = between(1.0 / 1000, 1.0 / 30);
+    const double stiffness = between(1, 1e6);
+    const double mass = between(1e-3, 100);
+    ClothMesh mesh = cloth(8, 1, between(0.1, 3), mass);
+    if (run % 2 == 0) mesh.pinned = {0, 7};
+    Scene scene(mesh, {kGravity, law("tension", "stiffness", stiffness),
+                       law("spring_damping", "damping", between(1e-6, 10))});
+    scene.add(std::make_shared<btSphereShape>(btScalar(0.3)), 0, at(0, -0.3, 0));
+    scene.set_velocity(btVector3(static_cast<btScalar>(between(0.1, 20)), 0, 0));
+    scene.step(40, h);
+    EXPECT_FALSE(scene.solver().blow_up(scene.body())) << run;
+    const double speed = scene.velocities().colwise().norm().maxCoeff();
+    // No node may be faster than start, fall and whip: four times what energy gives the whole cloth.
+    EXPECT_LT(speed, 4 * std::sqrt(400 + 2 * 9.81 * 4 + 9.81 * 9.81 * 2))
+        << run << ": k " << stiffness << " N/m, " << mass << " kg, h " << h;
+  }
+}
+
+TEST(FastBody, SaysWhyABodyIsNotFast) {
+  SoftWorld world(SoftWorldSettings{});
+  const ClothMesh mesh = cloth(4, 1, 0);
+  btSoftBody& body = world.add(make_cloth_body(world.info(), mesh, {}));
+  body.generateClusters(1);
+  const auto reason = world.solver().attach_fast(body, mesh, {law("tension", "stiffness", 10)});
+  ASSERT_TRUE(reason);
+  EXPECT_EQ(*reason, "it has clusters");
+  EXPECT_TRUE(world.solver().has_laws(body));
+  EXPECT_FALSE(world.solver().is_fast(body));
+}
+
+TEST(FastBody, RefusesAnEffortOfNothing) {
+  SoftWorld world(SoftWorldSettings{});
+  const ClothMesh mesh = cloth(4, 1, 0);
+  btSoftBody& body = world.add(make_cloth_body(world.info(), mesh, {}));
+  EXPECT_THROW((void)world.solver().attach_fast(body, mesh, {}, {.effort = {0, 1}}),
+               InvalidArgument);
+  EXPECT_FALSE(world.solver().has_laws(body));
+}
+
+}  // namespace
+}  // namespace weft::bridge

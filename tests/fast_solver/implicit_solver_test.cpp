@@ -1,0 +1,232 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <Eigen/LU>
+
+#include <weft/custom_forces/core/cloth_grid.hpp>
+#include <weft/fast_solver/implicit_solver.hpp>
+
+namespace weft::fast {
+namespace {
+
+constexpr double kTimeStep = 1.0 / 60;  // [s]
+constexpr double kGravity = 9.81;       // [m/s^2]
+
+ClothMesh cloth(int n) {
+  ClothGrid grid;
+  grid.nodes = {n, n};
+  grid.total_mass = 0.25;
+  return make_cloth_grid(grid);
+}
+
+SpringNetwork springs(const ClothMesh& mesh, double stiffness, double damping = 0.0) {
+  return make_network(mesh, {{"tension", {}, {{"stiffness", {stiffness}}}},
+                             {"spring_damping", {}, {{"damping", {damping}}}}});
+}
+
+std::vector<bool> all_free_but(const ClothMesh& mesh, const std::vector<int>& pinned) {
+  std::vector<bool> is_free(static_cast<std::size_t>(mesh.num_nodes()), true);
+  for (const int node : pinned) is_free[static_cast<std::size_t>(node)] = false;
+  return is_free;
+}
+
+/// Where free nodes fall to in one step.
+Matrix3X<double> fallen(const Matrix3X<double>& x, const Matrix3X<double>& v,
+                        const std::vector<bool>& is_free) {
+  Matrix3X<double> y = x + kTimeStep * v;
+  for (Eigen::Index i = 0; i < y.cols(); ++i) {
+    if (is_free[static_cast<std::size_t>(i)]) y(1, i) -= kGravity * kTimeStep * kTimeStep;
+  }
+  return y;
+}
+
+/// Newton's method with a dense matrix of differences, to rounding: shares no formula with the solver
+/// but the force.
+Matrix3X<double> dense_solution(const SpringNetwork& network, const VectorX<double>& masses,
+                                const std::vector<bool>& is_free, const Matrix3X<double>& q,
+                                const Matrix3X<double>& y) {
+  const Eigen::Index n = q.cols();
+  Matrix3X<double> x = q;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (!is_free[static_cast<std::size_t>(i)]) x.col(i) = y.col(i);
+  }
+  const auto residual = [&](const Matrix3X<double>& at) {
+    Matrix3X<double> r = (y - at) * (masses / (kTimeStep * kTimeStep)).asDiagonal();
+    for (Eigen::Index e = 0; e < network.edges.cols(); ++e) {
+      const int i = network.edges(0, e);
+      const int j = network.edges(1, e);
+      const Vector3<double> d = at.col(j) - at.col(i);
+      const double start = (q.col(j) - q.col(i)).norm();
+      const double force = network.stiffness[e] * (d.norm() - network.rest_lengths[e]) +
+                           network.damping[e] * (d.norm() - start) / kTimeStep;
+      r.col(i) += force * d.normalized();
+      r.col(j) -= force * d.normalized();
+    }
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (!is_free[static_cast<std::size_t>(i)]) r.col(i).setZero();
+    }
+    return r;
+  };
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    const Matrix3X<double> r = residual(x);
+    if (r.norm() < 1e-10) break;
+    Eigen::MatrixXd jacobian(3 * n, 3 * n);
+    for (Eigen::Index c = 0; c < 3 * n; ++c) {
+      Matrix3X<double> there = x;
+      there.data()[c] += 1e-6;
+      Matrix3X<double> back = x;
+      back.data()[c] -= 1e-6;
+      jacobian.col(c) = ((residual(there) - residual(back)) / 2e-6).reshaped();
+      if (!is_free[static_cast<std::size_t>(c / 3)]) jacobian(c, c) = -1;
+    }
+    const Eigen::VectorXd step = jacobian.partialPivLu().solve(r.reshaped());
+    x.reshaped() -= step;
+  }
+  return x;
+}
+
+TEST(ImplicitSolver, SolvesTheEquationsThatADenseNewtonMethodSolves) {
+  const ClothMesh mesh = cloth(4);
+  const SpringNetwork network = springs(mesh, 200.0, 0.1);
+  const auto is_free = all_free_but(mesh, {0, 3});
+  const Matrix3X<double> q = mesh.rest_positions;
+  Matrix3X<double> v = Matrix3X<double>::Zero(3, mesh.num_nodes());
+  v.row(2).setConstant(1.5);
+  v.row(0) = 0.7 * q.row(1) + 2.0 * q.row(2);
+  const Matrix3X<double> y = fallen(q, v, is_free);
+  const Matrix3X<double> expected = dense_solution(network, mesh.masses, is_free, q, y);
+  ImplicitSolver<double> solver(network, mesh.masses, is_free, kTimeStep);
+  Matrix3X<double> x = q + kTimeStep * v;
+  solver.solve({y, q, kTimeStep, kTimeStep}, {20, 20}, x);
+  const double moved = (expected - q).norm();
+  EXPECT_GT(moved, 0.05);
+  // The places are in double precision, whatever the corrections are in.
+  EXPECT_LT((x - expected).norm(), 1e-9 * moved);
+}
+
+TEST(ImplicitSolver, FewIterationsComeClose) {
+  ClothGrid grid;
+  grid.nodes = {30, 30};
+  grid.v_axis = {0, -1, 0};  // hangs from its first row's corners
+  const ClothMesh mesh = make_cloth_grid(grid);
+  const auto is_free = all_free_but(mesh, {0, 29});
+  const SpringNetwork network = springs(mesh, 1000.0);
+  const Matrix3X<double> q = mesh.rest_positions;
+  const Matrix3X<double> v = Matrix3X<double>::Zero(3, mesh.num_nodes());
+  const Matrix3X<double> y = fallen(q, v, is_free);
+  ImplicitSolver<double> solver(network, mesh.masses, is_free, kTimeStep);
+  const auto solve = [&](const SolverEffort& effort) {
+    Matrix3X<double> x = q;
+    solver.solve({y, q, kTimeStep, kTimeStep}, effort, x);
+    return x;
+  };
+  const Matrix3X<double> exact = solve({20, 30});
+  const double moved = (exact - y).norm();
+  EXPECT_GT(moved, 0.04);  // [m] over all nodes
+  // Conjugate gradients with a condition number of 10 take the error to 2 (1 / 1.9)^k: 0.3 after three.
+  EXPECT_LT((solve({1, 3}) - exact).norm(), 0.3 * moved);
+  EXPECT_LT((solve({2, 6}) - exact).norm(), 0.05 * moved);
+}
+
+TEST(ImplicitSolver, ThreadsChangeNoBit) {
+  const ClothMesh mesh = cloth(60);
+  const auto is_free = all_free_but(mesh, {0, 59});
+  const Matrix3X<float> q = mesh.rest_positions.cast<float>();
+  const Matrix3X<float> y =
+      fallen(mesh.rest_positions, Matrix3X<double>::Zero(3, mesh.num_nodes()), is_free)
+          .cast<float>();
+  const auto solve = [&](int num_threads) {
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(num_threads));
+    ImplicitSolver<float> solver(springs(mesh, 500.0), mesh.masses, is_free, kTimeStep);
+    Matrix3X<float> x = q;
+    const auto h = static_cast<float>(kTimeStep);
+    solver.solve({y, q, h, h}, {2, 3}, x);
+    return x;
+  };
+  EXPECT_EQ(solve(1), solve(4));
+}
+
+/// One node of 1 kg without springs on a plane.
+class OnAPlane : public testing::Test {
+ protected:
+  OnAPlane() : solver_(network_, VectorX<double>::Ones(1), {true}, kTimeStep) {
+    network_.edges.resize(2, 0);
+  }
+
+  /// The node's place after a step from the origin, which is on the plane.
+  Vector3<double> step(const Vector3<double>& velocity, const Vector3<double>& force,
+                       double friction, const Vector3<double>& motion = Vector3<double>::Zero()) {
+    const Matrix3X<double> q = Matrix3X<double>::Zero(3, 1);
+    const Matrix3X<double> y = kTimeStep * velocity + kTimeStep * kTimeStep * force;
+    PlaneContact<double> contact;
+    contact.normal = {0, 1, 0};
+    contact.friction = friction;
+    contact.motion = motion;
+    const std::vector<PlaneContact<double>> contacts = {contact};
+    Matrix3X<double> x = kTimeStep * velocity;
+    solver_.solve({y, q, kTimeStep, kTimeStep, contacts}, {2, 2}, x);
+    return x;
+  }
+
+  SpringNetwork network_;
+  ImplicitSolver<double> solver_;
+};
+
+TEST_F(OnAPlane, StaysWhereFrictionHolds) {
+  EXPECT_EQ(step({0, 0, 0}, {4.9, -10, 0}, 0.5), Vector3<double>(0, 0, 0));
+  EXPECT_NEAR(solver_.holding_forces()(0, 0), -4.9, 1e-12);
+  EXPECT_NEAR(solver_.holding_forces()(1, 0), 10.0, 1e-12);
+}
+
+TEST_F(OnAPlane, SlidesWithWhatCoulombLeaves) {
+  const Vector3<double> x = step({0, 0, 0}, {6.0, -10, 0}, 0.5);
+  // (6 - 0.5 * 10) N on 1 kg over one implicit step; corrections are in single precision.
+  EXPECT_NEAR(x[0], 1.0 * kTimeStep * kTimeStep, 1e-8);
+  EXPECT_NEAR(x[1], 0.0, 1e-9);
+}
+
+TEST_F(OnAPlane, SlowsDownAsCoulombSays) {
+  const Vector3<double> x = step({2, 0, 0}, {0, -10, 0}, 0.3);
+  EXPECT_NEAR(x[0] / kTimeStep, 2 - 3 * kTimeStep, 1e-6);
+  const Vector3<double> stopped = step({0.02, 0, 0}, {0, -10, 0}, 0.3);
+  EXPECT_NEAR(stopped[0], 0.0, 1e-12);
+}
+
+TEST_F(OnAPlane, IsCarriedByASurfaceThatMoves) {
+  const Vector3<double> motion(0.01, 0, 0);
+  EXPECT_NEAR(step({0.6, 0, 0}, {0, -10, 0}, 0.5, motion)[0], 0.01, 1e-9);
+}
+
+TEST_F(OnAPlane, LeavesWithoutBeingHeld) {
+  const Vector3<double> x = step({0, 0, 0}, {0, 3, 0}, 0.5);
+  EXPECT_NEAR(x[1], 3 * kTimeStep * kTimeStep, 1e-12);
+  EXPECT_EQ(solver_.holding_forces().norm(), 0.0);
+}
+
+TEST_F(OnAPlane, IsStoppedAtAnySpeed) {
+  const Vector3<double> x = step({0, -20, 0}, {0, -10, 0}, 0.0);
+  EXPECT_NEAR(x[1], 0.0, 1e-8);
+  EXPECT_NEAR(solver_.holding_forces()(1, 0), 20 / kTimeStep + 10, 1e-4);
+}
+
+TEST(ImplicitSolver, LeadsANodeAndSaysWhatThatTakes) {
+  const ClothMesh mesh = cloth(3);
+  const SpringNetwork network = springs(mesh, 100.0);
+  ImplicitSolver<double> solver(network, mesh.masses, all_free_but(mesh, {}), kTimeStep);
+  const Matrix3X<double> q = mesh.rest_positions;
+  std::vector<LedNode<double>> led(1);
+  led[0].node = 4;
+  led[0].place = q.col(4) + Vector3<double>(0, 0.01, 0);
+  Matrix3X<double> x = q;
+  solver.solve({q, q, kTimeStep, kTimeStep, {}, led}, {10, 10}, x);
+  EXPECT_EQ(x.col(4), led[0].place);
+  // Nothing else pushes: the force has given all the momentum there is.
+  const Vector3<double> momentum = (x - q) * mesh.masses / kTimeStep;
+  EXPECT_GT(momentum[1], 1e-3);
+  EXPECT_LT((momentum - kTimeStep * solver.holding_forces().col(4)).norm(), 1e-6 * momentum.norm());
+}
+
+}  // namespace
+}  // namespace weft::fast

@@ -1,0 +1,161 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
+
+#include <weft/custom_forces/core/cloth_grid.hpp>
+#include <weft/custom_forces/law_set.hpp>
+#include <weft/custom_forces/registry.hpp>
+#include <weft/fast_solver/network_forces.hpp>
+
+namespace weft::fast {
+namespace {
+
+using forces::LawSpecification;
+
+ClothMesh cloth() {
+  ClothGrid grid;
+  grid.nodes = {6, 5};
+  grid.total_mass = 0.3;
+  return make_cloth_grid(grid);
+}
+
+/// The rest shape, disturbed by a few hundredths of a spring, or by so much that springs are
+/// compressed.
+Matrix3X<double> places(const ClothMesh& mesh, double by) {
+  std::srand(7);  // Eigen's Random
+  return mesh.rest_positions + by * Matrix3X<double>::Random(3, mesh.num_nodes());
+}
+
+const LawSpecification kTension{
+    "tension", {}, {{"stiffness", {50.0}}, {"compression_ratio", {0.3}}}};
+const LawSpecification kStretch{"tension", {"stretch"}, {{"stiffness", {20.0}}}};
+const LawSpecification kDamping{"spring_damping", {"shear"}, {{"damping", {0.7}}}};
+const LawSpecification kBending{"hinge_torsion", {}, {{"rigidity", {0.01}}}};
+
+TEST(SpringNetwork, HasTheForcesOfTheLaws) {
+  const ClothMesh mesh = cloth();
+  const double h = 0.01;
+  const Matrix3X<double> q = places(mesh, 0.05);
+  const Matrix3X<double> x = places(mesh, 0.08);
+  NetworkForces<double> network(make_network(mesh, {kTension, kStretch}), mesh.num_nodes());
+  network.begin_step(q, h);
+  Matrix3X<double> forces = Matrix3X<double>::Zero(3, mesh.num_nodes());
+  network.add_forces(x, q, forces);
+  forces::LawSet<double> laws;
+  for (const auto& law : {kTension, kStretch}) laws.add(forces::make_law<double>(law, mesh));
+  Matrix3X<double> expected = Matrix3X<double>::Zero(3, mesh.num_nodes());
+  const Matrix3X<double> v = Matrix3X<double>::Zero(3, mesh.num_nodes());
+  (void)laws.add_forces({x, v, mesh.masses, 0.0}, forces::LawSet<double>::VelocityLaws::kAsForces,
+                        expected);
+  EXPECT_LT((forces - expected).norm(), 1e-10 * expected.norm());
+}
+
+TEST(SpringNetwork, DampsTheChangeOfLength) {
+  const ClothMesh mesh = cloth();
+  const double h = 1e-6;  // [s] so that (l - l_q) / h is the rate of the length to a part in 1e5
+  const Matrix3X<double> v = Matrix3X<double>::Random(3, mesh.num_nodes());
+  const Matrix3X<double> x = places(mesh, 0.05);
+  const Matrix3X<double> q = x - h * v;
+  NetworkForces<double> network(make_network(mesh, {kDamping}), mesh.num_nodes());
+  network.begin_step(q, h);
+  Matrix3X<double> forces = Matrix3X<double>::Zero(3, mesh.num_nodes());
+  network.add_forces(x, q, forces);
+  forces::LawSet<double> laws;
+  laws.add(forces::make_law<double>(kDamping, mesh));
+  Matrix3X<double> expected = Matrix3X<double>::Zero(3, mesh.num_nodes());
+  (void)laws.add_forces({x, v, mesh.masses, 0.0}, forces::LawSet<double>::VelocityLaws::kAsForces,
+                        expected);
+  EXPECT_LT((forces - expected).norm(), 1e-4 * expected.norm());
+}
+
+TEST(SpringNetwork, ItsProductIsTheDerivativeWhereSpringsAreStretched) {
+  const ClothMesh mesh = cloth();
+  const Matrix3X<double> x = 1.3 * places(mesh, 0.01);  // every spring is longer than at rest
+  NetworkForces<double> network(make_network(mesh, {kTension, kDamping}), mesh.num_nodes());
+  const double h = 0.02;
+  network.begin_step(mesh.rest_positions, h);
+  const Matrix3X<double> d = Matrix3X<double>::Random(3, mesh.num_nodes());
+  const auto forces_at = [&](double by) {
+    Matrix3X<double> forces = Matrix3X<double>::Zero(3, mesh.num_nodes());
+    network.add_forces(x + by * d, mesh.rest_positions, forces);
+    return forces;
+  };
+  const double by = 1e-5;
+  const Matrix3X<double> expected = (forces_at(-by) - forces_at(by)) / (2 * by);
+  (void)forces_at(0);
+  Matrix3X<float> product = Matrix3X<float>::Zero(3, mesh.num_nodes());
+  network.add_product(d.cast<float>(), product);
+  // Products are in single precision.
+  EXPECT_LT((product.cast<double>() - expected).norm(), 1e-5 * expected.norm());
+}
+
+TEST(SpringNetwork, ItsBlocksAreThoseOfTheProduct) {
+  const ClothMesh mesh = cloth();
+  NetworkForces<float> network(make_network(mesh, {kTension, kBending}), mesh.num_nodes());
+  const Matrix3X<float> x = places(mesh, 0.05).cast<float>();
+  network.begin_step(x, 0.01F);
+  Matrix3X<float> forces = Matrix3X<float>::Zero(3, mesh.num_nodes());
+  network.add_forces(x, x, forces);
+  Eigen::Matrix<float, 6, Eigen::Dynamic> blocks(6, mesh.num_nodes());
+  network.diagonal_blocks(blocks);
+  const int entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+  for (const int node : {0, 7, 13, 29}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Matrix3X<float> d = Matrix3X<float>::Zero(3, mesh.num_nodes());
+      d(axis, node) = 1;
+      Matrix3X<float> product = Matrix3X<float>::Zero(3, mesh.num_nodes());
+      network.add_product(d, product);
+      for (int row = 0; row < 3; ++row) {
+        EXPECT_NEAR(product(row, node), blocks(entry[row][axis], node), 1e-3F) << node;
+      }
+    }
+  }
+}
+
+TEST(SpringNetwork, TheStabiliserBoundsBendingAtRest) {
+  const ClothMesh mesh = cloth();
+  const int n = mesh.num_nodes();
+  const SpringNetwork network = make_network(mesh, {kBending});
+  Eigen::MatrixXd bound = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index e = 0; e < network.edges.cols(); ++e) {
+    const int i = network.edges(0, e);
+    const int j = network.edges(1, e);
+    bound(i, i) += network.stabiliser[e];
+    bound(j, j) += network.stabiliser[e];
+    bound(i, j) -= network.stabiliser[e];
+    bound(j, i) -= network.stabiliser[e];
+  }
+  const auto law = forces::make_law<double>(kBending, mesh);
+  forces::LawSet<double> laws;
+  laws.add(forces::make_law<double>(kBending, mesh));
+  const Matrix3X<double> v = Matrix3X<double>::Zero(3, n);
+  Eigen::MatrixXd stiffness(3 * n, 3 * n);
+  for (int c = 0; c < 3 * n; ++c) {
+    Matrix3X<double> d = Matrix3X<double>::Zero(3, n);
+    d(c % 3, c / 3) = 1;
+    Matrix3X<double> product = Matrix3X<double>::Zero(3, n);
+    laws.add_stiffness_product({mesh.rest_positions, v, mesh.masses, 0.0}, d, product);
+    stiffness.col(c) = -product.reshaped();
+  }
+  Eigen::MatrixXd difference = -stiffness;
+  for (int c = 0; c < 3; ++c) {
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) difference(3 * i + c, 3 * j + c) += bound(i, j);
+    }
+  }
+  const double size = bound.norm();
+  EXPECT_GT(size, 0.1);  // there is bending at all
+  const Eigen::VectorXd values = difference.selfadjointView<Eigen::Lower>().eigenvalues();
+  EXPECT_GT(values.minCoeff(), -1e-9 * size);
+}
+
+TEST(SpringNetwork, ThreadsAndRunsAgree) {
+  const SpringNetwork a = make_network(cloth(), {kTension, kDamping, kBending});
+  const SpringNetwork b = make_network(cloth(), {kTension, kDamping, kBending});
+  EXPECT_EQ(a.stabiliser, b.stabiliser);
+  EXPECT_EQ(a.edges, b.edges);
+}
+
+}  // namespace
+}  // namespace weft::fast
