@@ -46,11 +46,11 @@ struct ConvergenceStudy {
 struct ConvergedReference {
   std::string scene;
   std::string program;     ///< version and revision of what made it; set by the caller
-  std::string scene_hash;                 ///< of the resolved scene
-  std::string mesh_hash;                  ///< of masses, triangles and edges of all cloths
-  double time = 0.0;                      ///< [s]
-  double size = 0.0;                      ///< [m] largest extent of the cloths at rest
-  double gate = 0.0;                      ///< [-]
+  std::string scene_hash;  ///< of the resolved scene
+  std::string mesh_hash;   ///< of masses, triangles and edges of all cloths
+  double time = 0.0;       ///< [s]
+  double size = 0.0;       ///< [m] largest extent of the cloths at rest
+  double gate = 0.0;       ///< [-]
   std::vector<ConvergenceStudy> studies;  ///< velocity Verlet, TR-BDF2
   /// Of the finest levels of both integrators, rms as a part of the size [-].
   std::optional<double> agreement;

@@ -136,7 +136,7 @@ function draw(box: HTMLElement, plot: Plot, rows: Rows): void {
     {
       width: Math.max(box.clientWidth, 200),
       height: HEIGHT,
-      padding: [12, 16, 0, 0],
+      padding: [12, 26, 0, 0],
       scales: { x: scale(plot.log_x), y: paddedScale(plot.log_y) },
       axes: [axis(plot.x_label, 36, true, plot.log_x), axis(plot.y_label, 66, false, plot.log_y)],
       series: [
