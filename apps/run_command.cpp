@@ -179,7 +179,7 @@ Recorded record(const scenes::Scene& scene, const scenes::EngineInfo& engine, in
 
 int report(const Recorded& recorded, const std::string& output) {
   const scenes::RunSummary& summary = recorded.summary;
-  fmt::print("{}: {} steps, {} frames, {:.2f} s simulated in {:.2f} s\ncontent hash {}\n", output,
+  fmt::print("{}: {} steps, {} frames, {:.2f} s simulated in {:.4g} s\ncontent hash {}\n", output,
              summary.steps, summary.frames, recorded.simulated, summary.engine_seconds,
              recorded.hash);
   if (!summary.blow_up) return kOk;

@@ -29,6 +29,7 @@ struct ValidateOptions {
   std::string output = "weft-report";
   int jobs = 0;
   bool no_pictures = false;
+  bool render_only = false;
   bool quick = false;
   bool all = false;
   bool list = false;
@@ -54,6 +55,10 @@ void print_table(const validation::Report& report) {
                part ? fmt::format("{:.2g}", *part) : std::string("-"), verdict,
                caught ? "" : " (a sabotage went unnoticed)");
   }
+}
+
+std::string page_path(const ValidateOptions& options) {
+  return (std::filesystem::absolute(options.output) / "index.html").lexically_normal().string();
 }
 
 int list_cases(const validation::SuiteOptions& suite) {
@@ -97,11 +102,15 @@ int validate(const ValidateOptions& options, const CommandLine& command_line) {
   std::size_t num_sabotages = 0;
   for (const validation::CheckResult& check : report.checks)
     num_sabotages += check.sabotages.size();
-  fmt::print(
-      "\n{}: {} checks, {} sabotages\nReport: {}\n", report.passed() ? "PASS" : "FAIL",
-      report.checks.size(), num_sabotages,
-      (std::filesystem::absolute(options.output) / "index.html").lexically_normal().string());
+  fmt::print("\n{}: {} checks, {} sabotages\nReport: {}\n", report.passed() ? "PASS" : "FAIL",
+             report.checks.size(), num_sabotages, page_path(options));
   return report.passed() ? kOk : kCaseFailed;
+}
+
+int render_again(const ValidateOptions& options) {
+  validation::render_report(options.output);
+  fmt::print("Report: {}\n", page_path(options));
+  return kOk;
 }
 
 /// An option for every name that some case has a parameter of.
@@ -142,6 +151,11 @@ Action add_validate_command(CLI::App& parser, const CommandLine& command_line) {
   command->add_option("-j,--jobs", options->jobs, "Simulations at a time (default: one per core)")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--no-pictures", options->no_pictures, "Numbers and plots only");
+  command
+      ->add_flag(
+          "--render-only", options->render_only,
+          "Run nothing: write index.html anew from the report.json in the folder of --output")
+      ->excludes(names);
   CLI::Option* quick =
       command->add_flag("--quick", options->quick, "Only the cases of the commit tier: minutes");
   quick->excludes(names);
@@ -150,7 +164,9 @@ Action add_validate_command(CLI::App& parser, const CommandLine& command_line) {
   command->add_option("-e,--engine", options->engine,
                       "Engine of the one point that is asked for: reference");
   add_parameters(*command, options->values);
-  return [options, command_line] { return validate(*options, command_line); };
+  return [options, command_line] {
+    return options->render_only ? render_again(*options) : validate(*options, command_line);
+  };
 }
 
 }  // namespace weft::app

@@ -92,6 +92,11 @@ const std::array kCases = {
              &evaluate_sliding_cloth},
     CaseInfo{"explosion", "Explicit Euler explodes, and is reported as data", &plan_explosion,
              &evaluate_explosion},
+    CaseInfo{"work_precision",
+             "What precision costs: distance to a converged reference against time",
+             &plan_work_precision, &evaluate_work_precision, Tier::kNightly},
+    CaseInfo{"third_opinion", "Blender's cloth on the same springs, drag and sphere",
+             &plan_third_opinion, &evaluate_third_opinion},
     CaseInfo{"determinism", "The same bits for any number of threads", &plan_determinism,
              &evaluate_determinism},
 };

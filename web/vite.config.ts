@@ -18,12 +18,17 @@ function singleFile(): Plugin {
         else continue;
         delete bundle[name];
       }
-      // uPlot goes into the page, so its notice does too; minifying drops the comments of the code.
-      const notice = readFileSync("node_modules/uplot/LICENSE", "utf8").trim();
+      // What goes into the page brings its notice; minifying drops the comments of the code.
+      const notice = ["uPlot", "three"]
+        .map((name) => {
+          const text = readFileSync(`node_modules/${name.toLowerCase()}/LICENSE`, "utf8").trim();
+          return `This page contains ${name}.\n${text}`;
+        })
+        .join("\n\n");
       const html = String(page.source)
         .replace(/\s*<script type="module"[^>]*><\/script>/, "")
         .replace(/\s*<link rel="stylesheet"[^>]*>/, "")
-        .replace("<head>", () => `<!--\nThis page contains uPlot.\n${notice}\n-->\n<head>`)
+        .replace("<head>", () => `<!--\n${notice}\n-->\n<head>`)
         .replace("</head>", () => `<style>${style.trim()}</style>\n</head>`)
         .replace(
           "</body>",

@@ -160,6 +160,12 @@ check "validate" exits 0 validate oscillator hanging_chain -o report --no-pictur
 for file in index.html report.json junit.xml; do check "$file" test -s report/$file; done
 check "one point of a case" exits 0 validate cantilever --gamma 3.7 --nodes 60 --angle 17 --engine reference -o report --no-pictures
 check "one point: says where" grep -q "N = 60, grid at 16.7 degrees" out
+cp report/index.html first.html && echo "an older page" >report/index.html
+check "the page again" exits 0 validate --render-only -o report
+check "which is the same" cmp report/index.html first.html
+check "the page of no report" exits 2 validate --render-only -o none
+check "says what is missing" grep -q "none/report.json" err
+check "render only and a case" exits 2 validate catenary --render-only -o report
 check "a value out of range" exits 2 validate cantilever --gamma 900 -o none
 check "a value out of range: says what is expected" grep -q "gamma = 900 \[1\], expected 0.05 to 500" err
 check "a parameter of another case" exits 2 validate catenary --gamma 1 -o none

@@ -12,23 +12,30 @@ const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 const [executablePath, samples] = process.argv.slice(2);
 assert(executablePath && samples, "usage: node page_test.mjs CHROMIUM SAMPLE_FOLDER");
 
-const profile = mkdtempSync(join(tmpdir(), "weft-page-"));
-const browser = await chromium.launchPersistentContext(profile, {
-  executablePath,
-  headless: true,
-  args: [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-  ],
-});
+const profiles = [];
+function launch(...more) {
+  const profile = mkdtempSync(join(tmpdir(), "weft-page-"));
+  profiles.push(profile);
+  return chromium.launchPersistentContext(profile, {
+    executablePath,
+    headless: true,
+    args: [
+      "--no-sandbox",
+      "--disable-quic",
+      "--no-first-run",
+      "--disable-background-networking",
+      "--disable-component-update",
+      "--disable-sync",
+      ...more,
+    ],
+  });
+}
+// One with WebGL in software, which is slow in everything, and one that has none at all.
+const browser = await launch("--use-angle=swiftshader", "--enable-unsafe-swiftshader");
+const browserWithoutWebGL = await launch("--disable-gpu", "--disable-3d-apis");
 
-async function open(name, { width = 1200, colorScheme = "light" } = {}) {
-  const page = await browser.newPage();
+async function open(name, { width = 1200, colorScheme = "light", webgl = false } = {}) {
+  const page = await (webgl ? browser : browserWithoutWebGL).newPage();
   const complaints = [];
   page.on("console", (message) => {
     if (["error", "warning"].includes(message.type())) complaints.push(message.text());
@@ -40,7 +47,7 @@ async function open(name, { width = 1200, colorScheme = "light" } = {}) {
   await page.emulateMedia({ colorScheme });
   await page.setViewportSize({ width, height: 900 });
   await page.goto(pathToFileURL(resolve(samples, name, "index.html")).href);
-  await page.waitForSelector("#verdict", { timeout: 10_000 });
+  await page.waitForSelector("#verdict", { timeout: 30_000 });
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   return { page, complaints };
 }
@@ -58,6 +65,33 @@ const inkPerChart = (page) =>
       return ink;
     }),
   );
+
+/** What the canvas of the cloth in 3D shows: pixels with a colour (the scale has no grey), and a hash of all. */
+const clothPicture = (page) =>
+  page.$eval("canvas.cloth", (canvas) => {
+    // Read from a copy: the browser warns of a canvas that is read again and again.
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    const context = copy.getContext("2d", { willReadFrequently: true });
+    context.drawImage(canvas, 0, 0);
+    const { data } = context.getImageData(0, 0, copy.width, copy.height);
+    let coloured = 0;
+    let hash = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      const [r, g, b] = [data[i], data[i + 1], data[i + 2]];
+      coloured += data[i + 3] > 200 && Math.max(r, g, b) - Math.min(r, g, b) > 40 ? 1 : 0;
+      hash = (Math.imul(hash, 31) + r + 7 * g + 49 * b) | 0;
+    }
+    return { coloured, hash };
+  });
+
+/** The picture once it has been drawn anew after what was done. */
+async function clothAfter(page, action) {
+  await page.locator("canvas.cloth").scrollIntoViewIfNeeded();
+  await action();
+  await page.waitForTimeout(600); // a frame of the software renderer takes up to 100 ms on a busy machine
+  return clothPicture(page);
+}
 
 const visibleRows = (page) => page.locator(".checks tbody tr:visible");
 const sidewaysOverflow = (page) =>
@@ -261,6 +295,91 @@ const tests = {
   },
 };
 
+Object.assign(tests, {
+  async "the cloth in 3D is drawn, and moves with the slider, the mouse and the keys"() {
+    for (const webgl of [true, false]) {
+      const { page, complaints } = await open("failing", { webgl });
+      const slider = page.getByLabel("Time", { exact: true });
+      const last = await clothAfter(page, async () => {});
+      assert(last.coloured > 5000, `${last.coloured} coloured pixels, WebGL: ${webgl}`);
+      assert.match(await page.textContent(".readout"), /t\s=\s1\ss: largest distance 32\.5\smm/);
+      const first = await clothAfter(page, () => slider.fill("0"));
+      assert.notEqual(first.hash, last.hash, "the slider moves the cloth");
+      assert.match(await page.textContent(".readout"), /t\s=\s0\ss: largest distance 0\sm/);
+      const box = await page.locator("canvas.cloth").boundingBox();
+      const turned = await clothAfter(page, async () => {
+        await page.mouse.move(box.x + 200, box.y + 150);
+        await page.mouse.down();
+        await page.mouse.move(box.x + 300, box.y + 150, { steps: 3 });
+        await page.mouse.up();
+      });
+      assert.notEqual(turned.hash, first.hash, "the mouse turns it");
+      const byKey = await clothAfter(page, () => page.keyboard.press("ArrowLeft"));
+      assert.notEqual(byKey.hash, turned.hash, "the keys turn it");
+      const back = await clothAfter(page, () => page.getByRole("button", { name: "Reset view" }).click());
+      assert.equal(back.hash, first.hash, "and it goes back");
+      assert.deepEqual(complaints, []);
+      await page.close();
+    }
+  },
+
+  async "the cloth's colours follow the engine, and a run that ended says so"() {
+    const { page } = await open("failing");
+    const soft = await clothAfter(page, async () => {});
+    const engine = page.getByLabel("engine", { exact: true });
+    const ended = await clothAfter(page, () => engine.selectOption("bullet_forces float64"));
+    assert.notEqual(ended.hash, soft.hash);
+    assert.match(await page.textContent(".readout"), /bullet_forces float64.*the run had ended before/);
+    await clothAfter(page, () => page.getByLabel("Time", { exact: true }).fill("3"));
+    assert.match(await page.textContent(".readout"), /largest distance 17\.6\spm/);
+    assert.deepEqual(await page.locator(".scale-marks span").allTextContents(), [
+      "0\u00a0pm",
+      "8.78\u00a0pm",
+      "17.6\u00a0pm",
+    ]);
+    await page.getByLabel("colour scale", { exact: true }).selectOption("run");
+    assert.equal(await page.locator(".scale-marks span").last().textContent(), "31.2\u00a0pm");
+  },
+
+  async "paper has the cloth as a still picture without controls"() {
+    const { page } = await open("failing");
+    await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
+    await page.emulateMedia({ media: "print" });
+    assert((await clothPicture(page)).coloured > 2000);
+    assert(await page.locator(".scale").first().isVisible());
+    assert(!(await page.getByLabel("Time", { exact: true }).isVisible()));
+  },
+
+  async "the numbers of the table are those of report.json"() {
+    const { page } = await open("failing");
+    const report = JSON.parse(readFileSync(join(resolve(samples), "failing", "report.json"), "utf8"));
+    const bad = (check) => check.verdict === "fail" || check.sabotages.some((s) => !s.detected);
+    const expected = [...report.checks.filter(bad), ...report.checks.filter((c) => !bad(c))].map((check) => {
+      const text = (value) => (check.unit === "1" ? `${value}` : `${value} ${check.unit}`);
+      const caught = check.sabotages.filter((s) => s.detected).length;
+      return [
+        check.case + check.engine,
+        text(check.measured),
+        check.tolerance ? text(check.tolerance.value) : null,
+        check.sabotages.length > 0 ? `${caught}\u00a0of\u00a0${check.sabotages.length}noticed` : "",
+      ];
+    });
+    const shown = await page.$$eval(".checks tbody tr", (rows) =>
+      rows.map((row) => {
+        const cell = (label) => row.querySelector(`[data-label="${label}"]`);
+        const exact = (label) => cell(label).querySelector("[data-tip]")?.dataset.tip ?? null;
+        return [
+          row.querySelector(".where").textContent,
+          exact("measured"),
+          exact("allowed"),
+          cell("sabotages").textContent,
+        ];
+      }),
+    );
+    assert.deepEqual(shown, expected);
+  },
+});
+
 let failed = 0;
 for (const [claim, run] of Object.entries(tests)) {
   try {
@@ -272,5 +391,6 @@ for (const [claim, run] of Object.entries(tests)) {
   }
 }
 await browser.close();
-rmSync(profile, { recursive: true, force: true });
+await browserWithoutWebGL.close();
+for (const profile of profiles) rmSync(profile, { recursive: true, force: true });
 process.exit(failed === 0 ? 0 : 1);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/report/sample_distance_view.hpp"
 #include "tests/report/sample_picture.hpp"
 
 namespace weft::tests {
@@ -181,6 +182,7 @@ Section drape_section() {
       "name = \"drape_sphere\"\n[cloth]\nsize = [1.0, 1.0]      # m\ndensity = 0.2          # "
       "kg/m^2\n" +
       kHostileText;
+  section.distance_views = {sample_distance_view()};
   return section;
 }
 

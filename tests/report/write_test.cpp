@@ -56,6 +56,15 @@ TEST_F(WriteReport, ReplacesAnOlderReportAndLeavesNoTemporaryFile) {
   }
 }
 
+TEST_F(WriteReport, TablesAreCsvWithQuotesWhereNeeded) {
+  Report report;
+  report.sections = {
+      {"drape", "", {}, {}, {{"At the end", {"engine", "a, b"}, {{"x \"y\"", "1.5"}}}}, ""}};
+  write_report(report, folder_);
+  EXPECT_EQ(read(folder_ / "tables/1-drape/1-at_the_end.csv"),
+            "engine,\"a, b\"\n\"x \"\"y\"\"\",1.5\n");
+}
+
 TEST_F(WriteReport, NamesThePathItCannotWrite) {
   fs::create_directories(folder_ / "report.json");  // a folder stands where the file must go
   try {
@@ -70,6 +79,34 @@ TEST_F(WriteReport, NamesThePathItCannotWrite) {
 TEST_F(WriteReport, NamesTheFolderItCannotMake) {
   std::ofstream(folder_) << "a file";
   EXPECT_THROW(write_report(Report{}, folder_ / "x"), Error);
+}
+
+TEST_F(WriteReport, PageIsRenderedAgainFromTheJsonAlone) {
+  const Report report = tests::sample_report();
+  write_report(report, folder_);
+  std::ofstream(folder_ / "index.html") << "an older page";
+  fs::remove(folder_ / "junit.xml");
+  render_report(folder_);
+  EXPECT_EQ(read(folder_ / "index.html"), to_html(report));
+  EXPECT_FALSE(fs::exists(folder_ / "junit.xml"));
+}
+
+TEST_F(WriteReport, RenderingNamesTheFileThatIsNoReport) {
+  fs::create_directories(folder_);
+  const auto message = [&] {
+    try {
+      render_report(folder_);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_THAT(message(), testing::HasSubstr((folder_ / "report.json").string()));
+  std::ofstream(folder_ / "report.json") << "{\"schema\": \"weft-report\", \"schema_version\": 99}";
+  EXPECT_THAT(message(), testing::HasSubstr("schema_version is 99, expected 1"));
+  std::ofstream(folder_ / "report.json") << "[1, 2";
+  EXPECT_THAT(message(), testing::HasSubstr("is not a report"));
+  EXPECT_FALSE(fs::exists(folder_ / "index.html"));
 }
 
 TEST(PicturePath, StaysInsideTheFolderAndIsUnique) {

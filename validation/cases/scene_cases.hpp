@@ -25,4 +25,13 @@ void evaluate_sliding_cloth(const CaseInfo&, const CaseOptions&, const EngineRun
 void plan_damped_hang(const CaseInfo&, const CaseOptions&, EngineRuns&);
 void evaluate_damped_hang(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
+/// Stored results of another program beside Weft's engines: measured and shown.
+void plan_third_opinion(const CaseInfo&, const CaseOptions&, EngineRuns&);
+void evaluate_third_opinion(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+
+/// Every engine with several steps and numbers of iterations, held against a converged reference and the
+/// wall time it took.
+void plan_work_precision(const CaseInfo&, const CaseOptions&, EngineRuns&);
+void evaluate_work_precision(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+
 }  // namespace weft::validation

@@ -155,6 +155,7 @@ Section scene_section(const SceneMetrics& metrics, const std::vector<History>& h
     section.plots.push_back(plot_each(metrics, histories, "Deepest node below a surface",
                                       "depth [mm]", &depth_millimetres));
   }
+  if (pictures) section.distance_views = scene_distance_views(metrics, histories);
   if (pictures) section.picture_rows = scene_pictures(metrics, histories);
   return section;
 }

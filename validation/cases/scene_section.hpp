@@ -17,4 +17,9 @@ namespace weft::validation {
 [[nodiscard]] std::vector<PictureRow> scene_pictures(const SceneMetrics& metrics,
                                                      const std::vector<History>& histories);
 
+/// The reference's cloth in motion, with the distance of every engine on it: one view, or none if there
+/// is nothing to compare or the cloth is torn.
+[[nodiscard]] std::vector<DistanceView> scene_distance_views(const SceneMetrics& metrics,
+                                                             const std::vector<History>& histories);
+
 }  // namespace weft::validation

@@ -35,4 +35,10 @@ std::string picture_path(const Report& report, std::size_t section, std::size_t 
                      file_name_part(of.picture_rows.at(row).pictures.at(picture).title));
 }
 
+std::string table_path(const Report& report, std::size_t section, std::size_t table) {
+  const Section& of = report.sections.at(section);
+  return fmt::format("tables/{}-{}/{}-{}.csv", section + 1, file_name_part(of.id), table + 1,
+                     file_name_part(of.tables.at(table).title));
+}
+
 }  // namespace weft::validation

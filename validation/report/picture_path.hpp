@@ -13,4 +13,7 @@ namespace weft::validation {
 [[nodiscard]] std::string picture_path(const Report& report, std::size_t section, std::size_t row,
                                        std::size_t picture);
 
+/// The same for a table: "tables/2-drape_sphere/1-at_the_end.csv".
+[[nodiscard]] std::string table_path(const Report& report, std::size_t section, std::size_t table);
+
 }  // namespace weft::validation

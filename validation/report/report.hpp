@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <weft/validation/metrics/tolerance.hpp>
+#include <weft/validation/report/distance_view.hpp>
 
 namespace weft::validation {
 
@@ -72,6 +73,7 @@ struct Section {
   std::vector<Plot> plots;
   std::vector<Table> tables;
   std::string scene_text;  ///< resolved scene, may be empty
+  std::vector<DistanceView> distance_views = {};
 };
 
 /// A place where an engine is known to differ, with its measured size and its reason.
@@ -100,5 +102,8 @@ struct Report {
 [[nodiscard]] std::string to_junit(const Report& report);
 /// One self-contained page that opens from file://.
 [[nodiscard]] std::string to_html(const Report& report);
+/// The same from the text of a report.json. @throws Error naming the file (only for the message) if it
+/// is not one, or of a schema version that the page does not know.
+[[nodiscard]] std::string html_of_json(const std::string& json, const std::string& file);
 
 }  // namespace weft::validation

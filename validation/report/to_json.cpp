@@ -1,7 +1,8 @@
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include <weft/validation/report/base64.hpp>
+#include <weft/validation/report/distance_view_json.hpp>
+#include <weft/validation/report/json_number.hpp>
 #include <weft/validation/report/json_text.hpp>
 #include <weft/validation/report/picture_path.hpp>
 #include <weft/validation/report/ratio.hpp>
@@ -11,23 +12,6 @@ namespace weft::validation {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Raised whenever a field changes its name or meaning; web/src/report.ts names the version it
-// reads.
-constexpr int kSchemaVersion = 1;
-
-// JSON has no word for these three; a string cannot be mistaken for a measured number.
-Json number(double value) {
-  if (std::isnan(value)) return "NaN";
-  if (std::isinf(value)) return value > 0.0 ? "Infinity" : "-Infinity";
-  return value;
-}
-
-Json numbers(const std::vector<double>& values) {
-  Json array = Json::array();
-  for (const double value : values) array.push_back(number(value));
-  return array;
-}
 
 template <typename Item, typename Convert>
 Json list(const std::vector<Item>& items, Convert convert) {
@@ -50,7 +34,7 @@ const char* verdict_word(Verdict verdict) {
 
 Json tolerance_json(const std::optional<Tolerance>& tolerance) {
   if (!tolerance) return nullptr;
-  return {{"value", number(tolerance->value)},
+  return {{"value", json_number(tolerance->value)},
           {"basis", to_string(tolerance->basis)},
           {"why", tolerance->why}};
 }
@@ -64,15 +48,15 @@ Json check_json(const CheckResult& check) {
                {"unit", check.unit},
                {"formula", check.formula},
                {"source", check.source},
-               {"measured", number(check.measured)},
+               {"measured", json_number(check.measured)},
                {"tolerance", tolerance_json(check.tolerance)},
-               {"ratio", share ? number(*share) : Json(nullptr)},
+               {"ratio", share ? json_number(*share) : Json(nullptr)},
                {"flag", ratio_flag(check)},
                {"verdict", verdict_word(check.verdict)},
                {"note", check.note}};
   json["sabotages"] = list(check.sabotages, [](const SabotageResult& sabotage) -> Json {
     return {{"name", sabotage.name},
-            {"measured", number(sabotage.measured)},
+            {"measured", json_number(sabotage.measured)},
             {"detected", sabotage.detected}};
   });
   return json;
@@ -107,7 +91,7 @@ Json plot_json(const Plot& plot) {
                {"log_x", plot.log_x},
                {"log_y", plot.log_y}};
   json["series"] = list(plot.series, [](const Series& series) -> Json {
-    return {{"name", series.name}, {"x", numbers(series.x)}, {"y", numbers(series.y)}};
+    return {{"name", series.name}, {"x", json_numbers(series.x)}, {"y", json_numbers(series.y)}};
   });
   return json;
 }
@@ -137,6 +121,7 @@ Json section_json(const Report& report, std::size_t index) {
   json["tables"] = list(section.tables, [](const Table& table) -> Json {
     return {{"title", table.title}, {"columns", table.columns}, {"rows", table.rows}};
   });
+  json["distance_views"] = list(section.distance_views, distance_view_json);
   json["scene_text"] = section.scene_text;
   return json;
 }
@@ -145,7 +130,7 @@ Json section_json(const Report& report, std::size_t index) {
 
 std::string to_json(const Report& report) {
   Json json = {{"schema", "weft-report"},
-               {"schema_version", kSchemaVersion},
+               {"schema_version", kReportSchemaVersion},
                {"title", report.title},
                {"passed", report.passed()},
                {"summary", summary_json(report)}};

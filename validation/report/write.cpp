@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 
@@ -61,14 +62,53 @@ void write_pictures(const Report& report, const fs::path& folder) {
   }
 }
 
+/// A line of RFC 4180; quotes only where they are needed.
+std::string csv_line(const std::vector<std::string>& cells) {
+  std::string line;
+  for (const std::string& cell : cells) {
+    if (&cell != &cells.front()) line += ',';
+    if (cell.find_first_of(",\"\r\n") == std::string::npos) {
+      line += cell;
+      continue;
+    }
+    line += '"';
+    for (const char c : cell) line += c == '"' ? std::string("\"\"") : std::string(1, c);
+    line += '"';
+  }
+  return line + '\n';
+}
+
+void write_tables(const Report& report, const fs::path& folder) {
+  for (std::size_t s = 0; s < report.sections.size(); ++s) {
+    for (std::size_t t = 0; t < report.sections[s].tables.size(); ++t) {
+      const Table& table = report.sections[s].tables[t];
+      std::string text = csv_line(table.columns);
+      for (const std::vector<std::string>& row : table.rows) text += csv_line(row);
+      const fs::path path = folder / table_path(report, s, t);
+      make_folder(path.parent_path());
+      write_file(path, text);
+    }
+  }
+}
+
 }  // namespace
 
 void write_report(const Report& report, const fs::path& folder) {
   make_folder(folder);
   write_pictures(report, folder);
+  write_tables(report, folder);
   write_file(folder / "report.json", to_json(report));
   write_file(folder / "junit.xml", to_junit(report));
   write_file(folder / "index.html", to_html(report));
+}
+
+void render_report(const std::filesystem::path& folder) {
+  const fs::path path = folder / "report.json";
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) fail(path, "read", "expected a report.json that weft validate wrote");
+  write_file(folder / "index.html", html_of_json(text.str(), path.string()));
 }
 
 }  // namespace weft::validation

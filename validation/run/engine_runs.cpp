@@ -12,6 +12,7 @@
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include <weft/custom_forces/core/error.hpp>
@@ -25,6 +26,17 @@ std::string read_text(const std::filesystem::path& path) {
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
+}
+
+/// From "1.00 s simulated in 0.0123 s".
+std::optional<double> engine_seconds(const std::string& log) {
+  static constexpr std::string_view kBefore = " s simulated in ";
+  const std::size_t at = log.find(kBefore);
+  if (at == std::string::npos) return std::nullopt;
+  std::istringstream text(log.substr(at + kBefore.size()));
+  double seconds = 0.0;
+  if (!(text >> seconds)) return std::nullopt;
+  return seconds;
 }
 
 std::filesystem::path with_suffix(const std::filesystem::path& folder, const std::string& label,
@@ -144,6 +156,7 @@ void EngineRuns::finish(Run& run, int wait_status) const {
   run.outcome.exit_code =
       WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128 + WTERMSIG(wait_status);
   run.outcome.log = read_text(with_suffix(folder_, label, ".log"));
+  run.outcome.engine_seconds = engine_seconds(run.outcome.log);
   run.outcome.recording = with_suffix(folder_, label, ".weftrec");
   run.done = true;
 }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,8 @@ class EngineRuns {
         -1;           ///< of weft run: 0 ok, 1 blew up, 2 bad input; 128 + n if signal n ended it
     std::string log;  ///< what it printed
     std::filesystem::path recording;  ///< exists for exit codes 0 and 1
+    /// Wall time of the engine's steps alone [s], as the run printed it.
+    std::optional<double> engine_seconds = std::nullopt;
   };
   /// Throws InvalidArgument for a label that was never added or not run.
   [[nodiscard]] const Outcome& outcome(const std::string& label) const;

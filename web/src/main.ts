@@ -6,6 +6,7 @@ import "./print.css";
 import { renderChecks } from "./checks";
 import { renderDepartures, renderLimits, renderProvenance } from "./closing";
 import { h } from "./dom";
+import { drawDistanceViews } from "./distance_view";
 import { redrawPlots } from "./plot";
 import { needsAttention, readReport, type Report } from "./report";
 import { renderSections, sectionAnchors } from "./sections";
@@ -45,6 +46,7 @@ function followColours(): void {
       opened.push(details);
     }
     redrawPlots();
+    drawDistanceViews();
   });
   window.addEventListener("afterprint", () => {
     delete document.documentElement.dataset["print"];

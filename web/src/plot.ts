@@ -8,6 +8,7 @@ import { mergeSeries, type Rows } from "./series";
 const COLOURS = 8; // --series-1 .. --series-8 in style.css
 const DASHES = [[], [8, 4], [2, 3], [10, 3, 2, 3], [5, 5], [14, 4]];
 const BORDERS = ["solid", "dashed", "dotted", "dashed", "dotted", "dashed"]; // the nearest CSS has to DASHES
+const FEW_POINTS = 8;
 const HEIGHT = 280;
 const live: uPlot[] = [];
 
@@ -25,7 +26,7 @@ function logSplits(low: number, high: number): number[] {
   const first = Math.floor(Math.log10(low));
   const last = Math.ceil(Math.log10(high));
   const step = Math.max(1, Math.ceil((last - first) / 7));
-  const mantissas = last - first <= 3 ? [1, 2, 5] : [1];
+  const mantissas = last - first <= 2 ? [1, 2, 5] : [1];
   const splits: number[] = [];
   for (let decade = first; decade <= last; decade += step) {
     for (const mantissa of mantissas) splits.push(mantissa * 10 ** decade);
@@ -91,6 +92,8 @@ function lineOf(series: Series, index: number, scattered: boolean): uPlot.Series
     dash: DASHES[index % DASHES.length] ?? [],
     value: (_chart, value) => (value === null || value === undefined ? "–" : formatNumber(value, 4)),
   };
+  // Where there are few, each point is a run of its own and not a sample of a curve.
+  if (series.x.length <= FEW_POINTS) line.points = { show: true, size: 6, fill: stroke, width: 0 };
   if (scattered) {
     line.paths = () => null;
     line.points = { show: true, size: 4, fill: stroke };
@@ -133,7 +136,7 @@ function draw(box: HTMLElement, plot: Plot, rows: Rows): void {
     {
       width: Math.max(box.clientWidth, 200),
       height: HEIGHT,
-      padding: [12, 16, 0, 0],
+      padding: [12, 26, 0, 0],
       scales: { x: scale(plot.log_x), y: paddedScale(plot.log_y) },
       axes: [axis(plot.x_label, 36, true, plot.log_x), axis(plot.y_label, 66, false, plot.log_y)],
       series: [

@@ -55,12 +55,31 @@ export interface Picture {
   png_base64: string;
 }
 
+/** Numbers in equal steps from lowest to highest; base64 of 16-bit words, low byte first. */
+export interface QuantizedData {
+  lowest: number;
+  highest: number;
+  steps_base64: string;
+}
+
+/** The reference's cloth over time, and how far engines are from it [m]. */
+export interface DistanceViewData {
+  simulated_nodes: number;
+  times: Numeric[];
+  triangles_base64: string;
+  positions: QuantizedData[];
+  engines: { name: string; largest: Numeric[]; distances: QuantizedData[] }[];
+  bodies: { shape: string; sizes: Numeric[]; poses: Numeric[][] }[];
+}
+
 export interface Section {
   id: string;
   summary: string;
   picture_rows: { title: string; pictures: Picture[] }[];
   plots: Plot[];
   tables: { title: string; columns: string[]; rows: string[][] }[];
+  /** Reports of older versions have none. */
+  distance_views?: DistanceViewData[];
   scene_text: string;
 }
 

@@ -1,3 +1,4 @@
+import { renderDistanceView } from "./distance_view";
 import { anchor, h, scrollBox, tableHead } from "./dom";
 import { count } from "./format";
 import { renderPictureRow } from "./pictures";
@@ -63,11 +64,13 @@ function standing(report: Report, section: Section): HTMLElement | null {
 
 function renderSection(report: Report, section: Section, id: string): Rendered {
   const plots = section.plots.map(renderPlot);
+  const distances = (section.distance_views ?? []).map((view) => renderDistanceView(view, section.id));
   const element = h(
     "section",
     { id, class: "section", "aria-labelledby": `${id}-title` },
     h("h3", { id: `${id}-title` }, section.id, standing(report, section)),
     section.summary !== "" && h("p", { class: "lead" }, section.summary),
+    distances.map((view) => view.element),
     section.picture_rows.map((row) => renderPictureRow(row.title, row.pictures)),
     plots.length > 0 &&
       h(
@@ -84,7 +87,7 @@ function renderSection(report: Report, section: Section, id: string): Rendered {
         h("pre", { tabindex: 0 }, section.scene_text),
       ),
   );
-  return { element, start: () => plots.forEach((plot) => plot.start()) };
+  return { element, start: () => [...plots, ...distances].forEach((part) => part.start()) };
 }
 
 /** Pictures, plots and tables, one section per scene or case. */
