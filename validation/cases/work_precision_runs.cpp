@@ -56,6 +56,11 @@ std::vector<WorkRun> work_runs(const WorkStudy& study, bool with_bullet) {
         runs.push_back({soft, name, steps, iterations, Integrator::kModifiedEuler});
       }
     }
+    // Stable at any step: those that its users take, a frame and parts of it.
+    const EngineChoice fast{"bullet_weft", StoredPrecision::kFloat32};
+    for (const int steps : {1, 3, 9}) {
+      runs.push_back({fast, fast.title(), steps, 0, Integrator::kModifiedEuler});
+    }
     for (const char* name : {"bullet_forces", "bullet_deformable", "bullet_deformable_implicit"}) {
       const EngineChoice engine{name, StoredPrecision::kFloat32};
       add_series(runs, study, engine, engine.title(), Integrator::kModifiedEuler);
