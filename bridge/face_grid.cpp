@@ -39,7 +39,10 @@ int FaceGrid::cell_of(btScalar coordinate) const {
 }
 
 FaceGrid::Key FaceGrid::key_of(int x, int y, int z) const {
-  const auto part = [](int cell) { return static_cast<Key>(cell + kHalfRange); };
+  const auto part = [](int cell) {
+    const int from_zero = cell + kHalfRange;
+    return static_cast<Key>(from_zero);
+  };
   return part(x) << (2 * kBits) | part(y) << kBits | part(z);
 }
 

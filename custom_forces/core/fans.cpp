@@ -13,7 +13,7 @@ struct Side {
   int first;
   int second;
   int triangle;
-  auto operator<=>(const Side&) const = default;
+  auto operator<=>(const Side&) const = default;  // NOLINT(modernize-use-nullptr): of its own text
 };
 
 /// Sets of corners that grow together; a set goes by its lowest corner.
