@@ -5,6 +5,7 @@
 #include <weft/validation/reference/contact/contact_problem.hpp>
 #include <weft/validation/reference/contact/signed_distance.hpp>
 
+#include "tests/reference/fixed_numbers.hpp"
 #include "tests/reference/small_systems.hpp"
 
 namespace weft::reference::testing {
@@ -13,22 +14,6 @@ namespace {
 using Vec = Vector3<double>;
 
 constexpr double kGravity = 9.81;  // [m/s^2]
-
-/// Fixed numbers in [-1, 1].
-class Numbers {
- public:
-  double next() {
-    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-    return static_cast<double>(state_ >> 11) / 4503599627370496.0 - 1.0;
-  }
-  Vec vector() {
-    const double x = next(), y = next(), z = next();
-    return {x, y, z};
-  }
-
- private:
-  std::uint64_t state_ = 42;
-};
 
 Eigen::Quaterniond some_rotation() {
   return Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Vec(1, -2, 3).normalized()));

@@ -10,27 +10,13 @@
 #include <weft/validation/reference/contact/mesh_surface.hpp>
 #include <weft/validation/reference/contact/signed_distance.hpp>
 
+#include "tests/reference/fixed_numbers.hpp"
 #include "tests/reference/small_systems.hpp"
 
 namespace weft::reference::testing {
 namespace {
 
 using Vec = Vector3<double>;
-
-class Numbers {
- public:
-  double next() {
-    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-    return static_cast<double>(state_ >> 11) / 4503599627370496.0 - 1.0;
-  }
-  Vec vector() {
-    const double x = next(), y = next(), z = next();
-    return {x, y, z};
-  }
-
- private:
-  std::uint64_t state_ = 42;
-};
 
 constexpr double kRadius = 0.4, kHeight = 0.9;  // [m]
 
