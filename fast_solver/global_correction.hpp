@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include <weft/fast_solver/coarse_nodes.hpp>
+#include <weft/fast_solver/node_arrays.hpp>
+#include <weft/fast_solver/sparse_cholesky.hpp>
+
+namespace weft::fast {
+
+/// What carries a corner's load through the whole cloth at once: the solution of a network that resists
+/// equally in all directions, on few of its nodes, interpolated to the others. Details are for a smoother;
+/// with one, few nodes correct as well as all of them do (docs/fast_solver.md).
+/// Threads  one object from one thread at a time. Allocates nothing after construction.
+class GlobalCorrection {
+ public:
+  /// matrix: of the unknowns, positive definite, negative beside the diagonal where springs are.
+  /// names: the node of each unknown. Throws InvalidArgument for a matrix that is not positive definite.
+  GlobalCorrection(const SymmetricMatrix& matrix, const std::vector<int>& names, int num_nodes);
+
+  /// Coarse unknowns.
+  [[nodiscard]] int size() const { return factor_.size(); }
+  /// Memory that solve() reads [bytes].
+  [[nodiscard]] std::size_t num_bytes() const;
+
+  /// correction = P (P^T A P)^-1 P^T residual; 0 at nodes that are not unknowns.
+  void solve(const NodeArrays<float>& residual, NodeArrays<float>& correction);
+
+ private:
+  /// Sums of weighted rows.
+  struct Rows {
+    std::vector<int> starts;
+    std::vector<int> columns;
+    std::vector<float> values;
+  };
+  Rows coarsen_;  ///< P^T: of each coarse unknown, nodes
+  Rows refine_;   ///< P: of each node, coarse unknowns
+  SparseCholesky factor_;
+  Matrix3X<float> right_;
+  Matrix3X<float> solution_;
+};
+
+}  // namespace weft::fast
