@@ -7,6 +7,7 @@
 #include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
 
 #include <weft/bridge/node_state.hpp>
+#include <weft/bridge/node_tree.hpp>
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/trace.hpp>
 
@@ -81,13 +82,14 @@ void FastBody::predict(btSoftBody& body, btScalar time_step) {
   read_nodes(body, starts_, start_velocities_);
   contacts_.clear();
   obstacles_.clear();
+  if (num_steps_++ % kCoveredSteps == 0) {
+    cover_motion(body, start_velocities_, last_velocities_, time_step);
+  }
   body.predictMotion(time_step);
   btVector3 low = body.m_bounds[0];
   btVector3 high = body.m_bounds[1];
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    low.setMin(body.m_nodes[i].m_q);
-    high.setMax(body.m_nodes[i].m_q);
-  }
+  low.setMin(to_bullet(starts_.rowwise().minCoeff()));
+  high.setMax(to_bullet(starts_.rowwise().maxCoeff()));
   body.m_bounds[0] = low;
   body.m_bounds[1] = high;
   if (btBroadphaseProxy* const proxy = body.getBroadphaseHandle()) {
@@ -104,6 +106,7 @@ void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& o
 }
 
 bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
+  if (obstacles_.empty()) return false;
   const std::size_t num_known = contacts_.size();
   for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_x = to_bullet(places_.col(i));
   for (const Obstacle& obstacle : obstacles_) {

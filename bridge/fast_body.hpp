@@ -77,6 +77,7 @@ class FastBody {
   Matrix3X<btScalar> last_starts_;
   Matrix3X<btScalar> last_velocities_;
   btScalar last_step_ = 0;  ///< [s]; 0: no history
+  int num_steps_ = 0;
   /// What the body's bounds have met in this step.
   struct Obstacle {
     const btCollisionObject* object;

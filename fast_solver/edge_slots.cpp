@@ -25,67 +25,61 @@ struct Lane {
 
 class SlotMaker {
  public:
-  SlotMaker(const Edges& edges, int num_nodes, int blocks_per_task)
-      : num_blocks_(fill_up(num_nodes) / kNodeBlock), blocks_per_task_(blocks_per_task) {
+  SlotMaker(const Edges& edges, int num_nodes)
+      : lanes_(at(fill_up(num_nodes) / kNodeBlock)), num_rows_(fill_up(num_nodes)) {
     result_.num_nodes = num_nodes;
-    mutual_.resize(at(num_blocks_));
-    single_.resize(at(num_blocks_));
     for (int e = 0; e < static_cast<int>(edges.cols()); ++e) {
-      const int a = std::min(edges(0, e), edges(1, e));
-      const int b = std::max(edges(0, e), edges(1, e));
-      if (task_of(a) == task_of(b)) {
-        mutual_[at(a / kNodeBlock)].push_back({a, b, e});
-      } else {
-        single_[at(a / kNodeBlock)].push_back({a, b, e});
-        single_[at(b / kNodeBlock)].push_back({b, a, e});
-      }
+      const int a = edges(0, e);
+      const int b = edges(1, e);
+      lanes_[at(a / kNodeBlock)].push_back({a, b, e});
+      lanes_[at(b / kNodeBlock)].push_back({b, a, e});
     }
   }
 
   EdgeSlots run() {
-    result_.block_starts.push_back(0);
-    for (int block = 0; block < num_blocks_; ++block) {
-      if (block % blocks_per_task_ == 0) result_.task_starts.push_back(block);
-      const int task_end = std::min(num_blocks_, (block / blocks_per_task_ + 1) * blocks_per_task_);
-      add_slots(block, mutual_[at(block)], true, task_end * kNodeBlock);
-      add_slots(block, single_[at(block)], false, num_blocks_ * kNodeBlock);
-      result_.block_starts.push_back(result_.num_slots());
+    for (int block = 0; block < static_cast<int>(lanes_.size()); ++block) {
+      SlotRange range{};
+      range.begin = result_.num_slots();
+      const std::vector<Lane> rest = add_rows(block * kNodeBlock, lanes_[at(block)]);
+      range.rows_end = result_.num_slots();
+      add_scattered(block * kNodeBlock, rest);
+      range.end = result_.num_slots();
+      result_.blocks.push_back(range);
     }
-    result_.task_starts.push_back(num_blocks_);
     return std::move(result_);
   }
 
  private:
-  [[nodiscard]] int task_of(int node) const { return node / kNodeBlock / blocks_per_task_; }
-
-  /// end: of the nodes that slots in a row may touch.
-  void add_slots(int block, const std::vector<Lane>& lanes, bool is_mutual, int end) {
-    const int first = block * kNodeBlock;
-    // In a row: by the distance of the neighbours, each node at most once.
-    std::map<int, std::vector<Lane>> in_a_row;
+  /// Slots in a row: by the distance of the neighbours, each node at most once. Returns what is left.
+  std::vector<Lane> add_rows(int first, const std::vector<Lane>& lanes) {
+    std::map<int, std::vector<Lane>> rows;
     std::vector<Lane> rest;
     for (const Lane& lane : lanes) {
       const int offset = lane.other - lane.node;
-      const bool fits = first + offset >= 0 && first + offset + kNodeBlock <= end;
-      std::vector<Lane>& row = in_a_row[offset];
+      const bool fits = first + offset >= 0 && first + offset + kNodeBlock <= num_rows_;
+      std::vector<Lane>& row = rows[offset];
       const bool is_taken =
           std::any_of(row.begin(), row.end(), [&](const Lane& l) { return l.node == lane.node; });
       (fits && !is_taken ? row : rest).push_back(lane);
     }
-    for (const auto& [offset, row] : in_a_row) {
+    for (const auto& [offset, row] : rows) {
       if (static_cast<int>(row.size()) < kFewestInARow) {
         rest.insert(rest.end(), row.begin(), row.end());
         continue;
       }
-      open_slot(first, {offset, false, is_mutual});
+      open_slot(first, {offset, false});
       for (const Lane& lane : row) fill(result_.num_slots() - 1, lane);
     }
-    // The k-th of each node's others to the k-th slot.
+    return rest;
+  }
+
+  /// The k-th of each node's others to the k-th slot.
+  void add_scattered(int first, const std::vector<Lane>& lanes) {
     std::vector<int> taken(kNodeBlock, 0);
     const int begin = result_.num_slots();
-    for (const Lane& lane : rest) {
+    for (const Lane& lane : lanes) {
       const int k = taken[at(lane.node - first)]++;
-      if (begin + k == result_.num_slots()) open_slot(first, {0, true, is_mutual});
+      if (begin + k == result_.num_slots()) open_slot(first, {0, true});
       fill(begin + k, lane);
     }
   }
@@ -104,17 +98,15 @@ class SlotMaker {
     result_.edges[place] = lane.edge;
   }
 
-  int num_blocks_;
-  int blocks_per_task_;
-  std::vector<std::vector<Lane>> mutual_;
-  std::vector<std::vector<Lane>> single_;
+  std::vector<std::vector<Lane>> lanes_;  ///< of each block
+  int num_rows_;
   EdgeSlots result_;
 };
 
 }  // namespace
 
-EdgeSlots make_edge_slots(const Edges& edges, int num_nodes, int blocks_per_task) {
-  return SlotMaker(edges, num_nodes, blocks_per_task).run();
+EdgeSlots make_edge_slots(const Edges& edges, int num_nodes) {
+  return SlotMaker(edges, num_nodes).run();
 }
 
 }  // namespace weft::fast

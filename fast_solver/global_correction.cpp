@@ -8,7 +8,7 @@ namespace weft::fast {
 namespace {
 
 /// Coarse unknowns up to which no coarser ones are looked for: their factor is read in some 20 us.
-constexpr int kFewEnough = 1000;
+constexpr int kFewEnough = 8000;
 /// The next coarser ones must be fewer by this to be worth it.
 constexpr double kLeastGain = 0.7;
 

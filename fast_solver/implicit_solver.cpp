@@ -68,10 +68,6 @@ void load(const Matrix3X<Scalar>& vectors, NodeArrays<float>& arrays) {
   arrays.bottomRows(arrays.rows() - vectors.cols()).setZero();
 }
 
-float dot(const NodeArrays<float>& a, const NodeArrays<float>& b) {
-  return a.cwiseProduct(b).sum();
-}
-
 }  // namespace
 
 template <class Scalar>
@@ -96,7 +92,7 @@ ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const Vecto
   normals_.setZero(3, n);
   friction_.setZero(3, n);
   for (Floats* vectors : {&step_, &residual_vector_, &direction_, &direction_product_, &correction_,
-                          &correction_product_, &work_, &coarse_, &product_}) {
+                          &correction_product_, &work_, &coarse_, &coarse_product_}) {
     vectors->setZero(n_filled, 3);
   }
   held_.reserve(at(static_cast<int>(n)));
@@ -115,7 +111,7 @@ void ImplicitSolver<Scalar>::evaluate(const StepProblem<Scalar>& problem,
 // Inverses of symmetric 3 x 3 matrices by their adjugates.
 template <class Scalar>
 void ImplicitSolver<Scalar>::invert_blocks() {
-  forces_.diagonal_blocks(blocks_);
+  blocks_ = forces_.diagonal_blocks();
   for (const Tie& tie : ties_) {
     const auto k = static_cast<float>(tie.stiffness);
     const Vector3<float> n = tie.normal.template cast<float>();
@@ -151,7 +147,7 @@ void ImplicitSolver<Scalar>::invert_blocks() {
 template <class Scalar>
 void ImplicitSolver<Scalar>::smooth(const Floats& residual, Floats& correction) const {
   const auto n = static_cast<int>(residual.rows());
-  block_product()(blocks_.data(), n, 0, n, residual.data(), correction.data());
+  vector_kernel().multiply_blocks(blocks_.data(), n, residual.data(), correction.data());
   project(correction);
 }
 
@@ -162,24 +158,18 @@ void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats& produ
   project(product);
 }
 
-// correction = P residual, and its product with the stiffness.
+// correction + coarse = P residual, each with its product with the stiffness.
 template <class Scalar>
 void ImplicitSolver<Scalar>::precondition() {
   smooth(residual_vector_, correction_);
   multiply(correction_, correction_product_);
-  work_ = residual_vector_ - correction_product_;
+  vector_kernel().subtract(residual_vector_.data(), correction_product_.data(), work_.size(),
+                           work_.data());
   leave_out_ties(work_);
   global_.solve(work_, coarse_);
   leave_out_ties(coarse_);
   project(coarse_);
-  multiply(coarse_, product_);
-  correction_ += coarse_;
-  correction_product_ += product_;
-  work_ = residual_vector_ - correction_product_;
-  smooth(work_, coarse_);
-  multiply(coarse_, product_);
-  correction_ += coarse_;
-  correction_product_ += product_;
+  multiply(coarse_, coarse_product_);
 }
 
 template <class Scalar>
@@ -210,24 +200,26 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem,
     residual_vector_.row(tie.node) += tie_force(tie, places).template cast<float>().transpose();
   }
   project(residual_vector_);
-  float previous = 0;
+  // Flexible conjugate gradients (Notay 2000): the preconditioner is not symmetric, for a second
+  // smoothing costs more than it gains, so that a direction is made conjugate explicitly.
+  const VectorKernel& vectors = vector_kernel();
+  const long size = residual_vector_.size();
+  direction_.setZero();
+  direction_product_.setZero();
+  float curvature = 1;
   for (int k = 0; k < iterations; ++k) {
     precondition();
-    const float size = dot(residual_vector_, correction_);
-    if (!(size > 0)) break;
-    if (k == 0) {
-      direction_ = correction_;
-      direction_product_ = correction_product_;
-    } else {
-      direction_ = correction_ + (size / previous) * direction_;
-      direction_product_ = correction_product_ + (size / previous) * direction_product_;
-    }
-    previous = size;
-    const float curvature = dot(direction_, direction_product_);
-    if (!(curvature > 0)) break;
-    const float length = size / curvature;
-    step_ += length * direction_;
-    residual_vector_ -= length * direction_product_;
+    const auto [gain, overlap] = vectors.add_correction(
+        coarse_.data(), coarse_product_.data(), residual_vector_.data(), direction_product_.data(),
+        size, correction_.data(), correction_product_.data());
+    if (!(gain > 0)) break;
+    const auto [new_curvature, descent] =
+        vectors.turn(correction_.data(), correction_product_.data(), residual_vector_.data(),
+                     overlap / curvature, size, direction_.data(), direction_product_.data());
+    if (!(new_curvature > 0)) break;
+    curvature = new_curvature;
+    vectors.advance(direction_.data(), direction_product_.data(), descent / curvature, size,
+                    step_.data(), residual_vector_.data());
   }
 }
 

@@ -31,8 +31,8 @@ struct StepProblem {
 /// halves that a cloth needs. The prefactored matrix of a network that resists equally in all
 /// directions, on few of the nodes, carries a corner's load through the whole cloth at once, but is far
 /// too stiff across the sheet. The blocks of the diagonal are exact there, where neighbours have little
-/// to say. Block smoothing before and after the global correction (a symmetric two-level cycle) leaves a
-/// condition number of a few, whatever the number of nodes. Contacts are eliminated: a node on a plane moves in
+/// to say. Block smoothing, then the global correction of what is left (a two-level cycle) make each
+/// iteration take away about half of the error, whatever the number of nodes. Contacts are eliminated: a node on a plane moves in
 /// the plane, one that sticks not at all (Baraff and Witkin 1998), and what it takes to hold them is
 /// the contact force, whose sign and friction decide how the next round holds them.
 ///
@@ -125,7 +125,7 @@ class ImplicitSolver {
   Matrix3X<float> friction_;       ///< of each sliding node [N]
   BlockArrays blocks_;             ///< inverse of the diagonal's
   Floats step_, residual_vector_, direction_, direction_product_;
-  Floats correction_, correction_product_, work_, coarse_, product_;
+  Floats correction_, correction_product_, work_, coarse_, coarse_product_;
   double residual_ = 0;
 };
 

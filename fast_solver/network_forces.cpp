@@ -1,5 +1,6 @@
 #include <weft/fast_solver/network_forces.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <numeric>
 
@@ -8,9 +9,8 @@
 namespace weft::fast {
 namespace {
 
-/// Blocks of nodes of a task: 4096 nodes, some 20 us. Smaller tasks have more edges between them, which
-/// are computed twice.
-constexpr int kBlocksPerTask = 256;
+/// Blocks of nodes of a task: 2048 nodes, some 5 to 20 us.
+constexpr int kBlocksPerTask = 128;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -20,7 +20,7 @@ std::size_t at(int i) {
 
 template <class Scalar>
 NetworkForces<Scalar>::NetworkForces(const SpringNetwork& network, int num_nodes)
-    : slots_(make_edge_slots(network.edges, num_nodes, kBlocksPerTask)), edges_(network.edges) {
+    : slots_(make_edge_slots(network.edges, num_nodes)), edges_(network.edges) {
   const auto num_lanes = slots_.edges.size();
   const bool has_damping = (network.damping.array() != 0).any();
   const bool has_stabiliser = (network.stabiliser.array() != 0).any();
@@ -45,12 +45,13 @@ NetworkForces<Scalar>::NetworkForces(const SpringNetwork& network, int num_nodes
   for (NodeArrays<Scalar>* arrays : {&starts_, &places_, &forces_}) {
     arrays->setZero(fill_up(num_nodes), 3);
   }
-  task_sums_.resize(at(slots_.num_tasks()));
+  diagonal_.setZero(fill_up(num_nodes), 6);
+  task_sums_.resize(at((slots_.num_blocks() + kBlocksPerTask - 1) / kBlocksPerTask));
 }
 
 template <class Scalar>
 NetworkView<Scalar> NetworkForces<Scalar>::view() const {
-  return {slots_.block_starts.data(),
+  return {slots_.blocks.data(),
           slots_.slots.data(),
           slots_.others.data(),
           static_cast<int>(places_.rows()),
@@ -64,12 +65,14 @@ template <class Scalar>
 template <class Run>
 void NetworkForces<Scalar>::for_each_task(const Run& run) const {
   const auto run_task = [&](int task) {
-    run(task, slots_.task_starts[at(task)], slots_.task_starts[at(task + 1)]);
+    const int begin = task * kBlocksPerTask;
+    run(task, begin, std::min(begin + kBlocksPerTask, slots_.num_blocks()));
   };
-  if (slots_.num_tasks() == 1) {
+  const auto num_tasks = static_cast<int>(task_sums_.size());
+  if (num_tasks == 1) {
     run_task(0);
   } else {
-    tbb::parallel_for(0, slots_.num_tasks(), run_task);
+    tbb::parallel_for(0, num_tasks, run_task);
   }
 }
 
@@ -94,7 +97,7 @@ void NetworkForces<Scalar>::add_forces(ConstMatrix3XRef<Scalar> places,
   to_arrays<Scalar>(forces, forces_);
   for_each_task([&](int, int begin, int end) {
     network_kernel<Scalar>().forces(view(), begin, end, places_.data(), starts_.data(),
-                                    forces_.data());
+                                    forces_.data(), diagonal_.data());
   });
   for (int axis = 0; axis < 3; ++axis) {
     for (Eigen::Index i = 0; i < forces.cols(); ++i) forces(axis, i) = forces_(i, axis);
@@ -121,13 +124,6 @@ void NetworkForces<Scalar>::multiply(const VectorX<float>& inertia,
   });
   // What is not a number must not get stuck behind the nodes.
   product.bottomRows(product.rows() - num_nodes()).setZero();
-}
-
-template <class Scalar>
-void NetworkForces<Scalar>::diagonal_blocks(BlockArrays& blocks) const {
-  for_each_task([&](int, int begin, int end) {
-    network_kernel<Scalar>().blocks(view(), begin, end, blocks.data());
-  });
 }
 
 template class NetworkForces<float>;

@@ -39,7 +39,7 @@ class NetworkForces {
                 NodeArrays<float>& product) const;
 
   /// The 3 x 3 blocks of the diagonal of that stiffness [N/m].
-  void diagonal_blocks(BlockArrays& blocks) const;
+  [[nodiscard]] const BlockArrays& diagonal_blocks() const { return diagonal_; }
 
  private:
   [[nodiscard]] NetworkView<Scalar> view() const;
@@ -56,6 +56,7 @@ class NetworkForces {
   NodeArrays<Scalar> starts_;
   NodeArrays<Scalar> places_;
   NodeArrays<Scalar> forces_;
+  BlockArrays diagonal_;
   std::vector<double> task_sums_;
 };
 

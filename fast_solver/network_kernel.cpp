@@ -7,8 +7,8 @@ template <class Scalar>
 const NetworkKernel<Scalar>& network_kernel_avx2();
 template <class Scalar>
 const NetworkKernel<Scalar>& network_kernel_avx512();
-BlockProduct block_product_avx2();
-BlockProduct block_product_avx512();
+const VectorKernel& vector_kernel_avx2();
+const VectorKernel& vector_kernel_avx512();
 #endif
 
 namespace {
@@ -36,12 +36,12 @@ const NetworkKernel<Scalar>& network_kernel() {
   return kKernel<Scalar>;
 }
 
-BlockProduct block_product() {
+const VectorKernel& vector_kernel() {
 #ifdef WEFT_VECTOR_KERNELS
-  if (has_avx512()) return block_product_avx512();
-  if (has_avx2()) return block_product_avx2();
+  if (has_avx512()) return vector_kernel_avx512();
+  if (has_avx2()) return vector_kernel_avx2();
 #endif
-  return &multiply_blocks;
+  return kVectors;
 }
 
 template const NetworkKernel<float>& network_kernel();

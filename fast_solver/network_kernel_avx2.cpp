@@ -11,15 +11,15 @@ constexpr int kVectorBytes = 32;
 
 template <class Scalar>
 const NetworkKernel<Scalar>& network_kernel_avx2();
-BlockProduct block_product_avx2();
+const VectorKernel& vector_kernel_avx2();
 
 template <class Scalar>
 const NetworkKernel<Scalar>& network_kernel_avx2() {
   return kKernel<Scalar>;
 }
 
-BlockProduct block_product_avx2() {
-  return &multiply_blocks;
+const VectorKernel& vector_kernel_avx2() {
+  return kVectors;
 }
 
 template const NetworkKernel<float>& network_kernel_avx2();

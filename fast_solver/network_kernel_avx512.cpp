@@ -11,15 +11,15 @@ constexpr int kVectorBytes = 64;
 
 template <class Scalar>
 const NetworkKernel<Scalar>& network_kernel_avx512();
-BlockProduct block_product_avx512();
+const VectorKernel& vector_kernel_avx512();
 
 template <class Scalar>
 const NetworkKernel<Scalar>& network_kernel_avx512() {
   return kKernel<Scalar>;
 }
 
-BlockProduct block_product_avx512() {
-  return &multiply_blocks;
+const VectorKernel& vector_kernel_avx512() {
+  return kVectors;
 }
 
 template const NetworkKernel<float>& network_kernel_avx512();

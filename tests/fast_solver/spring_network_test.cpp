@@ -103,8 +103,7 @@ TEST(SpringNetwork, ItsBlocksAreThoseOfTheProduct) {
   Matrix3X<float> forces = Matrix3X<float>::Zero(3, mesh.num_nodes());
   network.add_forces(x, forces);
   const int rows = fill_up(mesh.num_nodes());
-  BlockArrays blocks(rows, 6);
-  network.diagonal_blocks(blocks);
+  const BlockArrays& blocks = network.diagonal_blocks();
   const int entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
   for (const int node : {0, 7, 13, 29}) {
     for (int axis = 0; axis < 3; ++axis) {
