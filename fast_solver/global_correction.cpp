@@ -1,5 +1,6 @@
 #include <weft/fast_solver/global_correction.hpp>
 
+#include <algorithm>
 #include <utility>
 
 #include <weft/fast_solver/minimum_degree.hpp>
@@ -31,71 +32,74 @@ GlobalCorrection::GlobalCorrection(const SymmetricMatrix& matrix, const std::vec
   factor_ = SparseCholesky(coarse, minimum_degree_order(coarse));
   right_.setZero(3, coarse.size());
   solution_.setZero(3, coarse.size());
+  coarse_.setZero(4, coarse.size());
+  nodes_.setZero(4, num_nodes);
   std::vector<int> unknown_of(at(num_nodes), -1);
   for (int u = 0; u < static_cast<int>(names.size()); ++u) unknown_of[at(names[at(u)])] = u;
-  std::vector<std::vector<std::pair<int, float>>> parts(at(coarse.size()));
-  refine_.starts.push_back(0);
+  using Row = std::vector<std::pair<int, float>>;
+  std::vector<Row> of_coarse(at(coarse.size()));
+  std::vector<Row> of_node(at(num_nodes));
   for (int node = 0; node < num_nodes; ++node) {
     const int u = unknown_of[at(node)];
-    for (int e = u < 0 ? 0 : total.starts[at(u)]; u >= 0 && e < total.starts[at(u) + 1]; ++e) {
+    if (u < 0) continue;
+    for (int e = total.starts[at(u)]; e < total.starts[at(u) + 1]; ++e) {
       const auto weight = static_cast<float>(total.values[at(e)]);
-      refine_.columns.push_back(total.columns[at(e)]);
-      refine_.values.push_back(weight);
-      parts[at(total.columns[at(e)])].emplace_back(node, weight);
+      of_node[at(node)].emplace_back(total.columns[at(e)], weight);
+      of_coarse[at(total.columns[at(e)])].emplace_back(node, weight);
     }
-    refine_.starts.push_back(static_cast<int>(refine_.columns.size()));
   }
-  coarsen_.starts.push_back(0);
-  for (const auto& row : parts) {
-    for (const auto& [node, weight] : row) {
-      coarsen_.columns.push_back(node);
-      coarsen_.values.push_back(weight);
+  refine_ = make_sums(of_node);
+  coarsen_ = make_sums(of_coarse);
+}
+
+GlobalCorrection::Sums GlobalCorrection::make_sums(
+    const std::vector<std::vector<std::pair<int, float>>>& rows) {
+  Sums sums;
+  for (const auto& row : rows)
+    sums.num_terms = std::max(sums.num_terms, static_cast<int>(row.size()));
+  for (const auto& row : rows) {
+    for (int k = 0; k < sums.num_terms; ++k) {
+      const bool is_filled = k < static_cast<int>(row.size());
+      sums.columns.push_back(is_filled ? row[at(k)].first : 0);
+      sums.weights.push_back(is_filled ? row[at(k)].second : 0.0F);
     }
-    coarsen_.starts.push_back(static_cast<int>(coarsen_.columns.size()));
   }
+  return sums;
 }
 
 std::size_t GlobalCorrection::num_bytes() const {
-  const std::size_t num_weights = coarsen_.values.size() + refine_.values.size();
+  const std::size_t num_weights = coarsen_.weights.size() + refine_.weights.size();
   return factor_.num_bytes() + num_weights * (sizeof(int) + sizeof(float));
 }
 
+inline Eigen::Vector4f GlobalCorrection::sum_of(const Sums& sums, Eigen::Index row,
+                                                const Fours& values) {
+  const Eigen::Index first = row * sums.num_terms;
+  const int* const columns = sums.columns.data() + first;
+  const float* const weights = sums.weights.data() + first;
+  Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+  for (int k = 0; k < sums.num_terms; ++k) sum += weights[k] * values.col(columns[k]);
+  return sum;
+}
+
+// Four numbers for a node, of which the last is not used: what a processor loads and adds at once.
 void GlobalCorrection::solve(const NodeArrays<float>& residual, NodeArrays<float>& correction) {
-  const float* const r = residual.data();
   const Eigen::Index n = residual.rows();
-  for (int c = 0; c < size(); ++c) {
-    float x = 0;
-    float y = 0;
-    float z = 0;
-    for (int e = coarsen_.starts[at(c)]; e < coarsen_.starts[at(c) + 1]; ++e) {
-      const float* const v = r + coarsen_.columns[at(e)];
-      const float w = coarsen_.values[at(e)];
-      x += w * v[0];
-      y += w * v[n];
-      z += w * v[2 * n];
-    }
-    right_.col(c) << x, y, z;
+  const float* const from = residual.data();
+  for (Eigen::Index i = 0; i < nodes_.cols(); ++i) {
+    nodes_.col(i) << from[i], from[n + i], from[2 * n + i], 0.0F;
   }
+  for (int c = 0; c < size(); ++c) right_.col(c) = sum_of(coarsen_, c, nodes_).head<3>();
   factor_.solve(right_, solution_);
-  float* const result = correction.data();
-  const auto num_nodes = static_cast<int>(refine_.starts.size()) - 1;
-  for (int i = 0; i < num_nodes; ++i) {
-    float x = 0;
-    float y = 0;
-    float z = 0;
-    for (int e = refine_.starts[at(i)]; e < refine_.starts[at(i) + 1]; ++e) {
-      const float* const v =
-          solution_.data() + 3 * static_cast<Eigen::Index>(refine_.columns[at(e)]);
-      const float w = refine_.values[at(e)];
-      x += w * v[0];
-      y += w * v[1];
-      z += w * v[2];
-    }
-    result[i] = x;
-    result[n + i] = y;
-    result[2 * n + i] = z;
+  coarse_.topRows<3>() = solution_;
+  float* const to = correction.data();
+  for (Eigen::Index i = 0; i < nodes_.cols(); ++i) {
+    const Eigen::Vector4f sum = sum_of(refine_, i, coarse_);
+    to[i] = sum[0];
+    to[n + i] = sum[1];
+    to[2 * n + i] = sum[2];
   }
-  correction.bottomRows(n - num_nodes).setZero();
+  correction.bottomRows(n - nodes_.cols()).setZero();
 }
 
 }  // namespace weft::fast

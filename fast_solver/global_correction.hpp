@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include <weft/fast_solver/coarse_nodes.hpp>
@@ -27,17 +28,24 @@ class GlobalCorrection {
   void solve(const NodeArrays<float>& residual, NodeArrays<float>& correction);
 
  private:
-  /// Sums of weighted rows.
-  struct Rows {
-    std::vector<int> starts;
-    std::vector<int> columns;
-    std::vector<float> values;
+  using Fours = Eigen::Matrix<float, 4, Eigen::Dynamic>;
+  /// Weighted sums, all of as many terms as the longest, so that the processor foresees where each ends.
+  struct Sums {
+    int num_terms = 0;
+    std::vector<int> columns;  ///< num_terms for each sum
+    std::vector<float> weights;
   };
-  Rows coarsen_;  ///< P^T: of each coarse unknown, nodes
-  Rows refine_;   ///< P: of each node, coarse unknowns
+  [[nodiscard]] static Sums make_sums(const std::vector<std::vector<std::pair<int, float>>>& rows);
+  [[nodiscard]] static Eigen::Vector4f sum_of(const Sums& sums, Eigen::Index row,
+                                              const Fours& values);
+
+  Sums coarsen_;  ///< P^T: of each coarse unknown, nodes
+  Sums refine_;   ///< P: of each node, coarse unknowns
   SparseCholesky factor_;
   Matrix3X<float> right_;
   Matrix3X<float> solution_;
+  Fours nodes_;
+  Fours coarse_;
 };
 
 }  // namespace weft::fast
