@@ -12,9 +12,14 @@ namespace {
 constexpr double kSmallestShare = 0.1;
 /// Squared motion of a step over that without springs from which on its energy is looked at.
 constexpr double kMostMotion = 1.2;
+/// Work that left-over forces could do, over the energy of the motion without springs, from which on likewise.
+constexpr double kMostWork = 1.0;
+/// Of that energy, what rounding may make of a step that changes nothing.
+constexpr double kRoundingShare = 0.01;
 /// Rounds, then halvings of the step, until a step that gains energy does not any more.
 constexpr int kExtraRounds = 6;
 constexpr int kHalvings = 6;
+constexpr int kRoundsWithoutFriction = 3;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -68,21 +73,33 @@ double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem,
   return sum;
 }
 
-// A contact may have stretched springs; without one, more motion than without springs: they may have
-// pulled, or the solution may be off.
+// A contact may have stretched springs; without one, more motion than without springs, or forces that are left over
+// and could do as much work as the step's motion is worth: springs may have pulled, or the solution may be off.
 template <class Scalar>
 bool ImplicitSolver<Scalar>::is_suspicious(const StepProblem<Scalar>& problem,
                                            ConstMatrix3XRef<Scalar> places) const {
   if (!held_.empty()) return true;
   double moved = 0;
-  double expected = 0;
+  double left = 0;
   for (Eigen::Index i = 0; i < places.cols(); ++i) {
     const auto mass = static_cast<double>(masses_[i]);
-    moved += mass * static_cast<double>((places.col(i) - problem.starts.col(i)).squaredNorm());
-    expected +=
-        mass * static_cast<double>((problem.targets.col(i) - problem.starts.col(i)).squaredNorm());
+    const auto squared_way =
+        static_cast<double>((places.col(i) - problem.starts.col(i)).squaredNorm());
+    moved += mass * squared_way;
+    left += std::sqrt(squared_way * static_cast<double>(unbalanced_.col(i).squaredNorm()));
   }
-  return !(moved <= kMostMotion * expected);
+  const auto h = static_cast<double>(problem.inertia_step);
+  return !(moved <= 2 * h * h * kMostMotion * step_energy_ && left <= kMostWork * step_energy_);
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::find_step_energy(const StepProblem<Scalar>& problem) {
+  step_energy_ = 0;
+  for (Eigen::Index i = 0; i < problem.starts.cols(); ++i) {
+    step_energy_ +=
+        0.5 * static_cast<double>(inertia_[i]) *
+        static_cast<double>((problem.targets.col(i) - problem.starts.col(i)).squaredNorm());
+  }
 }
 
 // Where nothing has moved but what is led, in front of all planes.
@@ -103,6 +120,20 @@ void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
   }
 }
 
+// Friction follows from the force that holds a node. Where springs are some 10^5 times stiffer than
+// inertia, that is rounding, and friction after it throws the cloth about.
+template <class Scalar>
+void ImplicitSolver<Scalar>::forget_friction(const StepProblem<Scalar>& problem, int iterations,
+                                             Matrix3XRef<Scalar> places) {
+  places = unmoved_;
+  evaluate(problem, places);
+  has_friction_ = false;
+  for (int round = 0; round < kRoundsWithoutFriction; ++round) {
+    do_round(problem, iterations, round == 0, places);
+  }
+  has_friction_ = true;
+}
+
 // The exact solution has no more of the energy that it minimises than the places at the start. One
 // that has is iterated on, and at last drawn back: so an implicit step gains no energy, however badly
 // it has converged.
@@ -110,13 +141,21 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterations,
                                   Matrix3XRef<Scalar> places) {
   stay_at_start(problem);
-  const double most = energy(problem, unmoved_);
+  const double most = energy(problem, unmoved_) + kRoundingShare * step_energy_;
   for (int attempt = 0; !(energy(problem, places) <= most); ++attempt) {
     if (attempt < kExtraRounds) {
       do_round(problem, iterations, false, places);
       continue;
     }
-    if (attempt == kExtraRounds + kHalvings) break;
+    if (attempt == kExtraRounds + kHalvings) {
+      forget_friction(problem, iterations, places);
+      continue;
+    }
+    if (attempt > kExtraRounds + kHalvings) {
+      places = unmoved_;
+      evaluate(problem, places);
+      break;
+    }
     for (Eigen::Index i = 0; i < places.cols(); ++i) {
       const bool is_finite = places.col(i).allFinite();
       places.col(i) = is_finite ? Vector3<Scalar>(Scalar(0.5) * (places.col(i) + unmoved_.col(i)))
