@@ -6,6 +6,7 @@
 
 #include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
 
+#include <weft/bridge/energy_limit.hpp>
 #include <weft/bridge/node_state.hpp>
 #include <weft/bridge/node_tree.hpp>
 #include <weft/custom_forces/core/error.hpp>
@@ -21,6 +22,8 @@ constexpr btScalar kInertiaStep = btScalar(0.816496580927726);  // sqrt(2 / 3)
 constexpr btScalar kStepRatio = btScalar(1.3);
 /// How often contacts between cloths are projected at the end of a step.
 constexpr int kClothContactSweeps = 8;
+/// Of m |y - q|^2 / (2 h^2), what a step may gain: rounding, and BDF2 gives back a little of what it took before.
+constexpr double kEnergySlack = 0.01;
 /// How often contacts that the solution needs are looked for after it.
 constexpr int kMostLooks = 2;
 
@@ -213,6 +216,44 @@ void FastBody::give_impulses(btSoftBody& body, btScalar time_step) {
   }
 }
 
+// What does that work is not known: pins and anchors that lead, obstacles that move, other cloth.
+bool FastBody::gets_work_from_outside(const btSoftBody& body) const {
+  if (!led_.empty() || body.m_scontacts.size() > 0) return true;
+  for (const RigidContact& contact : contacts_) {
+    if (contact.motion.length2() > 0 || movable(contact.object) != nullptr) return true;
+  }
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    if (body.m_nodes[i].m_im <= 0 && places_.col(i) != starts_.col(i)) return true;
+  }
+  return false;
+}
+
+// Two conjugate gradients too few, or a contact that pushes a node out of a surface, and a very stiff sheet ends a
+// step with energy that nobody has given to it; BDF2, which leans on the step before, would make more of it. What is
+// stored in springs cannot be taken away without another step: it is kept in mind until it comes out as motion.
+bool FastBody::keep_energy(const btSoftBody& body, btScalar time_step) {
+  if (gets_work_from_outside(body)) {
+    excess_ = 0;
+    return false;
+  }
+  const double given =
+      energy_put_in({masses_, starts_, start_velocities_, places_, time_step}, body);
+  const double now = kinetic_energy(masses_, body, velocities_);
+  // Springs are only asked when motion does not tell.
+  if (now <= given && contacts_.empty() && excess_ == 0) return false;
+  const double slack = kEnergySlack * solver_->step_energy();
+  const double stored = solver_->spring_energy(places_);
+  const double most = given + solver_->spring_energy(starts_) - excess_ + slack - stored;
+  const bool is_limited = now > most;
+  if (is_limited) {
+    const bool keeps_momentum =
+        contacts_.empty() && std::find(is_free_.begin(), is_free_.end(), false) == is_free_.end();
+    limit_energy(masses_, body, most, keeps_momentum, velocities_);
+  }
+  excess_ = std::max(0.0, -most);
+  return is_limited;
+}
+
 void FastBody::write_back(btSoftBody& body, btScalar time_step, btScalar inertia_step) {
   for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_x = to_bullet(places_.col(i));
   const bool meets_cloth = body.m_scontacts.size() > 0;
@@ -222,16 +263,19 @@ void FastBody::write_back(btSoftBody& body, btScalar time_step, btScalar inertia
     }
     for (int i = 0; i < body.m_nodes.size(); ++i) places_.col(i) = from_bullet(body.m_nodes[i].m_x);
   }
-  const btScalar rate = (1 - body.m_cfg.kDP) / inertia_step;
+  velocities_ = (places_ - origins_) / inertia_step;
+  const bool is_limited = keep_energy(body, time_step);
   for (int i = 0; i < body.m_nodes.size(); ++i) {
     btSoftBody::Node& node = body.m_nodes[i];
     node.m_f.setZero();
     if (node.m_im > 0) {
-      node.m_v = to_bullet(rate * (places_.col(i) - origins_.col(i)));
+      node.m_v = (1 - body.m_cfg.kDP) * to_bullet(velocities_.col(i));
     } else {
       node.m_v = (node.m_x - node.m_q) / time_step;
     }
   }
+  const bool met_something = !contacts_.empty() || meets_cloth;
+  last_step_ = met_something || is_limited ? btScalar(0) : time_step;
 }
 
 void FastBody::solve(btSoftBody& body, btScalar time_step) {
@@ -271,9 +315,7 @@ void FastBody::solve(btSoftBody& body, btScalar time_step) {
     solve({1, settings_.effort.iterations});
   }
   give_impulses(body, time_step);
-  const bool met_something = !contacts_.empty() || body.m_scontacts.size() > 0;
   write_back(body, time_step, inertia_step);
-  last_step_ = met_something ? btScalar(0) : time_step;
 }
 
 }  // namespace WEFT_BULLET_PRECISION

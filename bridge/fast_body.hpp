@@ -59,6 +59,9 @@ class FastBody {
   void read_constraints(const btSoftBody& body);
   void give_impulses(btSoftBody& body, btScalar time_step);
   void write_back(btSoftBody& body, btScalar time_step, btScalar inertia_step);
+  [[nodiscard]] bool gets_work_from_outside(const btSoftBody& body) const;
+  /// True if velocities_ had to be slowed down.
+  bool keep_energy(const btSoftBody& body, btScalar time_step);
 
   fast::SpringNetwork network_;
   VectorX<double> masses_;
@@ -73,11 +76,13 @@ class FastBody {
   Matrix3X<btScalar> origins_;           ///< what velocities are counted from [m]
   Matrix3X<btScalar> targets_;           ///< y [m]
   Matrix3X<btScalar> places_;            ///< solution [m]
+  Matrix3X<btScalar> velocities_;        ///< solution [m/s]
   // Of the step before.
   Matrix3X<btScalar> last_starts_;
   Matrix3X<btScalar> last_velocities_;
   btScalar last_step_ = 0;  ///< [s]; 0: no history
   int num_steps_ = 0;
+  double excess_ = 0;  ///< energy in springs that nothing has put in [J]
   /// What the body's bounds have met in this step.
   struct Obstacle {
     const btCollisionObject* object;

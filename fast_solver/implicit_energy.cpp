@@ -12,6 +12,10 @@ namespace {
 constexpr double kSmallestShare = 0.1;
 /// Squared motion of a step over that without springs from which on its energy is looked at.
 constexpr double kMostMotion = 1.2;
+/// Work that left-over forces could do, over the energy of the motion without springs, from which on likewise.
+constexpr double kMostWork = 1.0;
+/// Of that energy, what rounding may make of a step that changes nothing.
+constexpr double kRoundingShare = 0.01;
 /// Rounds of a step that would have gained energy, and halvings of each of them.
 constexpr int kExtraRounds = 6;
 constexpr int kHalvings = 6;
@@ -69,21 +73,33 @@ double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem,
   return sum;
 }
 
-// A contact may have stretched springs; without one, more motion than without springs: they may have
-// pulled, or the solution may be off.
+// A contact may have stretched springs; without one, more motion than without springs, or forces that are left over
+// and could do as much work as the step's motion is worth: springs may have pulled, or the solution may be off.
 template <class Scalar>
 bool ImplicitSolver<Scalar>::is_suspicious(const StepProblem<Scalar>& problem,
                                            ConstMatrix3XRef<Scalar> places) const {
   if (!held_.empty()) return true;
   double moved = 0;
-  double expected = 0;
+  double left = 0;
   for (Eigen::Index i = 0; i < places.cols(); ++i) {
     const auto mass = static_cast<double>(masses_[i]);
-    moved += mass * static_cast<double>((places.col(i) - problem.starts.col(i)).squaredNorm());
-    expected +=
-        mass * static_cast<double>((problem.targets.col(i) - problem.starts.col(i)).squaredNorm());
+    const auto squared_way =
+        static_cast<double>((places.col(i) - problem.starts.col(i)).squaredNorm());
+    moved += mass * squared_way;
+    left += std::sqrt(squared_way * static_cast<double>(unbalanced_.col(i).squaredNorm()));
   }
-  return !(moved <= kMostMotion * expected);
+  const auto h = static_cast<double>(problem.inertia_step);
+  return !(moved <= 2 * h * h * kMostMotion * step_energy_ && left <= kMostWork * step_energy_);
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::find_step_energy(const StepProblem<Scalar>& problem) {
+  step_energy_ = 0;
+  for (Eigen::Index i = 0; i < problem.starts.cols(); ++i) {
+    step_energy_ +=
+        0.5 * static_cast<double>(inertia_[i]) *
+        static_cast<double>((problem.targets.col(i) - problem.starts.col(i)).squaredNorm());
+  }
 }
 
 // Where nothing has moved but what is led, in front of all planes.
@@ -119,14 +135,10 @@ bool ImplicitSolver<Scalar>::descend(const StepProblem<Scalar>& problem,
   return false;
 }
 
-// The exact solution has no more of the energy that it minimises than the places at the start. One
-// that has is thrown away: Newton's method starts there once more, and now each of its steps must go
-// downhill. So an implicit step gains no energy, however badly its linear systems are solved.
+// Newton's method from the start of the step, each round downhill. False if none was.
 template <class Scalar>
-void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterations,
-                                  Matrix3XRef<Scalar> places) {
-  stay_at_start(problem);
-  if (energy(problem, places) <= energy(problem, unmoved_)) return;
+bool ImplicitSolver<Scalar>::go_downhill(const StepProblem<Scalar>& problem, int iterations,
+                                         Matrix3XRef<Scalar> places) {
   places = unmoved_;
   evaluate(problem, places);
   for (int round = 0; round < kExtraRounds; ++round) {
@@ -134,10 +146,29 @@ void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterat
     if (!descend(problem, unmoved_, places)) {
       places = unmoved_;
       evaluate(problem, places);
-      return;
+      return round > 0;
     }
     unmoved_ = places;
   }
+  return true;
+}
+
+// The exact solution has no more of the energy that it minimises than the places at the start. One
+// that has is thrown away: Newton's method starts there once more, and now each of its steps must go
+// downhill. So an implicit step gains no energy, however badly its linear systems are solved.
+//
+// Friction follows from the force that holds a node. Where springs are some 10^5 times stiffer than
+// inertia, that is rounding: if nothing goes downhill with it, what does without.
+template <class Scalar>
+void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterations,
+                                  Matrix3XRef<Scalar> places) {
+  stay_at_start(problem);
+  const double most = energy(problem, unmoved_) + kRoundingShare * step_energy_;
+  if (energy(problem, places) <= most) return;
+  if (go_downhill(problem, iterations, places)) return;
+  has_friction_ = false;
+  (void)go_downhill(problem, iterations, places);
+  has_friction_ = true;
 }
 
 // What conjugate gradients have left over would push the body, and what is tied to it, as a whole.

@@ -61,7 +61,8 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
     const Vector3<Scalar> slip = places.col(i) - problem.starts.col(i) - candidate.motion;
     Vector3<Scalar> tendency = unbalanced_.col(i) + inertia * slip;
     tendency -= normal.dot(tendency) * normal;
-    const Scalar most = candidate.friction * std::max(Scalar(0), pressure);
+    const Scalar friction = has_friction_ ? candidate.friction : Scalar(0);
+    const Scalar most = friction * std::max(Scalar(0), pressure);
     const Scalar size = tendency.norm();
     const bool sticks = size <= most;
     holds_[at(i)] = candidate.mass > 0 ? Hold::kTied : sticks ? Hold::kFixed : Hold::kOnPlane;

@@ -258,6 +258,7 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const Sol
   for (int round = 0; round < effort.rounds; ++round) {
     do_round(problem, effort.iterations, round == 0, places);
   }
+  find_step_energy(problem);
   if (is_suspicious(problem, places)) tame(problem, effort.iterations, places);
   find_holding_forces(places);
   double left = 0;

@@ -61,6 +61,12 @@ class ImplicitSolver {
   [[nodiscard]] int contact_of(int node) const {
     return contact_of_[static_cast<std::size_t>(node)];
   }
+  /// After solve(): m |y - q|^2 / (2 h'^2), the energy of the motion without springs [J].
+  [[nodiscard]] double step_energy() const { return step_energy_; }
+  /// What springs store at places, and what dampers take away on the way there from the start of the step [J].
+  [[nodiscard]] double spring_energy(ConstMatrix3XRef<Scalar> places) {
+    return forces_.potential(places);
+  }
   /// After solve(): root mean square of the unbalanced forces over that of the step's first guess [-].
   [[nodiscard]] double residual() const { return residual_; }
 
@@ -97,10 +103,12 @@ class ImplicitSolver {
   [[nodiscard]] double energy(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places);
   [[nodiscard]] bool is_suspicious(const StepProblem<Scalar>& problem,
                                    ConstMatrix3XRef<Scalar> places) const;
+  void find_step_energy(const StepProblem<Scalar>& problem);
   void stay_at_start(const StepProblem<Scalar>& problem);
   bool descend(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> from,
                Matrix3XRef<Scalar> places);
   void tame(const StepProblem<Scalar>& problem, int iterations, Matrix3XRef<Scalar> places);
+  bool go_downhill(const StepProblem<Scalar>& problem, int iterations, Matrix3XRef<Scalar> places);
   void hold_back(const StepProblem<Scalar>& problem, double work_before,
                  Matrix3XRef<Scalar> places);
   void find_holding_forces(ConstMatrix3XRef<Scalar> places);
@@ -127,6 +135,8 @@ class ImplicitSolver {
   Floats step_, residual_vector_, direction_, direction_product_;
   Floats correction_, correction_product_, work_, coarse_, coarse_product_;
   double residual_ = 0;
+  double step_energy_ = 0;
+  bool has_friction_ = true;
 };
 
 extern template class ImplicitSolver<float>;
