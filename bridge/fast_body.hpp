@@ -39,18 +39,29 @@ class FastBody {
   [[nodiscard]] const FastSettings& settings() const { return settings_; }
   void set_settings(const FastSettings& settings) { settings_ = settings; }
 
-  /// btSoftBody::predictMotion, and bounds that hold the whole way of each node.
+  /// btSoftBody::predictMotion. Touches only the body, but not its entry in the broadphase: predictions of several
+  /// bodies may run at the same time.
   void predict(btSoftBody& body, btScalar time_step);
+  /// After predict(): bounds that hold the whole way of each node, for the broadphase too.
+  void publish_bounds(btSoftBody& body) const;
   /// In place of btSoftBody::defaultCollisionHandler.
   void collide(const btSoftBody& body, const btCollisionObjectWrapper& object, btScalar time_step);
-  /// In place of btSoftBody::solveConstraints.
-  void solve(btSoftBody& body, btScalar time_step);
+  /// In place of btSoftBody::solveConstraints, in three parts. The first and the second touch only the body, so that
+  /// those of several bodies may run at the same time; the others look things up in the world and push rigid bodies.
+  void begin_solve(btSoftBody& body, btScalar time_step);
+  /// True if the solution of the body needs more contacts, and solve_again().
+  [[nodiscard]] bool needs_contacts(btSoftBody& body, btScalar time_step);
+  void solve_again(btSoftBody& body, btScalar time_step);
+  void end_solve(btSoftBody& body, btScalar time_step);
+  /// How often needs_contacts() is asked.
+  static constexpr int kMostLooks = 2;
 
   [[nodiscard]] int num_contacts() const { return static_cast<int>(contacts_.size()); }
   /// Unbalanced forces that the last step left, over those that it began with [-].
   [[nodiscard]] double residual() const { return solver_ ? solver_->residual() : 0.0; }
 
  private:
+  void solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort);
   void prepare_solver(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step) const;
   /// Contacts that the solution would need, and that nobody looked for where Bullet had predicted the
@@ -59,6 +70,8 @@ class FastBody {
   void read_constraints(const btSoftBody& body);
   void give_impulses(btSoftBody& body, btScalar time_step);
   void write_back(btSoftBody& body, btScalar time_step, btScalar inertia_step);
+  void keep_out_of_missed(btSoftBody& body, btScalar time_step);
+  void stay_outside(btSoftBody& body) const;
   [[nodiscard]] bool gets_work_from_outside(const btSoftBody& body) const;
   /// True if velocities_ had to be slowed down.
   bool keep_energy(const btSoftBody& body, btScalar time_step);
@@ -80,7 +93,8 @@ class FastBody {
   // Of the step before.
   Matrix3X<btScalar> last_starts_;
   Matrix3X<btScalar> last_velocities_;
-  btScalar last_step_ = 0;  ///< [s]; 0: no history
+  btScalar inertia_step_ = 0;  ///< [s] of the present step
+  btScalar last_step_ = 0;     ///< [s]; 0: no history
   int num_steps_ = 0;
   double excess_ = 0;  ///< energy in springs that nothing has put in [J]
   /// What the body's bounds have met in this step.

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include <tbb/parallel_for.h>
+
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/fast_body.hpp>
@@ -349,18 +351,51 @@ void SoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool fo
 void SoftBodySolver::predictMotion(btScalar time_step) {
   const TraceScope trace("predict motion");
   time_step_ = time_step;
+  for_bodies([&](btSoftBody& body, Attachment* attachment) {
+    if (!attachment) return;
+    attachment->add_forces(time_step);
+    if (attachment->fast && !attachment->blow_up) attachment->fast->predict(body, time_step);
+  });
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
-    if (!body.isActive()) continue;
-    if (is_still(body)) continue;
-    Attachment* const attachment = find(body);
-    if (attachment) attachment->add_forces(time_step);
-    if (is_still(body)) continue;  // the forces may have exploded
+    if (!body.isActive() || is_still(body)) continue;  // the forces may have exploded
+    const Attachment* const attachment = find(body);
     if (attachment && attachment->fast) {
-      attachment->fast->predict(body, time_step);
+      attachment->fast->publish_bounds(body);
     } else {
       body.predictMotion(time_step);
     }
+  }
+}
+
+// What touches only the body: several at the same time. Each is one task, whose bits depend on no other.
+void SoftBodySolver::for_bodies(const std::function<void(btSoftBody&, Attachment*)>& work) {
+  tbb::parallel_for(0, m_softBodySet.size(), [&](int i) {
+    btSoftBody& body = *m_softBodySet[i];
+    if (body.isActive() && !is_still(body)) work(body, find(body));
+  });
+}
+
+void SoftBodySolver::solve_fast_bodies() {
+  for_bodies([&](btSoftBody& body, Attachment* attachment) {
+    if (!attachment || !attachment->fast) return;
+    if (ClothContact* contact = find_contact(body)) contact->add_self_contacts(body, time_step_);
+    attachment->fast->begin_solve(body, time_step_);
+  });
+  // Bullet's distance fields are filled as they are asked, one at a time.
+  for (int look = 0; look < FastBody::kMostLooks; ++look) {
+    std::vector<Attachment*> again;
+    for (const auto& attachment : attachments_->list) {
+      if (!attachment->fast || !attachment->was_in_world || is_still(*attachment->body)) continue;
+      if (!attachment->body->isActive()) continue;
+      if (attachment->fast->needs_contacts(*attachment->body, time_step_)) {
+        again.push_back(attachment.get());
+      }
+    }
+    if (again.empty()) break;
+    tbb::parallel_for(std::size_t{0}, again.size(), [&](std::size_t i) {
+      again[i]->fast->solve_again(*again[i]->body, time_step_);
+    });
   }
 }
 
@@ -368,26 +403,24 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
   const TraceScope trace("solve constraints");
   // Velocities decay over the step that predictMotion was given. The argument here is the same time
   // before Bullet rounds it to single precision; to use it would mix two clocks in one step.
+  solve_fast_bodies();
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
     if (!body.isActive() || is_still(body)) continue;
-    if (ClothContact* contact = find_contact(body)) contact->add_self_contacts(body, time_step_);
     Attachment* attachment = find(body);
     if (attachment && attachment->fast) {
-      attachment->fast->solve(body, time_step_);
+      attachment->fast->end_solve(body, time_step_);
     } else {
+      if (ClothContact* contact = find_contact(body)) contact->add_self_contacts(body, time_step_);
       body.solveConstraints();
     }
   }
   settle_contact_velocities();
-  for (int i = 0; i < m_softBodySet.size(); ++i) {
-    btSoftBody& body = *m_softBodySet[i];
-    if (!body.isActive() || is_still(body)) continue;
-    Attachment* attachment = find(body);
-    if (!attachment) continue;
+  for_bodies([&](btSoftBody& body, Attachment* attachment) {
+    if (!attachment) return;
     apply_position_limits(attachment->limits, static_cast<double>(time_step_), body);
     attachment->damp_velocities(time_step_);
-  }
+  });
   for (const auto& attachment : attachments_->list) {
     if (attachment->was_in_world) attachment->time += static_cast<double>(time_step_);
   }
@@ -410,12 +443,11 @@ void SoftBodySolver::settle_contact_velocities() {
 // The last thing that Bullet does in a step: positions and velocities are final.
 void SoftBodySolver::updateSoftBodies() {
   const TraceScope trace("update soft bodies");
-  for (int i = 0; i < m_softBodySet.size(); ++i) {
-    btSoftBody& body = *m_softBodySet[i];
-    if (!body.isActive() || is_still(body)) continue;
-    body.integrateMotion();
-    if (Attachment* attachment = is_deferred_ ? find(body) : nullptr) attachment->begin_forces();
-  }
+  for_bodies([&](btSoftBody& body, Attachment*) { body.integrateMotion(); });
+  if (!is_deferred_) return;
+  for_bodies([&](btSoftBody&, Attachment* attachment) {
+    if (attachment) attachment->begin_forces();
+  });
 }
 
 void SoftBodySolver::processCollision(btSoftBody* body, const btCollisionObjectWrapper* object) {

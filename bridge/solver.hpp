@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -148,6 +149,8 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   [[nodiscard]] Attachment* find(const btSoftBody& body) const;
   [[nodiscard]] ClothContact* find_contact(const btSoftBody& body) const;
   void settle_contact_velocities();
+  void for_bodies(const std::function<void(btSoftBody&, Attachment*)>& work);
+  void solve_fast_bodies();
   /// Has exploded or is suspended.
   [[nodiscard]] bool is_still(const btSoftBody& body) const;
 
