@@ -8,6 +8,7 @@
 
 #include <weft/bridge/energy_limit.hpp>
 #include <weft/bridge/node_state.hpp>
+#include <weft/bridge/node_tree.hpp>
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/trace.hpp>
 
@@ -82,6 +83,9 @@ void FastBody::predict(btSoftBody& body, btScalar time_step) {
   read_nodes(body, starts_, start_velocities_);
   contacts_.clear();
   obstacles_.clear();
+  if (num_steps_++ % kCoveredSteps == 0) {
+    cover_motion(body, start_velocities_, last_velocities_, time_step);
+  }
   // Bullet would tell the broadphase, which all bodies share.
   btBroadphaseProxy* const proxy = body.getBroadphaseHandle();
   body.setBroadphaseHandle(nullptr);
@@ -89,13 +93,11 @@ void FastBody::predict(btSoftBody& body, btScalar time_step) {
   body.setBroadphaseHandle(proxy);
 }
 
-void FastBody::publish_bounds(btSoftBody& body) {
+void FastBody::publish_bounds(btSoftBody& body) const {
   btVector3 low = body.m_bounds[0];
   btVector3 high = body.m_bounds[1];
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    low.setMin(body.m_nodes[i].m_q);
-    high.setMax(body.m_nodes[i].m_q);
-  }
+  low.setMin(to_bullet(starts_.rowwise().minCoeff()));
+  high.setMax(to_bullet(starts_.rowwise().maxCoeff()));
   body.m_bounds[0] = low;
   body.m_bounds[1] = high;
   if (btBroadphaseProxy* const proxy = body.getBroadphaseHandle()) {
@@ -112,6 +114,7 @@ void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& o
 }
 
 bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
+  if (obstacles_.empty()) return false;
   const std::size_t num_known = contacts_.size();
   for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_x = to_bullet(places_.col(i));
   for (const Obstacle& obstacle : obstacles_) {
@@ -245,8 +248,8 @@ bool FastBody::keep_energy(const btSoftBody& body, btScalar time_step) {
   // Springs are only asked when motion does not tell.
   if (now <= given && contacts_.empty() && excess_ == 0) return false;
   const double slack = kEnergySlack * solver_->step_energy();
-  const double stored = solver_->spring_energy(places_, starts_);
-  const double most = given + solver_->spring_energy(starts_, starts_) - excess_ + slack - stored;
+  const double stored = solver_->spring_energy(places_);
+  const double most = given + solver_->spring_energy(starts_) - excess_ + slack - stored;
   const bool is_limited = now > most;
   if (is_limited) {
     const bool keeps_momentum =

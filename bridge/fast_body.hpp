@@ -43,7 +43,7 @@ class FastBody {
   /// bodies may run at the same time.
   void predict(btSoftBody& body, btScalar time_step);
   /// After predict(): bounds that hold the whole way of each node, for the broadphase too.
-  static void publish_bounds(btSoftBody& body);
+  void publish_bounds(btSoftBody& body) const;
   /// In place of btSoftBody::defaultCollisionHandler.
   void collide(const btSoftBody& body, const btCollisionObjectWrapper& object, btScalar time_step);
   /// In place of btSoftBody::solveConstraints, in three parts. The first and the second touch only the body, so that
@@ -95,7 +95,8 @@ class FastBody {
   Matrix3X<btScalar> last_velocities_;
   btScalar inertia_step_ = 0;  ///< [s] of the present step
   btScalar last_step_ = 0;     ///< [s]; 0: no history
-  double excess_ = 0;          ///< energy in springs that nothing has put in [J]
+  int num_steps_ = 0;
+  double excess_ = 0;  ///< energy in springs that nothing has put in [J]
   /// What the body's bounds have met in this step.
   struct Obstacle {
     const btCollisionObject* object;

@@ -361,7 +361,7 @@ void SoftBodySolver::predictMotion(btScalar time_step) {
     if (!body.isActive() || is_still(body)) continue;  // the forces may have exploded
     const Attachment* const attachment = find(body);
     if (attachment && attachment->fast) {
-      FastBody::publish_bounds(body);
+      attachment->fast->publish_bounds(body);
     } else {
       body.predictMotion(time_step);
     }

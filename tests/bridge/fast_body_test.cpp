@@ -225,6 +225,22 @@ TEST(FastBody, HoldsABoxOnAnchors) {
   EXPECT_FALSE(scene.solver().blow_up(scene.body()));
 }
 
+// What Bullet's own collision, and every user of the tree, relies on.
+TEST(FastBody, KeepsEachBoxOfTheTreeInTheNextOne) {
+  Scene scene(cloth(12, 1, 1), {kGravity, law("tension", "stiffness", 300)});
+  scene.set_velocity(btVector3(3, 1, 0));
+  scene.add(std::make_shared<btSphereShape>(btScalar(0.3)), 0, at(0.2, -0.3, 0));
+  for (int step = 0; step < 40; ++step) {
+    scene.step(1);
+    for (int i = 0; i < scene.body().m_nodes.size(); ++i) {
+      for (const btDbvtNode* box = scene.body().m_nodes[i].m_leaf; box->parent != nullptr;
+           box = box->parent) {
+        ASSERT_TRUE(box->parent->volume.Contain(box->volume)) << i;
+      }
+    }
+  }
+}
+
 TEST(FastBody, TakesPinsThatChangeAtRunTime) {
   Scene scene(cloth(8, 1, 1), {kGravity, law("tension", "stiffness", 300)});
   scene.body().m_nodes[0].m_im = 0;
