@@ -22,6 +22,8 @@ int run(int argc, char** argv) {
   benches["bullet"] = bench_bullet;
   benches["fast"] = bench_fast;
   benches["drape"] = bench_drape;
+  benches["scaling"] = bench_scaling;
+  benches["threads"] = bench_threads;
   benches["explosions"] = bench_explosions;
   benches["detail"] = bench_detail;
 #endif
