@@ -271,6 +271,7 @@ bool FastBody::keep_energy(const btSoftBody& body, btScalar time_step) {
 
 // What the last solution needs too: nodes that slide from one facet into the next.
 void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
+  if (!is_contact_missing_) return;
   const std::size_t num_solved = contacts_.size();
   for (int look = 0; look <= kMostLooks && find_missed_contacts(body, time_step); ++look) {
     for (const RigidContact& contact : contacts_) {
@@ -369,9 +370,15 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step) {
   solve(body, time_step, settings_.effort);
 }
 
-bool FastBody::needs_contacts(btSoftBody& body, btScalar time_step) {
+void FastBody::look_again(btSoftBody& body, btScalar time_step) {
   const TraceScope trace("look again");
-  return find_missed_contacts(body, time_step);
+  is_contact_missing_ = find_missed_contacts(body, time_step);
+}
+
+bool FastBody::looks_alone() const {
+  return std::none_of(obstacles_.begin(), obstacles_.end(), [](const Obstacle& obstacle) {
+    return needs_distance_field(*obstacle.shape);
+  });
 }
 
 void FastBody::solve_again(btSoftBody& body, btScalar time_step) {

@@ -49,8 +49,11 @@ class FastBody {
   /// In place of btSoftBody::solveConstraints, in parts. begin_solve() and solve_again() touch only the body, so that
   /// those of several bodies may run at the same time; the others look things up in the world and push rigid bodies.
   void begin_solve(btSoftBody& body, btScalar time_step);
-  /// True if the solution of the body needs more contacts, and solve_again().
-  [[nodiscard]] bool needs_contacts(btSoftBody& body, btScalar time_step);
+  /// Looks for contacts that the solution needs: is_contact_missing() says whether it found any.
+  void look_again(btSoftBody& body, btScalar time_step);
+  [[nodiscard]] bool is_contact_missing() const { return is_contact_missing_; }
+  /// Whether look_again() touches only the body too.
+  [[nodiscard]] bool looks_alone() const;
   void solve_again(btSoftBody& body, btScalar time_step);
   /// Writes the solution to m_x. Contacts with cloth are projected then, over all bodies, as often as
   /// kClothContactSweeps says, for what one body does to another would be lost otherwise.
@@ -59,7 +62,7 @@ class FastBody {
   static constexpr int kClothContactSweeps = 8;
   /// Velocities from m_x.
   void end_solve(btSoftBody& body, btScalar time_step);
-  /// How often needs_contacts() is asked.
+  /// How often look_again() is called.
   static constexpr int kMostLooks = 2;
 
   [[nodiscard]] int num_contacts() const { return static_cast<int>(contacts_.size()); }
@@ -101,7 +104,8 @@ class FastBody {
   btScalar inertia_step_ = 0;  ///< [s] of the present step
   btScalar last_step_ = 0;     ///< [s]; 0: no history
   int num_steps_ = 0;
-  double excess_ = 0;  ///< energy in springs that nothing has put in [J]
+  double excess_ = 0;                ///< energy in springs that nothing has put in [J]
+  bool is_contact_missing_ = false;  ///< in the present solution, for all that is known
   /// What the body's bounds have met in this step.
   struct Obstacle {
     const btCollisionObject* object;

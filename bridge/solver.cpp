@@ -1,7 +1,6 @@
 #include <weft/bridge/solver.hpp>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -394,13 +393,16 @@ void SoftBodySolver::solve_fast_bodies() {
     }
     one.fast->begin_solve(*one.body, time_step_);
   });
-  // Bullet's distance fields are filled as they are asked, one at a time.
-  for (int look = 0; look < FastBody::kMostLooks; ++look) {
-    std::vector<Attachment*> again;
-    std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(again), [&](Attachment* one) {
-      return one->fast->needs_contacts(*one->body, time_step_);
+  std::vector<Attachment*> asked = bodies;
+  for (int look = 0; look < FastBody::kMostLooks && !asked.empty(); ++look) {
+    in_parallel(asked, [&](Attachment& one) {
+      if (one.fast->looks_alone()) one.fast->look_again(*one.body, time_step_);
     });
-    in_parallel(again, [&](Attachment& one) { one.fast->solve_again(*one.body, time_step_); });
+    for (Attachment* one : asked) {
+      if (!one->fast->looks_alone()) one->fast->look_again(*one->body, time_step_);
+    }
+    std::erase_if(asked, [](const Attachment* one) { return !one->fast->is_contact_missing(); });
+    in_parallel(asked, [&](Attachment& one) { one.fast->solve_again(*one.body, time_step_); });
   }
   for (Attachment* one : bodies) one->fast->place(*one->body, time_step_);
   const bool meet = std::any_of(bodies.begin(), bodies.end(), [](const Attachment* one) {
