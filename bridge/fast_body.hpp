@@ -7,6 +7,7 @@
 
 #include <BulletSoftBody/btSoftBody.h>
 
+#include <weft/bridge/body_sleep.hpp>
 #include <weft/bridge/fast_settings.hpp>
 #include <weft/bridge/precision.hpp>
 #include <weft/bridge/rigid_contacts.hpp>
@@ -37,7 +38,28 @@ class FastBody {
   [[nodiscard]] static std::optional<std::string> obstacle(const btSoftBody& body);
 
   [[nodiscard]] const FastSettings& settings() const { return settings_; }
-  void set_settings(const FastSettings& settings) { settings_ = settings; }
+  void set_settings(const FastSettings& settings) {
+    settings_ = settings;
+    wake();
+  }
+
+  /// A body that sleeps is not to be stepped: only these are called.
+  [[nodiscard]] bool is_asleep() const { return sleep_.is_asleep(); }
+  [[nodiscard]] bool is_at_rest() const { return sleep_.is_at_rest(settings_); }
+  void wake() {
+    sleep_.wake();
+    last_step_ = 0;
+  }
+  void begin_step(const btSoftBody& body) {
+    if (sleep_.begin_step(body)) last_step_ = 0;
+  }
+  void meet(const btCollisionObject& object, const btTransform& place) {
+    sleep_.meet(object, place);
+  }
+  void meet_cloth(bool is_at_rest) { sleep_.meet_cloth(is_at_rest); }
+  void end_step(btSoftBody& body, btScalar time_step) {
+    sleep_.end_step(body, time_step, settings_);
+  }
 
   /// btSoftBody::predictMotion. Touches only the body, but not its entry in the broadphase: predictions of several
   /// bodies may run at the same time.
@@ -91,6 +113,7 @@ class FastBody {
   std::vector<bool> is_free_;
   btScalar solver_step_ = 0;  ///< [s] of the steps that solver_ was made for
 
+  BodySleep sleep_;
   // Of the present step, 3 x n.
   Matrix3X<btScalar> starts_;            ///< q [m]
   Matrix3X<btScalar> start_velocities_;  ///< v [m/s]

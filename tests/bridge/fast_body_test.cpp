@@ -37,7 +37,7 @@ ClothMesh cloth(int n, double size, double height, double mass = 0.25) {
 class Scene {
  public:
   explicit Scene(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
-                 double friction = 0.5, const FastSettings& fast = {})
+                 double friction = 0.5, const FastSettings& fast = {.may_sleep = false})
       : world_(SoftWorldSettings{}),
         masses_(mesh.masses),
         body_(&world_.add(make_cloth_body(world_.info(), mesh,
@@ -70,6 +70,7 @@ class Scene {
   [[nodiscard]] Vector3<double> momentum() const { return velocities() * masses_; }
   [[nodiscard]] btSoftBody& body() { return *body_; }
   [[nodiscard]] SoftBodySolver& solver() { return world_.solver(); }
+  [[nodiscard]] SoftWorld& world() { return world_; }
 
  private:
   [[nodiscard]] std::pair<Matrix3X<double>, Matrix3X<double>> read() const {
@@ -249,6 +250,76 @@ TEST(FastBody, TakesPinsThatChangeAtRunTime) {
   scene.body().m_nodes[0].m_im = scene.body().m_nodes[63].m_im;
   scene.step(30);
   EXPECT_LT(scene.positions()(1, 0), 0.9);
+}
+
+/// A cloth that has fallen on a box, and sleeps.
+class SleepingCloth : public testing::Test {
+ protected:
+  SleepingCloth()
+      : scene_(cloth(9, 1, 0.05),
+               {kGravity, law("tension", "stiffness", 100), law("velocity_damping", "rate", 2)},
+               0.5, FastSettings{}),
+        box_(scene_.add(box(1, 0.1, 1), 0, at(0, -0.1, 0))) {
+    scene_.step(300);
+  }
+  [[nodiscard]] bool is_asleep() { return scene_.solver().is_asleep(scene_.body()); }
+
+  Scene scene_;
+  btRigidBody& box_;
+};
+
+TEST_F(SleepingCloth, StaysWhereItIs) {
+  ASSERT_TRUE(is_asleep());
+  const Matrix3X<double> before = scene_.positions();
+  scene_.step(100);
+  EXPECT_TRUE(is_asleep());
+  EXPECT_EQ(scene_.positions(), before);
+}
+
+TEST_F(SleepingCloth, WakesByForceVelocityAndCall) {
+  scene_.body().addForce(btVector3(0, 1, 0), 4);
+  scene_.step();
+  EXPECT_FALSE(is_asleep());
+  EXPECT_GT(scene_.velocities()(1, 4), 0);
+  scene_.step(300);
+  ASSERT_TRUE(is_asleep());
+  scene_.set_velocity(btVector3(0.5, 0, 0));
+  scene_.step();
+  EXPECT_FALSE(is_asleep());
+  scene_.step(300);
+  ASSERT_TRUE(is_asleep());
+  scene_.solver().wake(scene_.body());
+  EXPECT_FALSE(is_asleep());
+}
+
+TEST_F(SleepingCloth, WakesWhenAPinChanges) {
+  scene_.body().m_nodes[0].m_im = 0;
+  scene_.step();
+  EXPECT_FALSE(is_asleep());
+}
+
+TEST_F(SleepingCloth, WakesWhenABallFallsOnIt) {
+  scene_.add(std::make_shared<btSphereShape>(btScalar(0.1)), 1.0, at(0, 0.5, 0));
+  scene_.step(60);
+  EXPECT_FALSE(is_asleep());
+}
+
+TEST_F(SleepingCloth, FallsWhenWhatItLiesOnIsTakenAway) {
+  box_.setWorldTransform(at(0, -5, 0));
+  scene_.world().world().updateSingleAabb(&box_);
+  scene_.step(30);
+  EXPECT_FALSE(is_asleep());
+  EXPECT_LT(scene_.mean_velocity()[1], -1.0);
+}
+
+TEST(FastBody, DoesNotSleepWhileItSwings) {
+  ClothMesh mesh = cloth(9, 1, 1);
+  mesh.pinned = {0, 8};
+  Scene scene(mesh, {kGravity, law("tension", "stiffness", 100)}, 0.5, FastSettings{});
+  for (int step = 0; step < 300; ++step) {
+    scene.step();
+    ASSERT_FALSE(scene.solver().is_asleep(scene.body())) << step;
+  }
 }
 
 TEST(FastBody, SaysWhyABodyIsNotFast) {
