@@ -27,6 +27,8 @@ void bench_drape(const Settings& settings);
 void bench_scaling(const Settings& settings);
 /// Whole worlds on one and two threads, and what a step is made of.
 void bench_threads(const Settings& settings);
+/// The worst frame of a cloth that tears.
+void bench_tear(const Settings& settings);
 /// Random cloths, thrown and pulled: how many explode with the fast solver and with Bullet's links.
 void bench_explosions(const Settings& settings);
 /// A step of a character's cape at each level of detail.

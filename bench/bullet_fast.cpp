@@ -134,7 +134,7 @@ std::vector<Contender> contenders(const Workload& workload) {
     list.push_back(
         {"bullet_reordered", std::to_string(iterations), Run::links(workload, iterations, true)});
   }
-  for (const auto [rounds, iterations] :
+  for (const auto& [rounds, iterations] :
        {std::pair{1, 1}, {1, 2}, {1, 3}, {2, 2}, {2, 3}, {2, 6}}) {
     const bridge::FastSettings settings{.effort = {rounds, iterations}};
     list.push_back({"weft", std::to_string(rounds) + "x" + std::to_string(iterations),
@@ -149,10 +149,15 @@ void measure(const Workload& workload, ResultFile& file) {
   std::vector<Contender> list = contenders(workload);
   std::unique_ptr<Run> reference;
   if (workload.reference_steps > 0) reference = Run::laws(workload);
+  std::vector<double> reference_times;
   tbb::task_arena arena(1);
   arena.execute([&] {
     for (int step = 0; step < workload.num_steps; ++step) {
-      if (reference) reference->step();
+      if (reference) {
+        const double start = processor_time();
+        reference->step();
+        reference_times.push_back(processor_time() - start);
+      }
       for (Contender& c : list) {
         const double start = processor_time();
         c.run->step();
@@ -166,6 +171,13 @@ void measure(const Workload& workload, ResultFile& file) {
   });
   const double bullet = median(list.front().times);
   const auto error = [&](double value) { return reference ? three_digits(value) : std::string(); };
+  if (reference) {
+    const auto [largest, mean] = reference->stretch();
+    const double time = median(reference_times);
+    file.add({workload.name, "bullet_forces", std::to_string(workload.reference_steps),
+              three_digits(time), three_digits(time / bullet), "", "", three_digits(100 * largest),
+              three_digits(100 * mean)});
+  }
   for (Contender& c : list) {
     const auto [largest, mean] = c.run->stretch();
     const double time = median(c.times);
