@@ -7,9 +7,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 COLORS = {"bullet": "#b3402e", "bullet_reordered": "#d98c3f", "weft": "#1f5f99", "weft_euler": "#6aa5d6",
-          "bullet_forces": "#5b7f3b"}
+          "bullet_forces": "#5b7f3b", "bullet_substeps": "#8c5fa8"}
 NAMES = {"bullet": "Bullet's links", "bullet_reordered": "the same, reordered", "weft": "bullet_weft",
-         "weft_euler": "bullet_weft, Euler", "bullet_forces": "bullet_forces, explicit"}
+         "weft_euler": "bullet_weft, Euler", "bullet_forces": "bullet_forces, explicit",
+         "bullet_substeps": "Bullet's links, 4 steps"}
 WIDTH, HEIGHT = 330, 250
 LEFT, RIGHT, TOP, BOTTOM = 58, 16, 30, 42
 
@@ -69,9 +70,11 @@ class Panel:
                   extra=f'transform="rotate(-90 {self.x + 14} {(TOP + HEIGHT - BOTTOM) / 2})"')
 
     def series(self, points, color):
+        """All points; a line through those that nothing beats at their cost."""
         places = [self.place(*point) for point in points]
-        path = " ".join(f"{x:.1f},{y:.1f}" for x, y in places)
-        if len(places) > 1:
+        front = [point for point in points if all(other[1] >= point[1] for other in points if other[0] <= point[0])]
+        path = " ".join("{:.1f},{:.1f}".format(*self.place(*point)) for point in sorted(front))
+        if len(front) > 1:
             self.parts.append(f'<polyline points="{path}" fill="none" stroke="{color}" stroke-width="1.6"/>')
         self.parts += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.2" fill="{color}"/>' for x, y in places]
 
