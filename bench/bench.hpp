@@ -23,6 +23,12 @@ void bench_bullet(const Settings& settings);
 void bench_fast(const Settings& settings);
 /// Where damped cloths come to rest at several time steps and efforts.
 void bench_drape(const Settings& settings);
+/// One cloth of 1 thousand to 1 million nodes: time and memory per node.
+void bench_scaling(const Settings& settings);
+/// Whole worlds on one and two threads, and what a step is made of.
+void bench_threads(const Settings& settings);
+/// The worst frame of a cloth that tears.
+void bench_tear(const Settings& settings);
 /// Random cloths, thrown and pulled: how many explode with the fast solver and with Bullet's links.
 void bench_explosions(const Settings& settings);
 /// A step of a character's cape at each level of detail.

@@ -22,6 +22,9 @@ int run(int argc, char** argv) {
   benches["bullet"] = bench_bullet;
   benches["fast"] = bench_fast;
   benches["drape"] = bench_drape;
+  benches["scaling"] = bench_scaling;
+  benches["tear"] = bench_tear;
+  benches["threads"] = bench_threads;
   benches["explosions"] = bench_explosions;
   benches["detail"] = bench_detail;
 #endif

@@ -20,8 +20,6 @@ namespace {
 constexpr btScalar kInertiaStep = btScalar(0.816496580927726);  // sqrt(2 / 3)
 /// A step may be longer or shorter than that of the factor by this before it is made anew.
 constexpr btScalar kStepRatio = btScalar(1.3);
-/// How often contacts between cloths are projected at the end of a step.
-constexpr int kClothContactSweeps = 8;
 /// Of m |y - q|^2 / (2 h^2), what a step may gain: rounding, and BDF2 gives back a little of what it took before.
 constexpr double kEnergySlack = 0.01;
 
@@ -113,28 +111,39 @@ void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& o
   add_rigid_contacts(body, object, time_step, contacts_);
 }
 
+// Those that are known again, and those that the solution keeps to anyway, are left out.
 bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
   if (obstacles_.empty()) return false;
   const std::size_t num_known = contacts_.size();
   for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_x = to_bullet(places_.col(i));
+  found_.clear();
   for (const Obstacle& obstacle : obstacles_) {
     const btCollisionObjectWrapper object(nullptr, obstacle.shape, obstacle.object, obstacle.place,
                                           -1, -1);
-    add_rigid_contacts(body, object, time_step, contacts_);
+    add_rigid_contacts(body, object, time_step, found_);
   }
-  // Those that are known again, and those that the solution keeps to anyway.
-  const auto is_superfluous = [&](const RigidContact& found) {
-    if (btDot(found.normal, body.m_nodes[found.node].m_x) >= found.offset) return true;
-    return std::any_of(contacts_.begin(),
-                       contacts_.begin() + static_cast<std::ptrdiff_t>(num_known),
-                       [&](const RigidContact& known) {
-                         return known.node == found.node && known.object == found.object &&
-                                known.shape == found.shape;
-                       });
+  std::erase_if(found_, [&](const RigidContact& found) {
+    return btDot(found.normal, body.m_nodes[found.node].m_x) >= found.offset;
+  });
+  if (found_.empty()) return false;
+  last_contact_.assign(static_cast<std::size_t>(body.m_nodes.size()), -1);
+  contact_before_.resize(num_known);
+  for (std::size_t c = 0; c < num_known; ++c) {
+    int& last = last_contact_[static_cast<std::size_t>(contacts_[c].node)];
+    contact_before_[c] = last;
+    last = static_cast<int>(c);
+  }
+  const auto is_known = [&](const RigidContact& found) {
+    for (int c = last_contact_[static_cast<std::size_t>(found.node)]; c >= 0;
+         c = contact_before_[static_cast<std::size_t>(c)]) {
+      const RigidContact& known = contacts_[static_cast<std::size_t>(c)];
+      if (known.object == found.object && known.shape == found.shape) return true;
+    }
+    return false;
   };
-  contacts_.erase(std::remove_if(contacts_.begin() + static_cast<std::ptrdiff_t>(num_known),
-                                 contacts_.end(), is_superfluous),
-                  contacts_.end());
+  for (const RigidContact& found : found_) {
+    if (!is_known(found)) contacts_.push_back(found);
+  }
   return contacts_.size() > num_known;
 }
 
@@ -224,7 +233,7 @@ void FastBody::give_impulses(btSoftBody& body, btScalar time_step) {
 
 // What does that work is not known: pins and anchors that lead, obstacles that move, other cloth.
 bool FastBody::gets_work_from_outside(const btSoftBody& body) const {
-  if (!led_.empty() || body.m_scontacts.size() > 0) return true;
+  if (!led_.empty()) return true;
   for (const RigidContact& contact : contacts_) {
     if (contact.motion.length2() > 0 || movable(contact.object) != nullptr) return true;
   }
@@ -262,6 +271,7 @@ bool FastBody::keep_energy(const btSoftBody& body, btScalar time_step) {
 
 // What the last solution needs too: nodes that slide from one facet into the next.
 void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
+  if (!is_contact_missing_) return;
   const std::size_t num_solved = contacts_.size();
   for (int look = 0; look <= kMostLooks && find_missed_contacts(body, time_step); ++look) {
     for (const RigidContact& contact : contacts_) {
@@ -279,26 +289,37 @@ void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
 
 // The solution counts on a body that gives way at once. Bullet has moved it before, and moves it next by the impulse
 // that it gets now: until then nodes stand where it is, with the velocities of the solution.
-void FastBody::stay_outside(btSoftBody& body) const {
+void FastBody::stay_outside(btSoftBody& body, bool of_movable) const {
   for (const RigidContact& contact : contacts_) {
-    if (movable(contact.object) == nullptr) continue;
+    if ((movable(contact.object) != nullptr) != of_movable) continue;
     btSoftBody::Node& node = body.m_nodes[contact.node];
     const btScalar gap = btDot(contact.normal, node.m_x) - contact.offset;
-    if (gap < 0) node.m_x -= gap * contact.normal;
+    if (gap < 0 && node.m_im > 0) node.m_x -= gap * contact.normal;
   }
 }
 
-void FastBody::write_back(btSoftBody& body, btScalar time_step, btScalar inertia_step) {
+void FastBody::place(btSoftBody& body, btScalar time_step) {
+  keep_out_of_missed(body, time_step);
+  give_impulses(body, time_step);
   for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_x = to_bullet(places_.col(i));
-  const bool meets_cloth = body.m_scontacts.size() > 0;
-  if (meets_cloth) {
-    for (int sweep = 0; sweep < kClothContactSweeps; ++sweep) {
-      btSoftBody::PSolve_SContacts(&body, 1, 0);
-    }
-    for (int i = 0; i < body.m_nodes.size(); ++i) places_.col(i) = from_bullet(body.m_nodes[i].m_x);
+}
+
+void FastBody::project_cloth_contacts(btSoftBody& body) {
+  if (body.m_scontacts.size() > 0) btSoftBody::PSolve_SContacts(&body, 1, 0);
+  stay_outside(body, false);
+}
+
+void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
+  const TraceScope trace("write back");
+  bool meets_cloth = body.m_scontacts.size() > 0;
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    const Vector3<btScalar> place = from_bullet(body.m_nodes[i].m_x);
+    meets_cloth = meets_cloth || place != places_.col(i);  // another body's contact has moved it
+    places_.col(i) = place;
   }
-  velocities_ = (places_ - origins_) / inertia_step;
-  const bool is_limited = keep_energy(body, time_step);
+  velocities_ = (places_ - origins_) / inertia_step_;
+  if (meets_cloth) excess_ = 0;
+  const bool is_limited = !meets_cloth && keep_energy(body, time_step);
   for (int i = 0; i < body.m_nodes.size(); ++i) {
     btSoftBody::Node& node = body.m_nodes[i];
     node.m_f.setZero();
@@ -308,7 +329,7 @@ void FastBody::write_back(btSoftBody& body, btScalar time_step, btScalar inertia
       node.m_v = (node.m_x - node.m_q) / time_step;
     }
   }
-  stay_outside(body);
+  stay_outside(body, true);
   const bool met_something = !contacts_.empty() || meets_cloth;
   last_step_ = met_something || is_limited ? btScalar(0) : time_step;
 }
@@ -349,21 +370,20 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step) {
   solve(body, time_step, settings_.effort);
 }
 
-bool FastBody::needs_contacts(btSoftBody& body, btScalar time_step) {
+void FastBody::look_again(btSoftBody& body, btScalar time_step) {
   const TraceScope trace("look again");
-  return find_missed_contacts(body, time_step);
+  is_contact_missing_ = find_missed_contacts(body, time_step);
+}
+
+bool FastBody::looks_alone() const {
+  return std::none_of(obstacles_.begin(), obstacles_.end(), [](const Obstacle& obstacle) {
+    return needs_distance_field(*obstacle.shape);
+  });
 }
 
 void FastBody::solve_again(btSoftBody& body, btScalar time_step) {
   const TraceScope trace("fast body");
   solve(body, time_step, {1, settings_.effort.iterations});
-}
-
-void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
-  const TraceScope trace("write back");
-  keep_out_of_missed(body, time_step);
-  give_impulses(body, time_step);
-  write_back(body, time_step, inertia_step_);
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -68,14 +68,23 @@ class FastBody {
   void publish_bounds(btSoftBody& body) const;
   /// In place of btSoftBody::defaultCollisionHandler.
   void collide(const btSoftBody& body, const btCollisionObjectWrapper& object, btScalar time_step);
-  /// In place of btSoftBody::solveConstraints, in three parts. The first and the second touch only the body, so that
+  /// In place of btSoftBody::solveConstraints, in parts. begin_solve() and solve_again() touch only the body, so that
   /// those of several bodies may run at the same time; the others look things up in the world and push rigid bodies.
   void begin_solve(btSoftBody& body, btScalar time_step);
-  /// True if the solution of the body needs more contacts, and solve_again().
-  [[nodiscard]] bool needs_contacts(btSoftBody& body, btScalar time_step);
+  /// Looks for contacts that the solution needs: is_contact_missing() says whether it found any.
+  void look_again(btSoftBody& body, btScalar time_step);
+  [[nodiscard]] bool is_contact_missing() const { return is_contact_missing_; }
+  /// Whether look_again() touches only the body too.
+  [[nodiscard]] bool looks_alone() const;
   void solve_again(btSoftBody& body, btScalar time_step);
+  /// Writes the solution to m_x. Contacts with cloth are projected then, over all bodies, as often as
+  /// kClothContactSweeps says, for what one body does to another would be lost otherwise.
+  void place(btSoftBody& body, btScalar time_step);
+  void project_cloth_contacts(btSoftBody& body);
+  static constexpr int kClothContactSweeps = 8;
+  /// Velocities from m_x.
   void end_solve(btSoftBody& body, btScalar time_step);
-  /// How often needs_contacts() is asked.
+  /// How often look_again() is called.
   static constexpr int kMostLooks = 2;
 
   [[nodiscard]] int num_contacts() const { return static_cast<int>(contacts_.size()); }
@@ -91,9 +100,8 @@ class FastBody {
   [[nodiscard]] bool find_missed_contacts(btSoftBody& body, btScalar time_step);
   void read_constraints(const btSoftBody& body);
   void give_impulses(btSoftBody& body, btScalar time_step);
-  void write_back(btSoftBody& body, btScalar time_step, btScalar inertia_step);
   void keep_out_of_missed(btSoftBody& body, btScalar time_step);
-  void stay_outside(btSoftBody& body) const;
+  void stay_outside(btSoftBody& body, bool of_movable) const;
   [[nodiscard]] bool gets_work_from_outside(const btSoftBody& body) const;
   /// True if velocities_ had to be slowed down.
   bool keep_energy(const btSoftBody& body, btScalar time_step);
@@ -119,7 +127,8 @@ class FastBody {
   btScalar inertia_step_ = 0;  ///< [s] of the present step
   btScalar last_step_ = 0;     ///< [s]; 0: no history
   int num_steps_ = 0;
-  double excess_ = 0;  ///< energy in springs that nothing has put in [J]
+  double excess_ = 0;                ///< energy in springs that nothing has put in [J]
+  bool is_contact_missing_ = false;  ///< in the present solution, for all that is known
   /// What the body's bounds have met in this step.
   struct Obstacle {
     const btCollisionObject* object;
@@ -128,6 +137,9 @@ class FastBody {
   };
   std::vector<Obstacle> obstacles_;
   std::vector<RigidContact> contacts_;
+  std::vector<RigidContact> found_;  ///< of a second look
+  std::vector<int> last_contact_;    ///< of each node, or -1; contact_before_: the one before it
+  std::vector<int> contact_before_;
   std::vector<fast::PlaneContact<btScalar>> plane_contacts_;
   std::vector<fast::LedNode<btScalar>> led_;
 };

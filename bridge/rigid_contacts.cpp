@@ -1,8 +1,11 @@
 #include <weft/bridge/rigid_contacts.hpp>
 
 #include <optional>
+#include <utility>
 
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -52,9 +55,43 @@ std::optional<RigidContact> stop_on_the_way(const btCollisionObjectWrapper& obje
   return contact;
 }
 
+/// Balls and boxes, whose distance takes no field: exactly, and from several threads at the same time. A box is as
+/// large as with its margin. Signed distance [m] and direction out of the shape, in its frame.
+std::optional<std::pair<btScalar, btVector3>> exact_distance(const btCollisionShape& shape,
+                                                             const btVector3& local) {
+  if (shape.getShapeType() == SPHERE_SHAPE_PROXYTYPE) {
+    const btScalar length = local.length();
+    const btScalar radius = static_cast<const btSphereShape&>(shape).getRadius();
+    const btVector3 out = length > 0 ? local / length : btVector3(0, 1, 0);
+    return std::pair{length - radius, out};
+  }
+  if (shape.getShapeType() != BOX_SHAPE_PROXYTYPE) return std::nullopt;
+  const btVector3 half = static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin();
+  const btVector3 beyond = local.absolute() - half;
+  const int axis = beyond.maxAxis();
+  btVector3 out(0, 0, 0);
+  if (beyond[axis] <= 0) {
+    out[axis] = btScalar(local[axis] < 0 ? -1 : 1);
+    return std::pair{beyond[axis], out};
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (beyond[k] > 0) out[k] = local[k] < 0 ? -beyond[k] : beyond[k];
+  }
+  const btScalar distance = out.length();
+  return std::pair{distance, out / distance};
+}
+
 std::optional<RigidContact> near_surface(const btSoftBody& body,
                                          const btCollisionObjectWrapper& object,
                                          const btVector3& place, btScalar margin) {
+  const btTransform& frame = object.getWorldTransform();
+  if (const auto exact = exact_distance(*object.getCollisionShape(), frame.invXform(place))) {
+    if (exact->first >= 2 * margin) return std::nullopt;
+    RigidContact contact;
+    contact.normal = frame.getBasis() * exact->second;
+    contact.offset = btDot(contact.normal, place) - exact->first + margin;
+    return contact;
+  }
   btSoftBody::sCti found;
   if (!body.checkContact(&object, place, 2 * margin, found)) return std::nullopt;
   RigidContact contact;
@@ -64,6 +101,10 @@ std::optional<RigidContact> near_surface(const btSoftBody& body,
 }
 
 }  // namespace
+
+bool needs_distance_field(const btCollisionShape& shape) {
+  return !exact_distance(shape, btVector3(0, 0, 0));
+}
 
 void add_rigid_contacts(const btSoftBody& body, const btCollisionObjectWrapper& object,
                         btScalar time_step, std::vector<RigidContact>& contacts) {

@@ -20,11 +20,15 @@ struct RigidContact {
   const btCollisionShape* shape = nullptr;  ///< the part of the object that it is with
 };
 
+/// False for balls and boxes: contacts with these may be looked for from several threads at the same time. Bullet's
+/// distance field of other shapes is filled as it is asked.
+[[nodiscard]] bool needs_distance_field(const btCollisionShape& shape);
+
 /// Appends the contacts of a body's nodes with an object, between btSoftBody::predictMotion and
 /// solveConstraints of a step of time_step [s].
 ///
-/// Nodes are looked up in Bullet's distance field of the shape at the predicted place, as Bullet does,
-/// up to twice the collision margin. A node that travels farther than the margin is followed along
+/// Nodes are looked up at the predicted place, up to twice the collision margin: in Bullet's distance field of the
+/// shape, as Bullet does, or exactly. A node that travels farther than the margin is followed along
 /// its way, relative to the object, and stopped at the surface that it meets first: however thin the
 /// object, it is not shot through. Pinned and anchored nodes are left out.
 void add_rigid_contacts(const btSoftBody& body, const btCollisionObjectWrapper& object,

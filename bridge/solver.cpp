@@ -285,26 +285,41 @@ void SoftBodySolver::for_bodies(const std::function<void(btSoftBody&, Attachment
 }
 
 void SoftBodySolver::solve_fast_bodies() {
-  for_bodies([&](btSoftBody& body, Attachment* attachment) {
-    if (!attachment || !attachment->fast) return;
-    if (ClothContact* contact = find_contact(body)) contact->add_self_contacts(body, time_step_);
-    attachment->fast->begin_solve(body, time_step_);
-  });
-  // Bullet's distance fields are filled as they are asked, one at a time.
-  for (int look = 0; look < FastBody::kMostLooks; ++look) {
-    std::vector<Attachment*> again;
-    for (const auto& attachment : attachments_->list) {
-      if (!attachment->fast || !attachment->was_in_world || is_still(*attachment->body)) continue;
-      if (!attachment->body->isActive()) continue;
-      if (attachment->fast->needs_contacts(*attachment->body, time_step_)) {
-        again.push_back(attachment.get());
-      }
+  std::vector<Attachment*> bodies;
+  for (const auto& attachment : attachments_->list) {
+    const bool is_stepped = attachment->was_in_world && attachment->body->isActive();
+    if (attachment->fast && is_stepped && !is_still(*attachment->body)) {
+      bodies.push_back(attachment.get());
     }
-    if (again.empty()) break;
-    tbb::parallel_for(std::size_t{0}, again.size(), [&](std::size_t i) {
-      again[i]->fast->solve_again(*again[i]->body, time_step_);
-    });
   }
+  const auto in_parallel = [&](const std::vector<Attachment*>& list, const auto& work) {
+    tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) { work(*list[i]); });
+  };
+  in_parallel(bodies, [&](Attachment& one) {
+    if (ClothContact* contact = find_contact(*one.body)) {
+      contact->add_self_contacts(*one.body, time_step_);
+    }
+    one.fast->begin_solve(*one.body, time_step_);
+  });
+  std::vector<Attachment*> asked = bodies;
+  for (int look = 0; look < FastBody::kMostLooks && !asked.empty(); ++look) {
+    in_parallel(asked, [&](Attachment& one) {
+      if (one.fast->looks_alone()) one.fast->look_again(*one.body, time_step_);
+    });
+    for (Attachment* one : asked) {
+      if (!one->fast->looks_alone()) one->fast->look_again(*one->body, time_step_);
+    }
+    std::erase_if(asked, [](const Attachment* one) { return !one->fast->is_contact_missing(); });
+    in_parallel(asked, [&](Attachment& one) { one.fast->solve_again(*one.body, time_step_); });
+  }
+  for (Attachment* one : bodies) one->fast->place(*one->body, time_step_);
+  const bool meet = std::any_of(bodies.begin(), bodies.end(), [](const Attachment* one) {
+    return one->body->m_scontacts.size() > 0;
+  });
+  for (int sweep = 0; meet && sweep < FastBody::kClothContactSweeps; ++sweep) {
+    for (Attachment* one : bodies) one->fast->project_cloth_contacts(*one->body);
+  }
+  in_parallel(bodies, [&](Attachment& one) { one.fast->end_solve(*one.body, time_step_); });
 }
 
 void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
@@ -314,14 +329,9 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
   solve_fast_bodies();
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
-    if (!body.isActive() || is_still(body)) continue;
-    Attachment* attachment = find(body);
-    if (attachment && attachment->fast) {
-      attachment->fast->end_solve(body, time_step_);
-    } else {
-      if (ClothContact* contact = find_contact(body)) contact->add_self_contacts(body, time_step_);
-      body.solveConstraints();
-    }
+    if (!body.isActive() || is_still(body) || is_fast(body)) continue;
+    if (ClothContact* contact = find_contact(body)) contact->add_self_contacts(body, time_step_);
+    body.solveConstraints();
   }
   settle_contact_velocities();
   for_bodies([&](btSoftBody& body, Attachment* attachment) {
