@@ -90,6 +90,8 @@ const std::array kCases = {
              &plan_stiffness_map, &evaluate_stiffness_map, Tier::kNightly},
     CaseInfo{"sliding_cloth", "A sliding cloth stops where Coulomb's law says", &plan_sliding_cloth,
              &evaluate_sliding_cloth},
+    CaseInfo{"collision_sweep", "A cloth comes to rest on ten bodies, in three resolutions",
+             &plan_collision_sweep, &evaluate_collision_sweep, Tier::kNightly},
     CaseInfo{"explosion", "Explicit Euler explodes, and is reported as data", &plan_explosion,
              &evaluate_explosion},
     CaseInfo{"work_precision",
