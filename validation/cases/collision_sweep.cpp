@@ -212,7 +212,7 @@ Picture picture_of(const Comparison& of) {
   options.height = 240;
   const scenes::SceneState& frame = of.reference.back();
   return {of.row.id, fmt::format("t = {:.2f} s, reference", frame.time),
-          scenes::encode_png(renderer.render(frame, options, nullptr))};
+          scenes::encode_jpeg(renderer.render(frame, options, nullptr))};
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ Picture draw(scenes::Renderer& renderer, const History& history, const scenes::S
   Picture picture;
   picture.title = history.engine.title();
   picture.caption = fmt::format("t = {:.2f} s", frame.time);
-  picture.png = scenes::encode_png(renderer.render(frame, options_for(style), field));
+  picture.image = scenes::encode_jpeg(renderer.render(frame, options_for(style), field));
   return picture;
 }
 
