@@ -92,6 +92,8 @@ const std::array kCases = {
              &evaluate_sliding_cloth},
     CaseInfo{"collision_sweep", "A cloth comes to rest on ten bodies, in three resolutions",
              &plan_collision_sweep, &evaluate_collision_sweep, Tier::kNightly},
+    CaseInfo{"cusick", "Discs of cloth drape over a smaller disc, eight times each", nullptr,
+             &evaluate_cusick, Tier::kNightly},
     CaseInfo{"explosion", "Explicit Euler explodes, and is reported as data", &plan_explosion,
              &evaluate_explosion},
     CaseInfo{"work_precision",
