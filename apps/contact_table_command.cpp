@@ -72,7 +72,7 @@ Action add_contact_table_command(CLI::App& parser) {
       "Throw a cloth at every kind of collider: how deep its nodes go, how many pass");
   auto options = std::make_shared<TableOptions>();
   command->add_option("-e,--engine", options->engine, "Which engine simulates")
-      ->check(CLI::IsMember({"bullet_soft"}))
+      ->check(CLI::IsMember({"bullet_soft", "bullet_forces", "bullet_weft"}))
       ->capture_default_str();
   command->add_option("-o,--out", options->markdown, "Write the table here, as Markdown");
   command->add_option("--csv", options->csv, "Write every run here, one line each");

@@ -21,6 +21,10 @@ void bench_frame(const Settings& settings);
 void bench_bullet(const Settings& settings);
 /// Bullet's links against the fast solver: time and error in the same run.
 void bench_fast(const Settings& settings);
+/// Where damped cloths come to rest at several time steps and efforts.
+void bench_drape(const Settings& settings);
+/// Random cloths, thrown and pulled: how many explode with the fast solver and with Bullet's links.
+void bench_explosions(const Settings& settings);
 /// A step of a character's cape at each level of detail.
 void bench_detail(const Settings& settings);
 #endif

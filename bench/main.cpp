@@ -21,6 +21,8 @@ int run(int argc, char** argv) {
 #ifdef WEFT_WITH_BULLET
   benches["bullet"] = bench_bullet;
   benches["fast"] = bench_fast;
+  benches["drape"] = bench_drape;
+  benches["explosions"] = bench_explosions;
   benches["detail"] = bench_detail;
 #endif
   Settings settings{.folder = WEFT_SOURCE_DIR "/bench/results"};

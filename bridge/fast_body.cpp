@@ -6,7 +6,9 @@
 
 #include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
 
+#include <weft/bridge/energy_limit.hpp>
 #include <weft/bridge/node_state.hpp>
+#include <weft/bridge/node_tree.hpp>
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/trace.hpp>
 
@@ -20,8 +22,8 @@ constexpr btScalar kInertiaStep = btScalar(0.816496580927726);  // sqrt(2 / 3)
 constexpr btScalar kStepRatio = btScalar(1.3);
 /// How often contacts between cloths are projected at the end of a step.
 constexpr int kClothContactSweeps = 8;
-/// How often contacts that the solution needs are looked for after it.
-constexpr int kMostLooks = 2;
+/// Of m |y - q|^2 / (2 h^2), what a step may gain: rounding, and BDF2 gives back a little of what it took before.
+constexpr double kEnergySlack = 0.01;
 
 Vector3<btScalar> from_bullet(const btVector3& v) {
   return {v.x(), v.y(), v.z()};
@@ -81,13 +83,21 @@ void FastBody::predict(btSoftBody& body, btScalar time_step) {
   read_nodes(body, starts_, start_velocities_);
   contacts_.clear();
   obstacles_.clear();
+  if (num_steps_++ % kCoveredSteps == 0) {
+    cover_motion(body, start_velocities_, last_velocities_, time_step);
+  }
+  // Bullet would tell the broadphase, which all bodies share.
+  btBroadphaseProxy* const proxy = body.getBroadphaseHandle();
+  body.setBroadphaseHandle(nullptr);
   body.predictMotion(time_step);
+  body.setBroadphaseHandle(proxy);
+}
+
+void FastBody::publish_bounds(btSoftBody& body) const {
   btVector3 low = body.m_bounds[0];
   btVector3 high = body.m_bounds[1];
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    low.setMin(body.m_nodes[i].m_q);
-    high.setMax(body.m_nodes[i].m_q);
-  }
+  low.setMin(to_bullet(starts_.rowwise().minCoeff()));
+  high.setMax(to_bullet(starts_.rowwise().maxCoeff()));
   body.m_bounds[0] = low;
   body.m_bounds[1] = high;
   if (btBroadphaseProxy* const proxy = body.getBroadphaseHandle()) {
@@ -104,6 +114,7 @@ void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& o
 }
 
 bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
+  if (obstacles_.empty()) return false;
   const std::size_t num_known = contacts_.size();
   for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_x = to_bullet(places_.col(i));
   for (const Obstacle& obstacle : obstacles_) {
@@ -117,7 +128,8 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
     return std::any_of(contacts_.begin(),
                        contacts_.begin() + static_cast<std::ptrdiff_t>(num_known),
                        [&](const RigidContact& known) {
-                         return known.node == found.node && known.object == found.object;
+                         return known.node == found.node && known.object == found.object &&
+                                known.shape == found.shape;
                        });
   };
   contacts_.erase(std::remove_if(contacts_.begin() + static_cast<std::ptrdiff_t>(num_known),
@@ -210,6 +222,72 @@ void FastBody::give_impulses(btSoftBody& body, btScalar time_step) {
   }
 }
 
+// What does that work is not known: pins and anchors that lead, obstacles that move, other cloth.
+bool FastBody::gets_work_from_outside(const btSoftBody& body) const {
+  if (!led_.empty() || body.m_scontacts.size() > 0) return true;
+  for (const RigidContact& contact : contacts_) {
+    if (contact.motion.length2() > 0 || movable(contact.object) != nullptr) return true;
+  }
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    if (body.m_nodes[i].m_im <= 0 && places_.col(i) != starts_.col(i)) return true;
+  }
+  return false;
+}
+
+// Two conjugate gradients too few, or a contact that pushes a node out of a surface, and a very stiff sheet ends a
+// step with energy that nobody has given to it; BDF2, which leans on the step before, would make more of it. What is
+// stored in springs cannot be taken away without another step: it is kept in mind until it comes out as motion.
+bool FastBody::keep_energy(const btSoftBody& body, btScalar time_step) {
+  if (gets_work_from_outside(body)) {
+    excess_ = 0;
+    return false;
+  }
+  const double given =
+      energy_put_in({masses_, starts_, start_velocities_, places_, time_step}, body);
+  const double now = kinetic_energy(masses_, body, velocities_);
+  // Springs are only asked when motion does not tell.
+  if (now <= given && contacts_.empty() && excess_ == 0) return false;
+  const double slack = kEnergySlack * solver_->step_energy();
+  const double stored = solver_->spring_energy(places_);
+  const double most = given + solver_->spring_energy(starts_) - excess_ + slack - stored;
+  const bool is_limited = now > most;
+  if (is_limited) {
+    const bool keeps_momentum =
+        contacts_.empty() && std::find(is_free_.begin(), is_free_.end(), false) == is_free_.end();
+    limit_energy(masses_, body, most, keeps_momentum, velocities_);
+  }
+  excess_ = std::max(0.0, -most);
+  return is_limited;
+}
+
+// What the last solution needs too: nodes that slide from one facet into the next.
+void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
+  const std::size_t num_solved = contacts_.size();
+  for (int look = 0; look <= kMostLooks && find_missed_contacts(body, time_step); ++look) {
+    for (const RigidContact& contact : contacts_) {
+      if (look == kMostLooks && &contact >= &contacts_[num_solved]) {  // between two facets
+        places_.col(contact.node) = starts_.col(contact.node) + from_bullet(contact.motion);
+        continue;
+      }
+      const Vector3<btScalar> normal = from_bullet(contact.normal);
+      const btScalar gap = normal.dot(places_.col(contact.node)) - contact.offset;
+      if (gap < 0 && movable(contact.object) == nullptr) places_.col(contact.node) -= gap * normal;
+    }
+  }
+  contacts_.resize(num_solved);  // the others have no force in the solution
+}
+
+// The solution counts on a body that gives way at once. Bullet has moved it before, and moves it next by the impulse
+// that it gets now: until then nodes stand where it is, with the velocities of the solution.
+void FastBody::stay_outside(btSoftBody& body) const {
+  for (const RigidContact& contact : contacts_) {
+    if (movable(contact.object) == nullptr) continue;
+    btSoftBody::Node& node = body.m_nodes[contact.node];
+    const btScalar gap = btDot(contact.normal, node.m_x) - contact.offset;
+    if (gap < 0) node.m_x -= gap * contact.normal;
+  }
+}
+
 void FastBody::write_back(btSoftBody& body, btScalar time_step, btScalar inertia_step) {
   for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_x = to_bullet(places_.col(i));
   const bool meets_cloth = body.m_scontacts.size() > 0;
@@ -219,24 +297,34 @@ void FastBody::write_back(btSoftBody& body, btScalar time_step, btScalar inertia
     }
     for (int i = 0; i < body.m_nodes.size(); ++i) places_.col(i) = from_bullet(body.m_nodes[i].m_x);
   }
-  const btScalar rate = (1 - body.m_cfg.kDP) / inertia_step;
+  velocities_ = (places_ - origins_) / inertia_step;
+  const bool is_limited = keep_energy(body, time_step);
   for (int i = 0; i < body.m_nodes.size(); ++i) {
     btSoftBody::Node& node = body.m_nodes[i];
     node.m_f.setZero();
     if (node.m_im > 0) {
-      node.m_v = to_bullet(rate * (places_.col(i) - origins_.col(i)));
+      node.m_v = (1 - body.m_cfg.kDP) * to_bullet(velocities_.col(i));
     } else {
       node.m_v = (node.m_x - node.m_q) / time_step;
     }
   }
+  stay_outside(body);
+  const bool met_something = !contacts_.empty() || meets_cloth;
+  last_step_ = met_something || is_limited ? btScalar(0) : time_step;
 }
 
-void FastBody::solve(btSoftBody& body, btScalar time_step) {
+void FastBody::solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort) {
+  read_constraints(body);
+  solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, led_}, effort,
+                 places_);
+}
+
+void FastBody::begin_solve(btSoftBody& body, btScalar time_step) {
   const TraceScope trace("fast body");
   prepare_solver(body, time_step);
   // Bullet has predicted velocities v + h a; what it would do to nodes without springs.
   const bool uses_history = may_use_history(body, time_step);
-  const btScalar inertia_step = uses_history ? time_step * 2 / 3 : time_step;
+  inertia_step_ = uses_history ? time_step * 2 / 3 : time_step;
   if (uses_history) {
     origins_ = (4 * starts_ - last_starts_) / 3;
   } else {
@@ -255,22 +343,27 @@ void FastBody::solve(btSoftBody& body, btScalar time_step) {
       const Vector3<btScalar> last = last_velocities_.col(i);
       velocity = (4 * start - last) / 3 + (velocity - start) * btScalar(2) / 3;
     }
-    targets_.col(i) = origins_.col(i) + inertia_step * velocity;
+    targets_.col(i) = origins_.col(i) + inertia_step_ * velocity;
   }
   places_ = starts_ + time_step * start_velocities_;
-  const auto solve = [&](const fast::SolverEffort& effort) {
-    read_constraints(body);
-    solver_->solve({targets_, starts_, time_step, inertia_step, plane_contacts_, led_}, effort,
-                   places_);
-  };
-  solve(settings_.effort);
-  for (int look = 0; look < kMostLooks && find_missed_contacts(body, time_step); ++look) {
-    solve({1, settings_.effort.iterations});
-  }
+  solve(body, time_step, settings_.effort);
+}
+
+bool FastBody::needs_contacts(btSoftBody& body, btScalar time_step) {
+  const TraceScope trace("look again");
+  return find_missed_contacts(body, time_step);
+}
+
+void FastBody::solve_again(btSoftBody& body, btScalar time_step) {
+  const TraceScope trace("fast body");
+  solve(body, time_step, {1, settings_.effort.iterations});
+}
+
+void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
+  const TraceScope trace("write back");
+  keep_out_of_missed(body, time_step);
   give_impulses(body, time_step);
-  const bool met_something = !contacts_.empty() || body.m_scontacts.size() > 0;
-  write_back(body, time_step, inertia_step);
-  last_step_ = met_something ? btScalar(0) : time_step;
+  write_back(body, time_step, inertia_step_);
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -7,6 +7,7 @@
 
 #include <BulletSoftBody/btSoftBody.h>
 
+#include <weft/bridge/body_sleep.hpp>
 #include <weft/bridge/fast_settings.hpp>
 #include <weft/bridge/precision.hpp>
 #include <weft/bridge/rigid_contacts.hpp>
@@ -37,20 +38,52 @@ class FastBody {
   [[nodiscard]] static std::optional<std::string> obstacle(const btSoftBody& body);
 
   [[nodiscard]] const FastSettings& settings() const { return settings_; }
-  void set_settings(const FastSettings& settings) { settings_ = settings; }
+  void set_settings(const FastSettings& settings) {
+    settings_ = settings;
+    wake();
+  }
 
-  /// btSoftBody::predictMotion, and bounds that hold the whole way of each node.
+  /// A body that sleeps is not to be stepped: only these are called.
+  [[nodiscard]] bool is_asleep() const { return sleep_.is_asleep(); }
+  [[nodiscard]] bool is_at_rest() const { return sleep_.is_at_rest(settings_); }
+  void wake() {
+    sleep_.wake();
+    last_step_ = 0;
+  }
+  void begin_step(const btSoftBody& body) {
+    if (sleep_.begin_step(body)) last_step_ = 0;
+  }
+  void meet(const btCollisionObject& object, const btTransform& place) {
+    sleep_.meet(object, place);
+  }
+  void meet_cloth(bool is_at_rest) { sleep_.meet_cloth(is_at_rest); }
+  void end_step(btSoftBody& body, btScalar time_step) {
+    sleep_.end_step(body, time_step, settings_);
+  }
+
+  /// btSoftBody::predictMotion. Touches only the body, but not its entry in the broadphase: predictions of several
+  /// bodies may run at the same time.
   void predict(btSoftBody& body, btScalar time_step);
+  /// After predict(): bounds that hold the whole way of each node, for the broadphase too.
+  void publish_bounds(btSoftBody& body) const;
   /// In place of btSoftBody::defaultCollisionHandler.
   void collide(const btSoftBody& body, const btCollisionObjectWrapper& object, btScalar time_step);
-  /// In place of btSoftBody::solveConstraints.
-  void solve(btSoftBody& body, btScalar time_step);
+  /// In place of btSoftBody::solveConstraints, in three parts. The first and the second touch only the body, so that
+  /// those of several bodies may run at the same time; the others look things up in the world and push rigid bodies.
+  void begin_solve(btSoftBody& body, btScalar time_step);
+  /// True if the solution of the body needs more contacts, and solve_again().
+  [[nodiscard]] bool needs_contacts(btSoftBody& body, btScalar time_step);
+  void solve_again(btSoftBody& body, btScalar time_step);
+  void end_solve(btSoftBody& body, btScalar time_step);
+  /// How often needs_contacts() is asked.
+  static constexpr int kMostLooks = 2;
 
   [[nodiscard]] int num_contacts() const { return static_cast<int>(contacts_.size()); }
   /// Unbalanced forces that the last step left, over those that it began with [-].
   [[nodiscard]] double residual() const { return solver_ ? solver_->residual() : 0.0; }
 
  private:
+  void solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort);
   void prepare_solver(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step) const;
   /// Contacts that the solution would need, and that nobody looked for where Bullet had predicted the
@@ -59,6 +92,11 @@ class FastBody {
   void read_constraints(const btSoftBody& body);
   void give_impulses(btSoftBody& body, btScalar time_step);
   void write_back(btSoftBody& body, btScalar time_step, btScalar inertia_step);
+  void keep_out_of_missed(btSoftBody& body, btScalar time_step);
+  void stay_outside(btSoftBody& body) const;
+  [[nodiscard]] bool gets_work_from_outside(const btSoftBody& body) const;
+  /// True if velocities_ had to be slowed down.
+  bool keep_energy(const btSoftBody& body, btScalar time_step);
 
   fast::SpringNetwork network_;
   VectorX<double> masses_;
@@ -67,16 +105,21 @@ class FastBody {
   std::vector<bool> is_free_;
   btScalar solver_step_ = 0;  ///< [s] of the steps that solver_ was made for
 
+  BodySleep sleep_;
   // Of the present step, 3 x n.
   Matrix3X<btScalar> starts_;            ///< q [m]
   Matrix3X<btScalar> start_velocities_;  ///< v [m/s]
   Matrix3X<btScalar> origins_;           ///< what velocities are counted from [m]
   Matrix3X<btScalar> targets_;           ///< y [m]
   Matrix3X<btScalar> places_;            ///< solution [m]
+  Matrix3X<btScalar> velocities_;        ///< solution [m/s]
   // Of the step before.
   Matrix3X<btScalar> last_starts_;
   Matrix3X<btScalar> last_velocities_;
-  btScalar last_step_ = 0;  ///< [s]; 0: no history
+  btScalar inertia_step_ = 0;  ///< [s] of the present step
+  btScalar last_step_ = 0;     ///< [s]; 0: no history
+  int num_steps_ = 0;
+  double excess_ = 0;  ///< energy in springs that nothing has put in [J]
   /// What the body's bounds have met in this step.
   struct Obstacle {
     const btCollisionObject* object;

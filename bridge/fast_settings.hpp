@@ -10,6 +10,11 @@ struct FastSettings {
   /// Of second order (BDF2) while nothing touches the body; implicit Euler with contacts and at
   /// changes. Off: always implicit Euler, which takes much more energy out of a motion.
   bool is_second_order = true;
+  /// A body of which no node has been faster than sleep_speed [m/s] for sleep_time [s] is not stepped any
+  /// more, until something disturbs it (BodySleep).
+  bool may_sleep = true;
+  double sleep_speed = 0.005;
+  double sleep_time = 1.0;
 };
 
 }  // namespace weft::bridge

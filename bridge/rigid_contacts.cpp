@@ -95,6 +95,7 @@ void add_rigid_contacts(const btSoftBody& body, const btCollisionObjectWrapper& 
     contact->node = i;
     contact->motion = motion;
     contact->object = &collision_object;
+    contact->shape = object.getCollisionShape();
     if (is_still_to_move) contact->offset += btDot(contact->normal, motion);
     contacts.push_back(*contact);
   }

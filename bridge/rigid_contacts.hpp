@@ -17,6 +17,7 @@ struct RigidContact {
   btScalar offset = 0;        ///< [m]
   btVector3 motion{0, 0, 0};  ///< of the surface during the step [m]
   const btCollisionObject* object = nullptr;
+  const btCollisionShape* shape = nullptr;  ///< the part of the object that it is with
 };
 
 /// Appends the contacts of a body's nodes with an object, between btSoftBody::predictMotion and

@@ -4,55 +4,21 @@
 #include <utility>
 #include <vector>
 
+#include <tbb/parallel_for.h>
+
 #include <BulletSoftBody/btSoftBody.h>
 
-#include <weft/bridge/fast_body.hpp>
-#include <weft/bridge/node_state.hpp>
+#include <weft/bridge/attachment.hpp>
 #include <weft/bridge/position_limits.hpp>
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/trace.hpp>
-#include <weft/custom_forces/deferred_forces.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
 using LawSet = forces::LawSet<btScalar>;
-using Level = forces::LawTraits::Level;
-using State = forces::State<btScalar>;
-
-struct SoftBodySolver::Attachment {
-  btSoftBody* body;
-  LawSet laws;
-  forces::DeferredForces<btScalar> deferred{laws, LawSet::VelocityLaws::kSeparate};
-  VectorX<btScalar> masses;
-  DampingPlace damping = DampingPlace::kAutomatic;
-  Matrix3X<btScalar> start_velocities;  // of the step, only for inertia after the projection
-  Matrix3X<btScalar> positions;
-  Matrix3X<btScalar> velocities;
-  Matrix3X<btScalar> forces;
-  std::optional<BodyBlowUp> blow_up;
-  PositionLimits limits;
-  std::unique_ptr<FastBody> fast;  // none: Bullet's own constraints
-  bool was_in_world = false;
-  bool is_suspended = false;
-  double time = 0.0;  // [s] of the steps since the body was attached
-
-  [[nodiscard]] bool acts_after_projection(Level level) const;
-  void add_forces(btScalar time_step);
-  void begin_forces();
-  void sum_laws();
-  void damp_velocities(btScalar time_step);
-  void slow_down_changes();
-  void check_laws();
-};
 
 namespace {
-
-struct ContactEntry {
-  btSoftBody* body;
-  ClothContact contact;
-  bool was_in_world = false;
-};
 
 LawSet explicit_laws(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws) {
   std::vector<forces::LawSpecification> rest;
@@ -77,80 +43,6 @@ void forget_departed(const btAlignedObjectArray<btSoftBody*>& present,
 }
 
 }  // namespace
-
-struct SoftBodySolver::Attachments {
-  std::vector<std::unique_ptr<Attachment>> list;
-  std::vector<std::unique_ptr<ContactEntry>> contacts;
-};
-
-bool SoftBodySolver::Attachment::acts_after_projection(Level level) const {
-  if (!laws.has_level(level)) return false;
-  if (damping != DampingPlace::kAutomatic) return damping == DampingPlace::kAfterProjection;
-  return level == Level::kVelocity || body->m_links.size() > 0 || fast != nullptr;
-}
-
-// Velocity-level laws state how fast velocities decay: inertia does not slow them down.
-void SoftBodySolver::Attachment::sum_laws() {
-  const State state{positions, velocities, masses, time};
-  const forces::ForceReport report = deferred.finish(state, forces);
-  if (!report.ok()) {
-    blow_up = BodyBlowUp{*report.first_non_finite_node, "position or velocity is not finite"};
-    return;
-  }
-  if (!acts_after_projection(Level::kInertia)) laws.redistribute_forces(state, forces);
-  if (!acts_after_projection(Level::kVelocity)) {
-    (void)laws.add_forces(state, LawSet::VelocityLaws::kAlone, forces);
-  }
-}
-
-void SoftBodySolver::Attachment::add_forces(btScalar time_step) {
-  const TraceScope trace("forces");
-  read_nodes(*body, positions, velocities);
-  if (acts_after_projection(Level::kInertia)) start_velocities = velocities;
-  sum_laws();
-  if (blow_up) return;
-  // Now, on the velocities that predictMotion is about to make: afterwards would be too late, for a
-  // node without a place in space ruins the body's bounding-volume tree.
-  blow_up = predicted_blow_up(*body, velocities, forces, time_step, SoftBodySolver::kMaxSpeed);
-  if (!blow_up) add_node_forces(forces, *body);
-}
-
-// On other threads, from a copy of the state: the body may leave or be deleted meanwhile.
-void SoftBodySolver::Attachment::begin_forces() {
-  read_nodes(*body, positions, velocities);
-  deferred.begin({positions, velocities, masses, time});
-}
-
-// Laws made for another mesh throw here, at attach, and not out of Bullet's step.
-void SoftBodySolver::Attachment::check_laws() {
-  read_nodes(*body, positions, velocities);
-  forces.setZero(3, positions.cols());
-  const State state{positions, velocities, masses, time};
-  (void)laws.add_forces(state, LawSet::VelocityLaws::kAsForces, forces);
-  laws.redistribute_forces(state, forces);
-}
-
-// The change of momentum over the step stands for the sum of all forces on the body.
-void SoftBodySolver::Attachment::slow_down_changes() {
-  forces = (velocities - start_velocities) * masses.asDiagonal();
-  laws.redistribute_forces(State{positions, velocities, masses, time}, forces);
-  velocities = start_velocities + forces * masses.cwiseInverse().asDiagonal();
-}
-
-void SoftBodySolver::Attachment::damp_velocities(btScalar time_step) {
-  const TraceScope trace("damp velocities");
-  const bool slows_down = acts_after_projection(Level::kInertia);
-  const bool advances = acts_after_projection(Level::kVelocity);
-  if (!slows_down && !advances) return;
-  read_nodes(*body, positions, velocities);
-  if (slows_down) slow_down_changes();
-  if (advances) {
-    forces = velocities;  // the laws see the state as it is and change a copy
-    laws.advance_velocities(State{positions, velocities, masses, time}, time_step, forces);
-    velocities.swap(forces);
-  }
-  write_node_velocities(velocities, *body);
-}
 
 SoftBodySolver::SoftBodySolver(const BulletLayout& caller)
     : attachments_(std::make_unique<Attachments>()) {
@@ -232,6 +124,16 @@ void SoftBodySolver::set_fast_settings(btSoftBody& body, const FastSettings& set
   attachment->fast->set_settings(settings);
 }
 
+bool SoftBodySolver::is_asleep(const btSoftBody& body) const {
+  const Attachment* attachment = find(body);
+  return attachment && attachment->fast && attachment->fast->is_asleep();
+}
+
+void SoftBodySolver::wake(btSoftBody& body) {
+  Attachment* attachment = find(body);
+  if (attachment && attachment->fast) attachment->fast->wake();
+}
+
 bool SoftBodySolver::is_fast(const btSoftBody& body) const {
   const Attachment* attachment = find(body);
   return attachment && attachment->fast;
@@ -271,6 +173,7 @@ void SoftBodySolver::set_position_limits(btSoftBody& body, PositionLimits limits
   }
   check_position_limits(limits, body.m_nodes.size());
   attachment->limits = std::move(limits);
+  wake(body);
 }
 
 void SoftBodySolver::set_suspended(btSoftBody& body, bool is_suspended) {
@@ -286,6 +189,7 @@ void SoftBodySolver::set_suspended(btSoftBody& body, bool is_suspended) {
   body.m_rcontacts.resizeNoInitialize(0);
   body.m_scontacts.resizeNoInitialize(0);
   if (!is_suspended) body.updateNormals();
+  wake(body);
 }
 
 bool SoftBodySolver::is_suspended(const btSoftBody& body) const {
@@ -336,7 +240,9 @@ std::optional<BodyBlowUp> SoftBodySolver::blow_up(const btSoftBody& body) const 
 
 bool SoftBodySolver::is_still(const btSoftBody& body) const {
   const Attachment* attachment = find(body);
-  return attachment && (attachment->blow_up || attachment->is_suspended);
+  if (!attachment) return false;
+  return attachment->blow_up || attachment->is_suspended ||
+         (attachment->fast && attachment->fast->is_asleep());
 }
 
 // The world hands over its bodies at the start of every step.
@@ -349,18 +255,55 @@ void SoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool fo
 void SoftBodySolver::predictMotion(btScalar time_step) {
   const TraceScope trace("predict motion");
   time_step_ = time_step;
+  for (const auto& attachment : attachments_->list) {
+    if (attachment->fast && attachment->was_in_world)
+      attachment->fast->begin_step(*attachment->body);
+  }
+  for_bodies([&](btSoftBody& body, Attachment* attachment) {
+    if (!attachment) return;
+    attachment->add_forces(time_step);
+    if (attachment->fast && !attachment->blow_up) attachment->fast->predict(body, time_step);
+  });
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
-    if (!body.isActive()) continue;
-    if (is_still(body)) continue;
-    Attachment* const attachment = find(body);
-    if (attachment) attachment->add_forces(time_step);
-    if (is_still(body)) continue;  // the forces may have exploded
+    if (!body.isActive() || is_still(body)) continue;  // the forces may have exploded
+    const Attachment* const attachment = find(body);
     if (attachment && attachment->fast) {
-      attachment->fast->predict(body, time_step);
+      attachment->fast->publish_bounds(body);
     } else {
       body.predictMotion(time_step);
     }
+  }
+}
+
+// What touches only the body: several at the same time. Each is one task, whose bits depend on no other.
+void SoftBodySolver::for_bodies(const std::function<void(btSoftBody&, Attachment*)>& work) {
+  tbb::parallel_for(0, m_softBodySet.size(), [&](int i) {
+    btSoftBody& body = *m_softBodySet[i];
+    if (body.isActive() && !is_still(body)) work(body, find(body));
+  });
+}
+
+void SoftBodySolver::solve_fast_bodies() {
+  for_bodies([&](btSoftBody& body, Attachment* attachment) {
+    if (!attachment || !attachment->fast) return;
+    if (ClothContact* contact = find_contact(body)) contact->add_self_contacts(body, time_step_);
+    attachment->fast->begin_solve(body, time_step_);
+  });
+  // Bullet's distance fields are filled as they are asked, one at a time.
+  for (int look = 0; look < FastBody::kMostLooks; ++look) {
+    std::vector<Attachment*> again;
+    for (const auto& attachment : attachments_->list) {
+      if (!attachment->fast || !attachment->was_in_world || is_still(*attachment->body)) continue;
+      if (!attachment->body->isActive()) continue;
+      if (attachment->fast->needs_contacts(*attachment->body, time_step_)) {
+        again.push_back(attachment.get());
+      }
+    }
+    if (again.empty()) break;
+    tbb::parallel_for(std::size_t{0}, again.size(), [&](std::size_t i) {
+      again[i]->fast->solve_again(*again[i]->body, time_step_);
+    });
   }
 }
 
@@ -368,26 +311,24 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
   const TraceScope trace("solve constraints");
   // Velocities decay over the step that predictMotion was given. The argument here is the same time
   // before Bullet rounds it to single precision; to use it would mix two clocks in one step.
+  solve_fast_bodies();
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
     if (!body.isActive() || is_still(body)) continue;
-    if (ClothContact* contact = find_contact(body)) contact->add_self_contacts(body, time_step_);
     Attachment* attachment = find(body);
     if (attachment && attachment->fast) {
-      attachment->fast->solve(body, time_step_);
+      attachment->fast->end_solve(body, time_step_);
     } else {
+      if (ClothContact* contact = find_contact(body)) contact->add_self_contacts(body, time_step_);
       body.solveConstraints();
     }
   }
   settle_contact_velocities();
-  for (int i = 0; i < m_softBodySet.size(); ++i) {
-    btSoftBody& body = *m_softBodySet[i];
-    if (!body.isActive() || is_still(body)) continue;
-    Attachment* attachment = find(body);
-    if (!attachment) continue;
+  for_bodies([&](btSoftBody& body, Attachment* attachment) {
+    if (!attachment) return;
     apply_position_limits(attachment->limits, static_cast<double>(time_step_), body);
     attachment->damp_velocities(time_step_);
-  }
+  });
   for (const auto& attachment : attachments_->list) {
     if (attachment->was_in_world) attachment->time += static_cast<double>(time_step_);
   }
@@ -410,17 +351,23 @@ void SoftBodySolver::settle_contact_velocities() {
 // The last thing that Bullet does in a step: positions and velocities are final.
 void SoftBodySolver::updateSoftBodies() {
   const TraceScope trace("update soft bodies");
-  for (int i = 0; i < m_softBodySet.size(); ++i) {
-    btSoftBody& body = *m_softBodySet[i];
-    if (!body.isActive() || is_still(body)) continue;
+  for_bodies([&](btSoftBody& body, Attachment* attachment) {
     body.integrateMotion();
-    if (Attachment* attachment = is_deferred_ ? find(body) : nullptr) attachment->begin_forces();
-  }
+    if (!attachment || !attachment->fast) return;
+    if (attachment->limits.is_empty()) attachment->fast->end_step(body, time_step_);
+  });
+  if (!is_deferred_) return;
+  for_bodies([&](btSoftBody&, Attachment* attachment) {
+    if (attachment) attachment->begin_forces();
+  });
 }
 
 void SoftBodySolver::processCollision(btSoftBody* body, const btCollisionObjectWrapper* object) {
-  if (is_still(*body)) return;
   Attachment* attachment = find(*body);
+  if (attachment && attachment->fast) {
+    attachment->fast->meet(*object->getCollisionObject(), object->getWorldTransform());
+  }
+  if (is_still(*body)) return;
   if (attachment && attachment->fast) {
     attachment->fast->collide(*body, *object, time_step_);
   } else {
@@ -428,7 +375,19 @@ void SoftBodySolver::processCollision(btSoftBody* body, const btCollisionObjectW
   }
 }
 
+// Cloth that moves keeps or wakes what it meets. Cloth that is not fast is taken to move.
+void SoftBodySolver::tell_of_each_other(btSoftBody& body, btSoftBody& other) {
+  Attachment* const a = find(body);
+  Attachment* const b = find(other);
+  const auto is_at_rest = [](const Attachment* attachment) {
+    return attachment && attachment->fast && attachment->fast->is_at_rest();
+  };
+  if (a && a->fast) a->fast->meet_cloth(is_at_rest(b));
+  if (b && b->fast) b->fast->meet_cloth(is_at_rest(a));
+}
+
 void SoftBodySolver::processCollision(btSoftBody* body, btSoftBody* other) {
+  tell_of_each_other(*body, *other);
   if (is_still(*body) || is_still(*other)) return;
   const ClothContact* contact = find_contact(*body);
   const ClothContact* other_contact = find_contact(*other);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -91,6 +92,10 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   /// Other settings for a body with attach_fast(). Throws InvalidArgument for a body without.
   void set_fast_settings(btSoftBody& body, const FastSettings& settings);
   [[nodiscard]] bool is_fast(const btSoftBody& body) const;
+  /// Whether a fast body has come to rest and is not stepped (FastSettings::may_sleep).
+  [[nodiscard]] bool is_asleep(const btSoftBody& body) const;
+  /// Steps the body again. Only needed after changes that it cannot see: a law of the application's own.
+  void wake(btSoftBody& body);
   /// Contacts with rigid bodies and with cloth that the last step looked at.
   [[nodiscard]] int num_contacts(const btSoftBody& body) const;
   /// Back to plain Bullet. Call before deleting a body that never was in a stepped world. Does
@@ -148,6 +153,9 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   [[nodiscard]] Attachment* find(const btSoftBody& body) const;
   [[nodiscard]] ClothContact* find_contact(const btSoftBody& body) const;
   void settle_contact_velocities();
+  void tell_of_each_other(btSoftBody& body, btSoftBody& other);
+  void for_bodies(const std::function<void(btSoftBody&, Attachment*)>& work);
+  void solve_fast_bodies();
   /// Has exploded or is suspended.
   [[nodiscard]] bool is_still(const btSoftBody& body) const;
 

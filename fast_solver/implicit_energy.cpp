@@ -12,9 +12,14 @@ namespace {
 constexpr double kSmallestShare = 0.1;
 /// Squared motion of a step over that without springs from which on its energy is looked at.
 constexpr double kMostMotion = 1.2;
-/// Rounds, then halvings of the step, until a step that gains energy does not any more.
+/// Work that left-over forces could do, over the energy of the motion without springs, from which on likewise.
+constexpr double kMostWork = 1.0;
+/// Of that energy, what rounding may make of a step that changes nothing.
+constexpr double kRoundingShare = 0.01;
+/// Rounds of a step that would have gained energy, and halvings of each of them.
 constexpr int kExtraRounds = 6;
 constexpr int kHalvings = 6;
+constexpr int kExtraIterations = 4;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -31,14 +36,14 @@ void ImplicitSolver<Scalar>::hold_back(const StepProblem<Scalar>& problem, doubl
   double work_after = 0;
   for (Eigen::Index i = 0; i < places.cols(); ++i) {
     if (holds_[at(static_cast<int>(i))] != Hold::kFree) continue;
-    work_after += static_cast<double>(unbalanced_.col(i).dot(step_.col(i).template cast<Scalar>()));
+    work_after += static_cast<double>(unbalanced_.col(i).dot(step_of(i)));
   }
   if (!(work_before > 0 && work_after < -0.5 * work_before)) return;
   const double share = std::max(kSmallestShare, work_before / (work_before - work_after));
   const auto excess = static_cast<Scalar>(1.0 - share);
   for (Eigen::Index i = 0; i < places.cols(); ++i) {
     if (holds_[at(static_cast<int>(i))] != Hold::kFree) continue;
-    places.col(i) -= excess * step_.col(i).template cast<Scalar>();
+    places.col(i) -= excess * step_of(i);
   }
   evaluate(problem, places);
 }
@@ -46,8 +51,8 @@ void ImplicitSolver<Scalar>::hold_back(const StepProblem<Scalar>& problem, doubl
 /// What an implicit step minimises [J], with bodies that are tied to it and with what friction does.
 template <class Scalar>
 double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem,
-                                      ConstMatrix3XRef<Scalar> places) const {
-  double sum = forces_.potential(places, problem.starts);
+                                      ConstMatrix3XRef<Scalar> places) {
+  double sum = forces_.potential(places);
   for (Eigen::Index i = 0; i < places.cols(); ++i) {
     sum += 0.5 * static_cast<double>(inertia_[i]) *
            static_cast<double>((places.col(i) - problem.targets.col(i)).squaredNorm());
@@ -68,21 +73,33 @@ double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem,
   return sum;
 }
 
-// A contact may have stretched springs; without one, more motion than without springs: they may have
-// pulled, or the solution may be off.
+// A contact may have stretched springs; without one, more motion than without springs, or forces that are left over
+// and could do as much work as the step's motion is worth: springs may have pulled, or the solution may be off.
 template <class Scalar>
 bool ImplicitSolver<Scalar>::is_suspicious(const StepProblem<Scalar>& problem,
                                            ConstMatrix3XRef<Scalar> places) const {
   if (!held_.empty()) return true;
   double moved = 0;
-  double expected = 0;
+  double left = 0;
   for (Eigen::Index i = 0; i < places.cols(); ++i) {
     const auto mass = static_cast<double>(masses_[i]);
-    moved += mass * static_cast<double>((places.col(i) - problem.starts.col(i)).squaredNorm());
-    expected +=
-        mass * static_cast<double>((problem.targets.col(i) - problem.starts.col(i)).squaredNorm());
+    const auto squared_way =
+        static_cast<double>((places.col(i) - problem.starts.col(i)).squaredNorm());
+    moved += mass * squared_way;
+    left += std::sqrt(squared_way * static_cast<double>(unbalanced_.col(i).squaredNorm()));
   }
-  return !(moved <= kMostMotion * expected);
+  const auto h = static_cast<double>(problem.inertia_step);
+  return !(moved <= 2 * h * h * kMostMotion * step_energy_ && left <= kMostWork * step_energy_);
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::find_step_energy(const StepProblem<Scalar>& problem) {
+  step_energy_ = 0;
+  for (Eigen::Index i = 0; i < problem.starts.cols(); ++i) {
+    step_energy_ +=
+        0.5 * static_cast<double>(inertia_[i]) *
+        static_cast<double>((problem.targets.col(i) - problem.starts.col(i)).squaredNorm());
+  }
 }
 
 // Where nothing has moved but what is led, in front of all planes.
@@ -103,47 +120,75 @@ void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
   }
 }
 
+// From places back towards from, until it has no more energy than that.
+template <class Scalar>
+bool ImplicitSolver<Scalar>::descend(const StepProblem<Scalar>& problem,
+                                     ConstMatrix3XRef<Scalar> from, Matrix3XRef<Scalar> places) {
+  const double most = energy(problem, from);
+  for (int halvings = 0; halvings <= kHalvings; ++halvings) {
+    if (energy(problem, places) <= most) {
+      if (halvings > 0) evaluate(problem, places);
+      return true;
+    }
+    places = Scalar(0.5) * (places + from);
+  }
+  return false;
+}
+
+// Newton's method from the start of the step, each round downhill. False if none was.
+template <class Scalar>
+bool ImplicitSolver<Scalar>::go_downhill(const StepProblem<Scalar>& problem, int iterations,
+                                         Matrix3XRef<Scalar> places) {
+  places = unmoved_;
+  evaluate(problem, places);
+  for (int round = 0; round < kExtraRounds; ++round) {
+    do_round(problem, kExtraIterations * iterations, round == 0, places);
+    if (!descend(problem, unmoved_, places)) {
+      places = unmoved_;
+      evaluate(problem, places);
+      return round > 0;
+    }
+    unmoved_ = places;
+  }
+  return true;
+}
+
 // The exact solution has no more of the energy that it minimises than the places at the start. One
-// that has is iterated on, and at last drawn back: so an implicit step gains no energy, however badly
-// it has converged.
+// that has is thrown away: Newton's method starts there once more, and now each of its steps must go
+// downhill. So an implicit step gains no energy, however badly its linear systems are solved.
+//
+// Friction follows from the force that holds a node. Where springs are some 10^5 times stiffer than
+// inertia, that is rounding: if nothing goes downhill with it, what does without.
 template <class Scalar>
 void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterations,
                                   Matrix3XRef<Scalar> places) {
   stay_at_start(problem);
-  const double most = energy(problem, unmoved_);
-  for (int attempt = 0; !(energy(problem, places) <= most); ++attempt) {
-    if (attempt < kExtraRounds) {
-      do_round(problem, iterations, false, places);
-      continue;
-    }
-    if (attempt == kExtraRounds + kHalvings) break;
-    for (Eigen::Index i = 0; i < places.cols(); ++i) {
-      const bool is_finite = places.col(i).allFinite();
-      places.col(i) = is_finite ? Vector3<Scalar>(Scalar(0.5) * (places.col(i) + unmoved_.col(i)))
-                                : Vector3<Scalar>(unmoved_.col(i));
-    }
-    evaluate(problem, places);
-  }
+  const double most = energy(problem, unmoved_) + kRoundingShare * step_energy_;
+  if (energy(problem, places) <= most) return;
+  if (go_downhill(problem, iterations, places)) return;
+  has_friction_ = false;
+  (void)go_downhill(problem, iterations, places);
+  has_friction_ = true;
 }
 
-// What conjugate gradients have left over would push the body as a whole. Where nothing immovable
-// holds it, a shift of all nodes, which no spring feels, takes that away to rounding.
+// What conjugate gradients have left over would push the body, and what is tied to it, as a whole.
+// Where nothing immovable holds it, a shift of all nodes, which no spring feels, takes that away to
+// rounding. Where something does, what is left over is no error of the whole body's: in a stiff sheet a
+// micrometre is worth many newtons.
 template <class Scalar>
 void ImplicitSolver<Scalar>::balance(Matrix3XRef<Scalar> places) {
-  if (!pinned_.empty()) return;
+  const auto is_tied = [&](int node) { return holds_[at(node)] == Hold::kTied; };
+  if (!pinned_.empty() || !std::all_of(held_.begin(), held_.end(), is_tied)) return;
   Matrix3<double> stiffness =
       Matrix3<double>::Identity() * static_cast<double>(inertia_.template cast<double>().sum());
-  for (const int i : held_) {
-    if (holds_[at(i)] != Hold::kTied) return;
-  }
-  const Vector3<double> left =
-      (unbalanced_ + holding_forces_).template cast<double>().rowwise().sum();
   for (const Tie& tie : ties_) {
     const Vector3<double> normal = tie.normal.template cast<double>();
     Matrix3<double> directions = Matrix3<double>::Identity();
     if (!tie.normal.isZero(0)) directions = normal * normal.transpose();
     stiffness += static_cast<double>(tie.stiffness) * directions;
   }
+  const Vector3<double> left =
+      (unbalanced_ + holding_forces_).template cast<double>().rowwise().sum();
   const Vector3<Scalar> shift = stiffness.llt().solve(left).template cast<Scalar>();
   places.colwise() += shift;
   find_holding_forces(places);

@@ -10,6 +10,11 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
+/// The part along the normal, of one node's vector.
+void take_away(const Vector3<float>& normal, NodeArrays<float>& vectors, int node) {
+  vectors.row(node) -= vectors.row(node).dot(normal) * normal.transpose();
+}
+
 }  // namespace
 
 // What holds a node is decided by what it would do if it stuck: the force that is left there is
@@ -56,7 +61,8 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
     const Vector3<Scalar> slip = places.col(i) - problem.starts.col(i) - candidate.motion;
     Vector3<Scalar> tendency = unbalanced_.col(i) + inertia * slip;
     tendency -= normal.dot(tendency) * normal;
-    const Scalar most = candidate.friction * std::max(Scalar(0), pressure);
+    const Scalar friction = has_friction_ ? candidate.friction : Scalar(0);
+    const Scalar most = friction * std::max(Scalar(0), pressure);
     const Scalar size = tendency.norm();
     const bool sticks = size <= most;
     holds_[at(i)] = candidate.mass > 0 ? Hold::kTied : sticks ? Hold::kFixed : Hold::kOnPlane;
@@ -83,12 +89,12 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::project(Floats& vectors) const {
-  for (const int i : pinned_) vectors.col(i).setZero();
+  for (const int i : pinned_) vectors.row(i).setZero();
   for (const int i : held_) {
     if (holds_[at(i)] == Hold::kFixed) {
-      vectors.col(i).setZero();
+      vectors.row(i).setZero();
     } else if (holds_[at(i)] == Hold::kOnPlane) {
-      vectors.col(i) -= normals_.col(i).dot(vectors.col(i)) * normals_.col(i);
+      take_away(normals_.col(i), vectors, i);
     }
   }
 }
@@ -98,10 +104,9 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::leave_out_ties(Floats& vectors) const {
   for (const Tie& tie : ties_) {
     if (tie.normal.isZero(0)) {
-      vectors.col(tie.node).setZero();
+      vectors.row(tie.node).setZero();
     } else {
-      const Vector3<float> normal = tie.normal.template cast<float>();
-      vectors.col(tie.node) -= normal.dot(vectors.col(tie.node)) * normal;
+      take_away(tie.normal.template cast<float>(), vectors, tie.node);
     }
   }
 }
@@ -110,12 +115,12 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::add_tie_product(const Floats& displacements, Floats& product) const {
   for (const Tie& tie : ties_) {
     const auto stiffness = static_cast<float>(tie.stiffness);
-    const Vector3<float> d = displacements.col(tie.node);
+    const Vector3<float> d = displacements.row(tie.node);
     if (tie.normal.isZero(0)) {
-      product.col(tie.node) += stiffness * d;
+      product.row(tie.node) += stiffness * d.transpose();
     } else {
       const Vector3<float> normal = tie.normal.template cast<float>();
-      product.col(tie.node) += stiffness * normal.dot(d) * normal;
+      product.row(tie.node) += stiffness * normal.dot(d) * normal.transpose();
     }
   }
 }

@@ -6,7 +6,6 @@
 
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/trace.hpp>
-#include <weft/fast_solver/minimum_degree.hpp>
 
 namespace weft::fast {
 namespace {
@@ -41,8 +40,8 @@ SymmetricMatrix isotropic_matrix(const SpringNetwork& network, const VectorX<dou
   return sum_of_parts(num_unknowns, parts);
 }
 
-SparseCholesky factor_of(const SpringNetwork& network, const VectorX<double>& masses,
-                         const std::vector<bool>& is_free, double inertia_step) {
+GlobalCorrection correction_of(const SpringNetwork& network, const VectorX<double>& masses,
+                               const std::vector<bool>& is_free, double inertia_step) {
   const auto n = static_cast<std::size_t>(masses.size());
   if (is_free.size() != n) {
     throw InvalidArgument("implicit solver: " + std::to_string(is_free.size()) +
@@ -58,11 +57,15 @@ SparseCholesky factor_of(const SpringNetwork& network, const VectorX<double>& ma
   }
   const SymmetricMatrix matrix =
       isotropic_matrix(network, masses, unknown_of, static_cast<int>(names.size()), inertia_step);
-  return {matrix, minimum_degree_order(matrix), names};
+  return {matrix, names, static_cast<int>(n)};
 }
 
-float dot(const Matrix3X<float>& a, const Matrix3X<float>& b) {
-  return a.cwiseProduct(b).sum();
+template <class Scalar>
+void load(const Matrix3X<Scalar>& vectors, NodeArrays<float>& arrays) {
+  for (Eigen::Index i = 0; i < vectors.cols(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) arrays(i, axis) = static_cast<float>(vectors(axis, i));
+  }
+  arrays.bottomRows(arrays.rows() - vectors.cols()).setZero();
 }
 
 }  // namespace
@@ -71,24 +74,26 @@ template <class Scalar>
 ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const VectorX<double>& masses,
                                        const std::vector<bool>& is_free, double inertia_step)
     : forces_(network, static_cast<int>(masses.size())),
-      factor_(factor_of(network, masses, is_free, inertia_step)),
+      global_(correction_of(network, masses, is_free, inertia_step)),
       masses_(masses.cast<Scalar>()),
       is_free_(is_free) {
   const Eigen::Index n = masses.size();
   for (int i = 0; i < static_cast<int>(n); ++i) {
     if (!is_free_[at(i)]) pinned_.push_back(i);
   }
-  inertia_.setZero(n);
+  const Eigen::Index n_filled = fill_up(static_cast<int>(n));
+  inertia_.setZero(n_filled);
   holding_forces_.setZero(3, n);
   unbalanced_.setZero(3, n);
   unmoved_.setZero(3, n);
   holds_.assign(at(static_cast<int>(n)), Hold::kFree);
   contact_of_.assign(at(static_cast<int>(n)), -1);
-  blocks_.setZero(6, n);
-  for (Floats* vectors :
-       {&normals_, &friction_, &step_, &residual_vector_, &direction_, &direction_product_,
-        &correction_, &correction_product_, &work_, &coarse_, &product_}) {
-    vectors->setZero(3, n);
+  blocks_.setZero(n_filled, 6);
+  normals_.setZero(3, n);
+  friction_.setZero(3, n);
+  for (Floats* vectors : {&step_, &residual_vector_, &direction_, &direction_product_, &correction_,
+                          &correction_product_, &work_, &coarse_, &coarse_product_}) {
+    vectors->setZero(n_filled, 3);
   }
   held_.reserve(at(static_cast<int>(n)));
 }
@@ -99,88 +104,72 @@ void ImplicitSolver<Scalar>::evaluate(const StepProblem<Scalar>& problem,
   for (Eigen::Index i = 0; i < places.cols(); ++i) {
     unbalanced_.col(i) = Scalar(inertia_[i]) * (problem.targets.col(i) - places.col(i));
   }
-  forces_.add_forces(places, problem.starts, unbalanced_);
+  forces_.add_forces(places, unbalanced_);
   for (const int node : pinned_) unbalanced_.col(node).setZero();
 }
 
 // Inverses of symmetric 3 x 3 matrices by their adjugates.
 template <class Scalar>
 void ImplicitSolver<Scalar>::invert_blocks() {
-  forces_.diagonal_blocks(blocks_);
+  blocks_ = forces_.diagonal_blocks();
   for (const Tie& tie : ties_) {
     const auto k = static_cast<float>(tie.stiffness);
     const Vector3<float> n = tie.normal.template cast<float>();
     const bool is_full = tie.normal.isZero(0);
     for (int c = 0; c < 3; ++c) {
-      blocks_(c, tie.node) += is_full ? k : k * n[c] * n[c];
-      if (!is_full) blocks_(3 + c, tie.node) += k * n[c] * n[(c + 1) % 3];
+      blocks_(tie.node, c) += is_full ? k : k * n[c] * n[c];
+      if (!is_full) blocks_(tie.node, 3 + c) += k * n[c] * n[(c + 1) % 3];
     }
   }
-  for (Eigen::Index i = 0; i < blocks_.cols(); ++i) {
-    const float a = blocks_(0, i) + inertia_[i];
-    const float b = blocks_(1, i) + inertia_[i];
-    const float c = blocks_(2, i) + inertia_[i];
-    const float d = blocks_(3, i);
-    const float e = blocks_(4, i);
-    const float f = blocks_(5, i);
+  const Eigen::Index n = blocks_.rows();
+  float* const m = blocks_.data();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const float a = m[i] + inertia_[i];
+    const float b = m[n + i] + inertia_[i];
+    const float c = m[2 * n + i] + inertia_[i];
+    const float d = m[3 * n + i];
+    const float e = m[4 * n + i];
+    const float f = m[5 * n + i];
     const float xx = b * c - e * e;
     const float xy = e * f - c * d;
     const float xz = d * e - b * f;
     const float determinant = a * xx + d * xy + f * xz;
     const float scale = determinant > 0 ? kSmoothing / determinant : 0.0F;
-    blocks_(0, i) = scale * xx;
-    blocks_(1, i) = scale * (a * c - f * f);
-    blocks_(2, i) = scale * (a * b - d * d);
-    blocks_(3, i) = scale * xy;
-    blocks_(4, i) = scale * (d * f - a * e);
-    blocks_(5, i) = scale * xz;
+    m[i] = scale * xx;
+    m[n + i] = scale * (a * c - f * f);
+    m[2 * n + i] = scale * (a * b - d * d);
+    m[3 * n + i] = scale * xy;
+    m[4 * n + i] = scale * (d * f - a * e);
+    m[5 * n + i] = scale * xz;
   }
 }
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::smooth(const Floats& residual, Floats& correction) const {
-  const float* const r = residual.data();
-  float* const z = correction.data();
-  const float* const b = blocks_.data();
-  for (Eigen::Index i = 0; i < residual.cols(); ++i) {
-    const float x = r[3 * i];
-    const float y = r[3 * i + 1];
-    const float w = r[3 * i + 2];
-    const float* const m = b + 6 * i;
-    z[3 * i] = m[0] * x + m[3] * y + m[5] * w;
-    z[3 * i + 1] = m[3] * x + m[1] * y + m[4] * w;
-    z[3 * i + 2] = m[5] * x + m[4] * y + m[2] * w;
-  }
+  const auto n = static_cast<int>(residual.rows());
+  vector_kernel().multiply_blocks(blocks_.data(), n, residual.data(), correction.data());
   project(correction);
 }
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats& product) {
-  product = displacements * inertia_.asDiagonal();
-  forces_.add_product(displacements, product);
+  forces_.multiply(inertia_, displacements, product);
   add_tie_product(displacements, product);
   project(product);
 }
 
-// correction = P residual, and its product with the stiffness.
+// correction + coarse = P residual, each with its product with the stiffness.
 template <class Scalar>
 void ImplicitSolver<Scalar>::precondition() {
   smooth(residual_vector_, correction_);
   multiply(correction_, correction_product_);
-  work_ = residual_vector_ - correction_product_;
-  coarse_.setZero();
+  vector_kernel().subtract(residual_vector_.data(), correction_product_.data(), work_.size(),
+                           work_.data());
   leave_out_ties(work_);
-  factor_.solve(work_, coarse_);
+  global_.solve(work_, coarse_);
   leave_out_ties(coarse_);
   project(coarse_);
-  multiply(coarse_, product_);
-  correction_ += coarse_;
-  correction_product_ += product_;
-  work_ = residual_vector_ - correction_product_;
-  smooth(work_, coarse_);
-  multiply(coarse_, product_);
-  correction_ += coarse_;
-  correction_product_ += product_;
+  multiply(coarse_, coarse_product_);
 }
 
 template <class Scalar>
@@ -188,10 +177,10 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem,
                                           ConstMatrix3XRef<Scalar> places, int iterations) {
   invert_blocks();
   step_.setZero();
-  residual_vector_ = unbalanced_.template cast<float>();
+  load(unbalanced_, residual_vector_);
   bool moves_held = false;
   for (const int i : held_) {
-    if (holds_[at(i)] == Hold::kTied) residual_vector_.col(i) += friction_.col(i);
+    if (holds_[at(i)] == Hold::kTied) residual_vector_.row(i) += friction_.col(i).transpose();
     if (contact_of_[at(i)] < 0 || holds_[at(i)] == Hold::kTied) continue;
     const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
     Vector3<Scalar> move = Vector3<Scalar>::Zero();
@@ -199,37 +188,38 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem,
       move = problem.starts.col(i) + contact.motion - places.col(i);
     }
     const Scalar height = contact.normal.dot(places.col(i) + move) - contact.offset;
-    step_.col(i) = (move - height * contact.normal).template cast<float>();
-    if (holds_[at(i)] == Hold::kOnPlane) residual_vector_.col(i) += friction_.col(i);
+    step_.row(i) = (move - height * contact.normal).template cast<float>().transpose();
+    if (holds_[at(i)] == Hold::kOnPlane) residual_vector_.row(i) += friction_.col(i).transpose();
     moves_held = true;
   }
   if (moves_held) {
-    work_ = step_ * inertia_.asDiagonal();
-    forces_.add_product(step_, work_);
+    forces_.multiply(inertia_, step_, work_);
     residual_vector_ -= work_;
   }
   for (const Tie& tie : ties_) {
-    residual_vector_.col(tie.node) += tie_force(tie, places).template cast<float>();
+    residual_vector_.row(tie.node) += tie_force(tie, places).template cast<float>().transpose();
   }
   project(residual_vector_);
-  float previous = 0;
+  // Flexible conjugate gradients (Notay 2000): the preconditioner is not symmetric, for a second
+  // smoothing costs more than it gains, so that a direction is made conjugate explicitly.
+  const VectorKernel& vectors = vector_kernel();
+  const long size = residual_vector_.size();
+  direction_.setZero();
+  direction_product_.setZero();
+  float curvature = 1;
   for (int k = 0; k < iterations; ++k) {
     precondition();
-    const float size = dot(residual_vector_, correction_);
-    if (!(size > 0)) break;
-    if (k == 0) {
-      direction_ = correction_;
-      direction_product_ = correction_product_;
-    } else {
-      direction_ = correction_ + (size / previous) * direction_;
-      direction_product_ = correction_product_ + (size / previous) * direction_product_;
-    }
-    previous = size;
-    const float curvature = dot(direction_, direction_product_);
-    if (!(curvature > 0)) break;
-    const float length = size / curvature;
-    step_ += length * direction_;
-    residual_vector_ -= length * direction_product_;
+    const auto [gain, overlap] = vectors.add_correction(
+        coarse_.data(), coarse_product_.data(), residual_vector_.data(), direction_product_.data(),
+        size, correction_.data(), correction_product_.data());
+    if (!(gain > 0)) break;
+    const auto [new_curvature, descent] =
+        vectors.turn(correction_.data(), correction_product_.data(), residual_vector_.data(),
+                     overlap / curvature, size, direction_.data(), direction_product_.data());
+    if (!(new_curvature > 0)) break;
+    curvature = new_curvature;
+    vectors.advance(direction_.data(), direction_product_.data(), descent / curvature, size,
+                    step_.data(), residual_vector_.data());
   }
 }
 
@@ -241,9 +231,9 @@ void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, int it
   double work = 0;
   for (Eigen::Index i = 0; i < places.cols(); ++i) {
     if (holds_[at(static_cast<int>(i))] != Hold::kFree) continue;
-    work += static_cast<double>(unbalanced_.col(i).dot(step_.col(i).template cast<Scalar>()));
+    work += static_cast<double>(unbalanced_.col(i).dot(step_of(i)));
   }
-  places += step_.template cast<Scalar>();
+  for (Eigen::Index i = 0; i < places.cols(); ++i) places.col(i) += step_of(i);
   evaluate(problem, places);
   hold_back(problem, work, places);
   if (clamp(problem, places)) evaluate(problem, places);
@@ -253,7 +243,8 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const SolverEffort& effort,
                                    Matrix3XRef<Scalar> places) {
   const TraceScope trace("implicit solve");
-  inertia_ = (masses_ / (problem.inertia_step * problem.inertia_step)).template cast<float>();
+  inertia_.head(masses_.size()) =
+      (masses_ / (problem.inertia_step * problem.inertia_step)).template cast<float>();
   for (const int node : pinned_) {
     inertia_[node] = 0;
     places.col(node) = problem.targets.col(node);
@@ -267,6 +258,7 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const Sol
   for (int round = 0; round < effort.rounds; ++round) {
     do_round(problem, effort.iterations, round == 0, places);
   }
+  find_step_energy(problem);
   if (is_suspicious(problem, places)) tame(problem, effort.iterations, places);
   find_holding_forces(places);
   double left = 0;

@@ -3,10 +3,11 @@
 #include <span>
 #include <vector>
 
+#include <weft/fast_solver/global_correction.hpp>
 #include <weft/fast_solver/network_forces.hpp>
+#include <weft/fast_solver/node_arrays.hpp>
 #include <weft/fast_solver/node_constraints.hpp>
 #include <weft/fast_solver/solver_effort.hpp>
-#include <weft/fast_solver/sparse_cholesky.hpp>
 #include <weft/fast_solver/spring_network.hpp>
 
 namespace weft::fast {
@@ -28,10 +29,10 @@ struct StepProblem {
 
 /// Newton's method, each linear system by a few conjugate gradients. Their preconditioner joins two
 /// halves that a cloth needs. The prefactored matrix of a network that resists equally in all
-/// directions carries a corner's load through the whole cloth at once, but is far too stiff across
-/// the sheet. The blocks of the diagonal are exact there, where neighbours have little to say. Block
-/// smoothing before and after the global solve (a symmetric two-level cycle) leaves a condition
-/// number of a few, whatever the number of nodes. Contacts are eliminated: a node on a plane moves in
+/// directions, on few of the nodes, carries a corner's load through the whole cloth at once, but is far
+/// too stiff across the sheet. The blocks of the diagonal are exact there, where neighbours have little
+/// to say. Block smoothing, then the global correction of what is left (a two-level cycle) make each
+/// iteration take away about half of the error, whatever the number of nodes. Contacts are eliminated: a node on a plane moves in
 /// the plane, one that sticks not at all (Baraff and Witkin 1998), and what it takes to hold them is
 /// the contact force, whose sign and friction decide how the next round holds them.
 ///
@@ -47,7 +48,7 @@ class ImplicitSolver {
                  const std::vector<bool>& is_free, double inertia_step);
 
   [[nodiscard]] int num_nodes() const { return forces_.num_nodes(); }
-  [[nodiscard]] const SparseCholesky& factor() const { return factor_; }
+  [[nodiscard]] const GlobalCorrection& global_correction() const { return global_; }
 
   /// places: 3 x n [m], in: a guess; out: the solution.
   void solve(const StepProblem<Scalar>& problem, const SolverEffort& effort,
@@ -60,11 +61,17 @@ class ImplicitSolver {
   [[nodiscard]] int contact_of(int node) const {
     return contact_of_[static_cast<std::size_t>(node)];
   }
+  /// After solve(): m |y - q|^2 / (2 h'^2), the energy of the motion without springs [J].
+  [[nodiscard]] double step_energy() const { return step_energy_; }
+  /// What springs store at places, and what dampers take away on the way there from the start of the step [J].
+  [[nodiscard]] double spring_energy(ConstMatrix3XRef<Scalar> places) {
+    return forces_.potential(places);
+  }
   /// After solve(): root mean square of the unbalanced forces over that of the step's first guess [-].
   [[nodiscard]] double residual() const { return residual_; }
 
  private:
-  using Floats = Matrix3X<float>;
+  using Floats = NodeArrays<float>;
   /// A spring of stiffness mass / h'^2 to a place, in all directions or along a normal only: the
   /// inertia of a body that moves together with the node.
   struct Tie {
@@ -74,6 +81,10 @@ class ImplicitSolver {
     Vector3<Scalar> place;   ///< [m]
   };
 
+  /// [m] of the last linear system.
+  [[nodiscard]] Vector3<Scalar> step_of(Eigen::Index node) const {
+    return step_.row(node).transpose().template cast<Scalar>();
+  }
   void evaluate(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places);
   void decide_holds(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places,
                     bool is_first);
@@ -89,12 +100,15 @@ class ImplicitSolver {
                     int iterations);
   void do_round(const StepProblem<Scalar>& problem, int iterations, bool is_first,
                 Matrix3XRef<Scalar> places);
-  [[nodiscard]] double energy(const StepProblem<Scalar>& problem,
-                              ConstMatrix3XRef<Scalar> places) const;
+  [[nodiscard]] double energy(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places);
   [[nodiscard]] bool is_suspicious(const StepProblem<Scalar>& problem,
                                    ConstMatrix3XRef<Scalar> places) const;
+  void find_step_energy(const StepProblem<Scalar>& problem);
   void stay_at_start(const StepProblem<Scalar>& problem);
+  bool descend(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> from,
+               Matrix3XRef<Scalar> places);
   void tame(const StepProblem<Scalar>& problem, int iterations, Matrix3XRef<Scalar> places);
+  bool go_downhill(const StepProblem<Scalar>& problem, int iterations, Matrix3XRef<Scalar> places);
   void hold_back(const StepProblem<Scalar>& problem, double work_before,
                  Matrix3XRef<Scalar> places);
   void find_holding_forces(ConstMatrix3XRef<Scalar> places);
@@ -102,13 +116,13 @@ class ImplicitSolver {
   bool clamp(const StepProblem<Scalar>& problem, Matrix3XRef<Scalar> places);
 
   NetworkForces<Scalar> forces_;
-  SparseCholesky factor_;
+  GlobalCorrection global_;
   VectorX<Scalar> masses_;
   std::vector<bool> is_free_;
   std::vector<int> pinned_;
   std::vector<int> held_;        ///< nodes with a hold
   std::vector<Tie> ties_;        ///< of each tied node
-  VectorX<float> inertia_;       ///< m / h'^2 [N/m]; 0 for pinned nodes
+  VectorX<float> inertia_;       ///< m / h'^2 [N/m]; 0 for pinned nodes; filled up with zeros
   Matrix3X<Scalar> unbalanced_;  ///< forces that are left [N]
   Matrix3X<Scalar> holding_forces_;
   Matrix3X<Scalar> unmoved_;
@@ -117,10 +131,12 @@ class ImplicitSolver {
   std::vector<int> contact_of_;    ///< of each node: the contact that holds it, or -1
   Matrix3X<float> normals_;        ///< of each node on a plane
   Matrix3X<float> friction_;       ///< of each sliding node [N]
-  Eigen::Matrix<float, 6, Eigen::Dynamic> blocks_;  ///< inverse of the diagonal's
+  BlockArrays blocks_;             ///< inverse of the diagonal's
   Floats step_, residual_vector_, direction_, direction_product_;
-  Floats correction_, correction_product_, work_, coarse_, product_;
+  Floats correction_, correction_product_, work_, coarse_, coarse_product_;
   double residual_ = 0;
+  double step_energy_ = 0;
+  bool has_friction_ = true;
 };
 
 extern template class ImplicitSolver<float>;

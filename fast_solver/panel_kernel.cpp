@@ -2,7 +2,7 @@
 
 namespace weft::fast {
 
-#ifdef WEFT_PANEL_AVX2
+#ifdef WEFT_VECTOR_KERNELS
 const PanelKernel& panel_kernel_avx2();
 #endif
 
@@ -13,7 +13,7 @@ namespace {
 }  // namespace
 
 const PanelKernel& panel_kernel() {
-#ifdef WEFT_PANEL_AVX2
+#ifdef WEFT_VECTOR_KERNELS
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return panel_kernel_avx2();
 #endif
   static constexpr PanelKernel kKernel{&times, &transposed_times};

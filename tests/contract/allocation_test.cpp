@@ -1,13 +1,4 @@
 // A law allocates nothing while it runs.
-//
-// The linker's --wrap replaces every reference to malloc, operator new (_Znwm, and with alignment
-// _ZnwmSt11align_val_t) and their relatives in the object files of this program, and with them in
-// the laws and in Eigen, whose temporaries come from malloc. Shared libraries keep their own
-// references, so what oneTBB takes from its pool for its tasks is not counted: it is TBB's own
-// recycled memory, not the law's. The counter is per process, so that worker threads count too.
-
-#include <atomic>
-#include <cstddef>
 #include <new>
 #include <ostream>
 
@@ -18,49 +9,7 @@
 
 #include "tests/contract/sample.hpp"
 #include "tests/contract/subject.hpp"
-
-namespace {
-std::atomic<long> num_allocations{0};
-}  // namespace
-
-extern "C" {
-void* __real_malloc(std::size_t size);
-void* __real_calloc(std::size_t count, std::size_t size);
-void* __real_realloc(void* memory, std::size_t size);
-void* __real_aligned_alloc(std::size_t alignment, std::size_t size);
-int __real_posix_memalign(void** memory, std::size_t alignment, std::size_t size);
-void* __real__Znwm(std::size_t size);
-void* __real__ZnwmSt11align_val_t(std::size_t size, std::align_val_t alignment);
-
-void* __wrap_malloc(std::size_t size) {
-  ++num_allocations;
-  return __real_malloc(size);
-}
-void* __wrap_calloc(std::size_t count, std::size_t size) {
-  ++num_allocations;
-  return __real_calloc(count, size);
-}
-void* __wrap_realloc(void* memory, std::size_t size) {
-  ++num_allocations;
-  return __real_realloc(memory, size);
-}
-void* __wrap_aligned_alloc(std::size_t alignment, std::size_t size) {
-  ++num_allocations;
-  return __real_aligned_alloc(alignment, size);
-}
-int __wrap_posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
-  ++num_allocations;
-  return __real_posix_memalign(memory, alignment, size);
-}
-void* __wrap__Znwm(std::size_t size) {
-  ++num_allocations;
-  return __real__Znwm(size);
-}
-void* __wrap__ZnwmSt11align_val_t(std::size_t size, std::align_val_t alignment) {
-  ++num_allocations;
-  return __real__ZnwmSt11align_val_t(size, alignment);
-}
-}
+#include "tests/support/allocation_counter.hpp"
 
 namespace weft::contract {
 
@@ -91,9 +40,9 @@ long allocations_of(const Subject& subject, int threads) {
     (void)laws.non_conservative_power(state);
   };
   call_everything();  // warm-up: TBB starts its threads
-  const long before = num_allocations;
+  const long before = test::num_allocations();
   call_everything();
-  return num_allocations - before;
+  return test::num_allocations() - before;
 }
 
 class LawAllocation : public testing::TestWithParam<Subject> {};
@@ -109,13 +58,13 @@ TEST_P(LawAllocation, IsZeroAfterWarmUp) {
 }
 
 TEST(LawAllocation, TheCounterSeesEigenAndOperatorNew) {
-  const long before = num_allocations;
+  const long before = test::num_allocations();
   const Matrix3X<double> temporary = random_directions(100, 1);
-  EXPECT_GT(num_allocations, before) << temporary.cols();
-  const long between = num_allocations;
+  EXPECT_GT(test::num_allocations(), before) << temporary.cols();
+  const long between = test::num_allocations();
   // Called as a function: a compiler may leave out the allocation of an unused container.
   ::operator delete(::operator new(100));
-  EXPECT_GT(num_allocations, between);
+  EXPECT_GT(test::num_allocations(), between);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TEST(SpringNetwork, HasTheForcesOfTheLaws) {
   NetworkForces<double> network(make_network(mesh, {kTension, kStretch}), mesh.num_nodes());
   network.begin_step(q, h);
   Matrix3X<double> forces = Matrix3X<double>::Zero(3, mesh.num_nodes());
-  network.add_forces(x, q, forces);
+  network.add_forces(x, forces);
   forces::LawSet<double> laws;
   for (const auto& law : {kTension, kStretch}) laws.add(forces::make_law<double>(law, mesh));
   Matrix3X<double> expected = Matrix3X<double>::Zero(3, mesh.num_nodes());
@@ -60,7 +60,7 @@ TEST(SpringNetwork, DampsTheChangeOfLength) {
   NetworkForces<double> network(make_network(mesh, {kDamping}), mesh.num_nodes());
   network.begin_step(q, h);
   Matrix3X<double> forces = Matrix3X<double>::Zero(3, mesh.num_nodes());
-  network.add_forces(x, q, forces);
+  network.add_forces(x, forces);
   forces::LawSet<double> laws;
   laws.add(forces::make_law<double>(kDamping, mesh));
   Matrix3X<double> expected = Matrix3X<double>::Zero(3, mesh.num_nodes());
@@ -78,16 +78,21 @@ TEST(SpringNetwork, ItsProductIsTheDerivativeWhereSpringsAreStretched) {
   const Matrix3X<double> d = Matrix3X<double>::Random(3, mesh.num_nodes());
   const auto forces_at = [&](double by) {
     Matrix3X<double> forces = Matrix3X<double>::Zero(3, mesh.num_nodes());
-    network.add_forces(x + by * d, mesh.rest_positions, forces);
+    network.add_forces(x + by * d, forces);
     return forces;
   };
   const double by = 1e-5;
   const Matrix3X<double> expected = (forces_at(-by) - forces_at(by)) / (2 * by);
   (void)forces_at(0);
-  Matrix3X<float> product = Matrix3X<float>::Zero(3, mesh.num_nodes());
-  network.add_product(d.cast<float>(), product);
+  const int rows = fill_up(mesh.num_nodes());
+  NodeArrays<float> displacements(rows, 3);
+  to_arrays<float>(d.cast<float>(), displacements);
+  NodeArrays<float> product(rows, 3);
+  network.multiply(VectorX<float>::Zero(rows), displacements, product);
+  const NodeArrays<double> result = product.cast<double>();
   // Products are in single precision.
-  EXPECT_LT((product.cast<double>() - expected).norm(), 1e-5 * expected.norm());
+  EXPECT_LT((result.topRows(mesh.num_nodes()).transpose() - expected).norm(),
+            1e-5 * expected.norm());
 }
 
 TEST(SpringNetwork, ItsBlocksAreThoseOfTheProduct) {
@@ -96,18 +101,18 @@ TEST(SpringNetwork, ItsBlocksAreThoseOfTheProduct) {
   const Matrix3X<float> x = places(mesh, 0.05).cast<float>();
   network.begin_step(x, 0.01F);
   Matrix3X<float> forces = Matrix3X<float>::Zero(3, mesh.num_nodes());
-  network.add_forces(x, x, forces);
-  Eigen::Matrix<float, 6, Eigen::Dynamic> blocks(6, mesh.num_nodes());
-  network.diagonal_blocks(blocks);
+  network.add_forces(x, forces);
+  const int rows = fill_up(mesh.num_nodes());
+  const BlockArrays& blocks = network.diagonal_blocks();
   const int entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
   for (const int node : {0, 7, 13, 29}) {
     for (int axis = 0; axis < 3; ++axis) {
-      Matrix3X<float> d = Matrix3X<float>::Zero(3, mesh.num_nodes());
-      d(axis, node) = 1;
-      Matrix3X<float> product = Matrix3X<float>::Zero(3, mesh.num_nodes());
-      network.add_product(d, product);
+      NodeArrays<float> d = NodeArrays<float>::Zero(rows, 3);
+      d(node, axis) = 1;
+      NodeArrays<float> product(rows, 3);
+      network.multiply(VectorX<float>::Zero(rows), d, product);
       for (int row = 0; row < 3; ++row) {
-        EXPECT_NEAR(product(row, node), blocks(entry[row][axis], node), 1e-3F) << node;
+        EXPECT_NEAR(product(node, row), blocks(node, entry[row][axis]), 1e-3F) << node;
       }
     }
   }

@@ -1,0 +1,83 @@
+#include <weft/bridge/attachment.hpp>
+
+#include <weft/bridge/node_state.hpp>
+#include <weft/custom_forces/core/trace.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+using LawSet = forces::LawSet<btScalar>;
+using Level = forces::LawTraits::Level;
+using State = forces::State<btScalar>;
+
+bool SoftBodySolver::Attachment::acts_after_projection(Level level) const {
+  if (!laws.has_level(level)) return false;
+  if (damping != DampingPlace::kAutomatic) return damping == DampingPlace::kAfterProjection;
+  return level == Level::kVelocity || body->m_links.size() > 0 || fast != nullptr;
+}
+
+// Velocity-level laws state how fast velocities decay: inertia does not slow them down.
+void SoftBodySolver::Attachment::sum_laws() {
+  const State state{positions, velocities, masses, time};
+  const forces::ForceReport report = deferred.finish(state, forces);
+  if (!report.ok()) {
+    blow_up = BodyBlowUp{*report.first_non_finite_node, "position or velocity is not finite"};
+    return;
+  }
+  if (!acts_after_projection(Level::kInertia)) laws.redistribute_forces(state, forces);
+  if (!acts_after_projection(Level::kVelocity)) {
+    (void)laws.add_forces(state, LawSet::VelocityLaws::kAlone, forces);
+  }
+}
+
+void SoftBodySolver::Attachment::add_forces(btScalar time_step) {
+  const TraceScope trace("forces");
+  read_nodes(*body, positions, velocities);
+  if (acts_after_projection(Level::kInertia)) start_velocities = velocities;
+  sum_laws();
+  if (blow_up) return;
+  // Now, on the velocities that predictMotion is about to make: afterwards would be too late, for a
+  // node without a place in space ruins the body's bounding-volume tree.
+  blow_up = predicted_blow_up(*body, velocities, forces, time_step, SoftBodySolver::kMaxSpeed);
+  if (!blow_up) add_node_forces(forces, *body);
+}
+
+// On other threads, from a copy of the state: the body may leave or be deleted meanwhile.
+void SoftBodySolver::Attachment::begin_forces() {
+  read_nodes(*body, positions, velocities);
+  deferred.begin({positions, velocities, masses, time});
+}
+
+// Laws made for another mesh throw here, at attach, and not out of Bullet's step.
+void SoftBodySolver::Attachment::check_laws() {
+  read_nodes(*body, positions, velocities);
+  forces.setZero(3, positions.cols());
+  const State state{positions, velocities, masses, time};
+  (void)laws.add_forces(state, LawSet::VelocityLaws::kAsForces, forces);
+  laws.redistribute_forces(state, forces);
+}
+
+// The change of momentum over the step stands for the sum of all forces on the body.
+void SoftBodySolver::Attachment::slow_down_changes() {
+  forces = (velocities - start_velocities) * masses.asDiagonal();
+  laws.redistribute_forces(State{positions, velocities, masses, time}, forces);
+  velocities = start_velocities + forces * masses.cwiseInverse().asDiagonal();
+}
+
+void SoftBodySolver::Attachment::damp_velocities(btScalar time_step) {
+  const TraceScope trace("damp velocities");
+  const bool slows_down = acts_after_projection(Level::kInertia);
+  const bool advances = acts_after_projection(Level::kVelocity);
+  if (!slows_down && !advances) return;
+  read_nodes(*body, positions, velocities);
+  if (slows_down) slow_down_changes();
+  if (advances) {
+    forces = velocities;  // the laws see the state as it is and change a copy
+    laws.advance_velocities(State{positions, velocities, masses, time}, time_step, forces);
+    velocities.swap(forces);
+  }
+  write_node_velocities(velocities, *body);
+}
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

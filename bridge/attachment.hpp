@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <weft/bridge/fast_body.hpp>
+#include <weft/bridge/solver.hpp>
+#include <weft/custom_forces/deferred_forces.hpp>
+
+// Not for users of the bridge: what SoftBodySolver knows of its bodies.
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+struct SoftBodySolver::Attachment {
+  btSoftBody* body;
+  forces::LawSet<btScalar> laws;
+  forces::DeferredForces<btScalar> deferred{laws,
+                                            forces::LawSet<btScalar>::VelocityLaws::kSeparate};
+  VectorX<btScalar> masses;
+  DampingPlace damping = DampingPlace::kAutomatic;
+  Matrix3X<btScalar> start_velocities;  // of the step, only for inertia after the projection
+  Matrix3X<btScalar> positions;
+  Matrix3X<btScalar> velocities;
+  Matrix3X<btScalar> forces;
+  std::optional<BodyBlowUp> blow_up;
+  PositionLimits limits;
+  std::unique_ptr<FastBody> fast;  // none: Bullet's own constraints
+  bool was_in_world = false;
+  bool is_suspended = false;
+  double time = 0.0;  // [s] of the steps since the body was attached
+
+  [[nodiscard]] bool acts_after_projection(forces::LawTraits::Level level) const;
+  void add_forces(btScalar time_step);
+  void begin_forces();
+  void sum_laws();
+  void damp_velocities(btScalar time_step);
+  void slow_down_changes();
+  void check_laws();
+};
+
+struct ContactEntry {
+  btSoftBody* body;
+  ClothContact contact;
+  bool was_in_world = false;
+};
+
+struct SoftBodySolver::Attachments {
+  std::vector<std::unique_ptr<Attachment>> list;
+  std::vector<std::unique_ptr<ContactEntry>> contacts;
+};
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

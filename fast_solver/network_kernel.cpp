@@ -1,0 +1,50 @@
+#include <weft/fast_solver/network_kernel.hpp>
+
+namespace weft::fast {
+
+#ifdef WEFT_VECTOR_KERNELS
+template <class Scalar>
+const NetworkKernel<Scalar>& network_kernel_avx2();
+template <class Scalar>
+const NetworkKernel<Scalar>& network_kernel_avx512();
+const VectorKernel& vector_kernel_avx2();
+const VectorKernel& vector_kernel_avx512();
+#endif
+
+namespace {
+
+constexpr int kVectorBytes = 16;
+#include "network_kernel_body.inc"
+
+#ifdef WEFT_VECTOR_KERNELS
+bool has_avx512() {
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl");
+}
+bool has_avx2() {
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+}
+#endif
+
+}  // namespace
+
+template <class Scalar>
+const NetworkKernel<Scalar>& network_kernel() {
+#ifdef WEFT_VECTOR_KERNELS
+  if (has_avx512()) return network_kernel_avx512<Scalar>();
+  if (has_avx2()) return network_kernel_avx2<Scalar>();
+#endif
+  return kKernel<Scalar>;
+}
+
+const VectorKernel& vector_kernel() {
+#ifdef WEFT_VECTOR_KERNELS
+  if (has_avx512()) return vector_kernel_avx512();
+  if (has_avx2()) return vector_kernel_avx2();
+#endif
+  return kVectors;
+}
+
+template const NetworkKernel<float>& network_kernel();
+template const NetworkKernel<double>& network_kernel();
+
+}  // namespace weft::fast

@@ -1,0 +1,28 @@
+// Compiled for AVX2 and FMA (CMakeLists.txt), called only on processors that have it.
+#include <weft/fast_solver/network_kernel.hpp>
+
+namespace weft::fast {
+namespace {
+
+constexpr int kVectorBytes = 32;
+#include "network_kernel_body.inc"
+
+}  // namespace
+
+template <class Scalar>
+const NetworkKernel<Scalar>& network_kernel_avx2();
+const VectorKernel& vector_kernel_avx2();
+
+template <class Scalar>
+const NetworkKernel<Scalar>& network_kernel_avx2() {
+  return kKernel<Scalar>;
+}
+
+const VectorKernel& vector_kernel_avx2() {
+  return kVectors;
+}
+
+template const NetworkKernel<float>& network_kernel_avx2();
+template const NetworkKernel<double>& network_kernel_avx2();
+
+}  // namespace weft::fast

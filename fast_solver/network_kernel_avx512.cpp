@@ -1,0 +1,28 @@
+// Compiled for AVX-512 (CMakeLists.txt), called only on processors that have it.
+#include <weft/fast_solver/network_kernel.hpp>
+
+namespace weft::fast {
+namespace {
+
+constexpr int kVectorBytes = 64;
+#include "network_kernel_body.inc"
+
+}  // namespace
+
+template <class Scalar>
+const NetworkKernel<Scalar>& network_kernel_avx512();
+const VectorKernel& vector_kernel_avx512();
+
+template <class Scalar>
+const NetworkKernel<Scalar>& network_kernel_avx512() {
+  return kKernel<Scalar>;
+}
+
+const VectorKernel& vector_kernel_avx512() {
+  return kVectors;
+}
+
+template const NetworkKernel<float>& network_kernel_avx512();
+template const NetworkKernel<double>& network_kernel_avx512();
+
+}  // namespace weft::fast
