@@ -286,9 +286,8 @@ void evaluate_cusick(const CaseInfo& info, const CaseOptions&, const EngineRuns&
   report.checks.push_back(std::move(rigid));
   Section section{std::string(info.id), std::string(info.summary), {}, {}, {}, ""};
   Table table{"Eight seeds each",
-              {"fabric", "areal density [g/m^2]", "rigidity [uN m]", "bending length [mm]",
-               "drape coefficient [%]", "deviation [%]", "with cells of 10 mm [%]",
-               "folds: seeds x number"},
+              {"fabric", "density [g/m^2]", "rigidity [uN m]", "bending length [mm]", "drape [%]",
+               "deviation [%]", "10 mm cells [%]", "folds (seeds x number)"},
               {}};
   Plot spectrum = spectrum_plot();
   Plot curve{"Drape coefficient against bending length",
@@ -296,7 +295,7 @@ void evaluate_cusick(const CaseInfo& info, const CaseOptions&, const EngineRuns&
              "drape coefficient [%]",
              false,
              false,
-             {{"reference", {}, {}}, {"ppf-contact-solver, fitted to published fabrics", {}, {}}}};
+             {{"reference", {}, {}}, {"ppf-contact-solver", {}, {}}}};
   for (const Fabric& fabric : kFabrics) {
     const Statistics right = statistics(fabric, fine);
     const Statistics rough = statistics(fabric, coarse);
