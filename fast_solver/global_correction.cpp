@@ -8,8 +8,11 @@
 namespace weft::fast {
 namespace {
 
-/// Coarse unknowns up to which no coarser ones are looked for: their factor is read in some 20 us.
+/// Coarse unknowns up to which no coarser ones are looked for: so many, or this share of all. Their factor is
+/// read in a fraction of the time that the other parts of an iteration take, and every further
+/// level leaves out more than one smoothing can do.
 constexpr int kFewEnough = 8000;
+constexpr double kSmallShare = 0.05;
 /// The next coarser ones must be fewer by this to be worth it.
 constexpr double kLeastGain = 0.7;
 
@@ -23,7 +26,7 @@ GlobalCorrection::GlobalCorrection(const SymmetricMatrix& matrix, const std::vec
                                    int num_nodes) {
   Interpolation total = make_interpolation(matrix);
   SymmetricMatrix coarse = coarse_matrix(matrix, total);
-  while (coarse.size() > kFewEnough) {
+  while (coarse.size() > std::max<double>(kFewEnough, kSmallShare * matrix.size())) {
     const Interpolation next = make_interpolation(coarse);
     if (next.num_coarse > kLeastGain * coarse.size()) break;
     coarse = coarse_matrix(coarse, next);

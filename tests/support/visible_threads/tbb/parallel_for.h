@@ -5,6 +5,7 @@
 // shared byte a race. Started and joined as std::thread, the same bodies are judged as they are.
 
 #include <algorithm>
+#include <exception>
 #include <thread>
 #include <vector>
 
@@ -16,12 +17,20 @@ template <class Index, class Body>
 void parallel_for(Index first, Index last, const Body& body) {
   constexpr int kThreads = 4;
   std::vector<std::thread> threads;
+  std::vector<std::exception_ptr> thrown(kThreads);
   for (int t = 0; t < kThreads; ++t) {
-    threads.emplace_back([=, &body] {
-      for (Index i = first + static_cast<Index>(t); i < last; i += kThreads) body(i);
+    threads.emplace_back([=, &body, &thrown] {
+      try {
+        for (Index i = first + static_cast<Index>(t); i < last; i += kThreads) body(i);
+      } catch (...) {
+        thrown[static_cast<std::size_t>(t)] = std::current_exception();
+      }
     });
   }
   for (std::thread& thread : threads) thread.join();
+  for (const std::exception_ptr& exception : thrown) {
+    if (exception) std::rethrow_exception(exception);
+  }
 }
 
 template <class Value, class Body>
