@@ -29,7 +29,7 @@ TEST(Base64, MatchesTheVectorsOfRfc4648) {
 TEST(Json, NamesItsSchemaAndVersion) {
   const json read = json::parse(to_json(Report{}));
   EXPECT_EQ(read["schema"], "weft-report");
-  EXPECT_EQ(read["schema_version"], 1);
+  EXPECT_EQ(read["schema_version"], 2);
 }
 
 TEST(Json, HoldsEveryFieldOfACheck) {
@@ -101,7 +101,8 @@ TEST(Json, HoldsSectionsDeparturesLimitsAndProvenance) {
   EXPECT_EQ(drape["scene_text"], report.sections[2].scene_text);
   EXPECT_EQ(drape["tables"][0]["rows"][1][1], "2.31");
   const json& picture = drape["picture_rows"][1]["pictures"][2];
-  EXPECT_EQ(picture["png_base64"], to_base64(report.sections[2].picture_rows[1].pictures[2].png));
+  EXPECT_EQ(picture["base64"], to_base64(report.sections[2].picture_rows[1].pictures[2].image));
+  EXPECT_EQ(picture["mime"], "image/png");
   EXPECT_EQ(picture["file"], "pictures/3-drape_sphere/2-3-bullet_forces_float32.png");
   EXPECT_EQ(read["departures"][0]["reason"], report.departures[0].reason);
   EXPECT_EQ(read["limits"], json(report.limits));

@@ -44,7 +44,7 @@ TEST_F(WriteReport, WritesThePageItsTwinsAndThePictures) {
   EXPECT_EQ(read(out / "report.json"), to_json(report));
   EXPECT_EQ(read(out / "junit.xml"), to_junit(report));
   EXPECT_EQ(read(out / picture_path(report, 2, 1, 3)),
-            report.sections[2].picture_rows[1].pictures[3].png);
+            report.sections[2].picture_rows[1].pictures[3].image);
 }
 
 TEST_F(WriteReport, ReplacesAnOlderReportAndLeavesNoTemporaryFile) {
@@ -103,7 +103,7 @@ TEST_F(WriteReport, RenderingNamesTheFileThatIsNoReport) {
   };
   EXPECT_THAT(message(), testing::HasSubstr((folder_ / "report.json").string()));
   std::ofstream(folder_ / "report.json") << "{\"schema\": \"weft-report\", \"schema_version\": 99}";
-  EXPECT_THAT(message(), testing::HasSubstr("schema_version is 99, expected 1"));
+  EXPECT_THAT(message(), testing::HasSubstr("schema_version is 99, expected 2"));
   std::ofstream(folder_ / "report.json") << "[1, 2";
   EXPECT_THAT(message(), testing::HasSubstr("is not a report"));
   EXPECT_FALSE(fs::exists(folder_ / "index.html"));
@@ -120,6 +120,14 @@ TEST(PicturePath, StaysInsideTheFolderAndIsUnique) {
   EXPECT_EQ(picture_path(report, 0, 0, 0), "pictures/1-etc/1-1-a_b.png");
   EXPECT_EQ(picture_path(report, 0, 0, 1), "pictures/1-etc/1-2-a_b.png");
   EXPECT_EQ(picture_path(report, 0, 0, 2), "pictures/1-etc/1-3-untitled.png");
+}
+
+TEST(PicturePath, EndsAsTheBytesOfThePictureAre) {
+  Report report;
+  report.sections = {{"a", "", {{"", {{"b", "", "\xff\xd8\xff\xe0"}}}}, {}, {}, ""}};
+  EXPECT_EQ(picture_path(report, 0, 0, 0), "pictures/1-a/1-1-b.jpg");
+  EXPECT_STREQ(picture_type(report.sections[0].picture_rows[0].pictures[0].image).mime,
+               "image/jpeg");
 }
 
 }  // namespace

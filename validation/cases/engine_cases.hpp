@@ -20,6 +20,9 @@ void evaluate_materials(const CaseInfo&, const CaseOptions&, const EngineRuns&, 
 void plan_incline(const CaseInfo&, const CaseOptions&, EngineRuns&);
 void evaluate_incline(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
+/// The drape test after Cusick, eight times for each fabric, with the reference.
+void evaluate_cusick(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+
 /// Ropes of Bullet's links: one spring is gated, chains are mapped.
 void plan_stiffness_map(const CaseInfo&, const CaseOptions&, EngineRuns&);
 void evaluate_stiffness_map(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);

@@ -145,9 +145,14 @@ Grid judge_grid(std::vector<Ways> ways, double time_step) {
 }
 
 Table table_of(const EngineChoice& engine, const Grid& grid) {
-  Table table{engine.title() + ": s slides, . sticks, ! in the wrong class", {"angle [deg]"}, {}};
-  for (int i = 0; i < kFrictions; ++i)
-    table.columns.push_back(fmt::format("{:.2f}", friction_at(i)));
+  Table table{engine.title() + " by angle and mu: s slides, . sticks, ! in the wrong class",
+              {"angle [deg]"},
+              {}};
+  // Twenty columns fit a page of 1200 pixels without the leading zero.
+  for (int i = 0; i < kFrictions; ++i) {
+    const std::string text = fmt::format("{:.2f}", friction_at(i));
+    table.columns.push_back(text.starts_with("0") ? text.substr(1) : text.substr(0, 3));
+  }
   for (int j = 0; j < kAngles; ++j) {
     std::vector<std::string> row{fmt::format("{:.1f}", angle_at(j))};
     for (int i = 0; i < kFrictions; ++i) {

@@ -29,8 +29,9 @@ std::vector<Judged> engines(bool with_bullet) {
                          "Bullet ends its conjugate gradients at a residual, not at zero"};
   const Tolerance implicit{0.01, Basis::kModelGap,
                            "contact of an implicit step is predicted with an effective mass"};
-  const Tolerance tied{0.02, Basis::kModelGap,
-                       "the ball's inertia is shared out over its contacts; impulses are what they have held"};
+  const Tolerance tied{
+      0.02, Basis::kModelGap,
+      "the ball's inertia is shared out over its contacts; impulses are what they have held"};
   std::vector<Judged> list;
   const auto add = [&](const char* engine, scenes::StoredPrecision precision,
                        const Tolerance& tolerance) {

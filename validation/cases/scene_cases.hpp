@@ -29,6 +29,10 @@ void evaluate_damped_hang(const CaseInfo&, const CaseOptions&, const EngineRuns&
 void plan_third_opinion(const CaseInfo&, const CaseOptions&, EngineRuns&);
 void evaluate_third_opinion(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
+/// A cloth on ten bodies in three resolutions: every engine beside the reference.
+void plan_collision_sweep(const CaseInfo&, const CaseOptions&, EngineRuns&);
+void evaluate_collision_sweep(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+
 /// Every engine with several steps and numbers of iterations, held against a converged reference and the
 /// wall time it took.
 void plan_work_precision(const CaseInfo&, const CaseOptions&, EngineRuns&);

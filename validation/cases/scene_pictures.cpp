@@ -29,7 +29,7 @@ Picture draw(scenes::Renderer& renderer, const History& history, const scenes::S
   Picture picture;
   picture.title = history.engine.title();
   picture.caption = fmt::format("t = {:.2f} s", frame.time);
-  picture.png = scenes::encode_png(renderer.render(frame, options_for(style), field));
+  picture.image = scenes::encode_jpeg(renderer.render(frame, options_for(style), field));
   return picture;
 }
 
@@ -79,15 +79,15 @@ scenes::ScalarField distance_field(const scenes::SceneState& frame,
   return field;
 }
 
-/// Wireframe and strain look the same in both precisions; one of them keeps the page within 15 MB.
-bool shows_details(const EngineChoice& engine) {
+/// Both precisions look the same; one of them keeps the page of all cases within 6 MB.
+bool is_shown(const EngineChoice& engine) {
   return engine.engine == "reference" || engine.precision == scenes::StoredPrecision::kFloat32;
 }
 
 }  // namespace
 
 std::vector<PictureRow> scene_pictures(const SceneMetrics& metrics,
-                                       const std::vector<History>& histories) {
+                                       const std::vector<History>& histories, bool has_view) {
   using scenes::SurfaceStyle;
   scenes::Renderer renderer(metrics.scene());
   PictureRow moving{"On the way", {}};
@@ -98,19 +98,20 @@ std::vector<PictureRow> scene_pictures(const SceneMetrics& metrics,
   const Frames& reference = histories.back().frames;
   const double strain_scale = reference.empty() ? 1.0 : largest_strain(metrics, reference.back());
   for (const History& history : histories) {
-    if (history.frames.empty()) continue;
+    if (history.frames.empty() || !is_shown(history.engine)) continue;
     const Frames& frames = history.frames;
     moving.pictures.push_back(
         draw(renderer, history, frames[middle_frame(frames)], SurfaceStyle::kShaded));
     shaded.pictures.push_back(draw(renderer, history, frames.back(), SurfaceStyle::kShaded));
-    if (shows_details(history.engine)) {
+    const scenes::ScalarField strains = strain_field(metrics, frames.back(), strain_scale);
+    strain.pictures.push_back(
+        draw(renderer, history, frames.back(), SurfaceStyle::kScalar, &strains));
+    const bool is_reference = &history == &histories.back();
+    if (is_reference) {
       wireframe.pictures.push_back(
           draw(renderer, history, frames.back(), SurfaceStyle::kWireframe));
-      const scenes::ScalarField strains = strain_field(metrics, frames.back(), strain_scale);
-      strain.pictures.push_back(
-          draw(renderer, history, frames.back(), SurfaceStyle::kScalar, &strains));
     }
-    if (&history != &histories.back() && frames.size() == reference.size()) {
+    if (!has_view && !is_reference && frames.size() == reference.size()) {
       const scenes::ScalarField field = distance_field(frames.back(), reference.back());
       difference.pictures.push_back(
           draw(renderer, history, frames.back(), SurfaceStyle::kScalar, &field));

@@ -156,7 +156,8 @@ Section scene_section(const SceneMetrics& metrics, const std::vector<History>& h
                                       "depth [mm]", &depth_millimetres));
   }
   if (pictures) section.distance_views = scene_distance_views(metrics, histories);
-  if (pictures) section.picture_rows = scene_pictures(metrics, histories);
+  if (pictures)
+    section.picture_rows = scene_pictures(metrics, histories, !section.distance_views.empty());
   return section;
 }
 

@@ -12,10 +12,11 @@ namespace weft::validation {
 [[nodiscard]] Section scene_section(const SceneMetrics& metrics,
                                     const std::vector<History>& histories, bool pictures);
 
-/// Pictures of the last frame of every engine: shaded, wireframe, strain, and the distance to the
-/// reference.
+/// Pictures of every engine on the way and at the end, its strain and, without a view in 3D that shows it, its
+/// distance to the reference; the reference's wireframe.
 [[nodiscard]] std::vector<PictureRow> scene_pictures(const SceneMetrics& metrics,
-                                                     const std::vector<History>& histories);
+                                                     const std::vector<History>& histories,
+                                                     bool has_view);
 
 /// The reference's cloth in motion, with the distance of every engine on it: one view, or none if there
 /// is nothing to compare or the cloth is torn.

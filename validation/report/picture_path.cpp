@@ -27,12 +27,17 @@ std::string file_name_part(std::string_view title) {
 
 }  // namespace
 
+PictureType picture_type(const std::string& image) {
+  if (image.starts_with("\xff\xd8\xff")) return {"image/jpeg", "jpg"};
+  return {"image/png", "png"};
+}
+
 std::string picture_path(const Report& report, std::size_t section, std::size_t row,
                          std::size_t picture) {
   const Section& of = report.sections.at(section);
-  return fmt::format("pictures/{}-{}/{}-{}-{}.png", section + 1, file_name_part(of.id), row + 1,
-                     picture + 1,
-                     file_name_part(of.picture_rows.at(row).pictures.at(picture).title));
+  const Picture& shown = of.picture_rows.at(row).pictures.at(picture);
+  return fmt::format("pictures/{}-{}/{}-{}-{}.{}", section + 1, file_name_part(of.id), row + 1,
+                     picture + 1, file_name_part(shown.title), picture_type(shown.image).extension);
 }
 
 std::string table_path(const Report& report, std::size_t section, std::size_t table) {

@@ -50,7 +50,7 @@ struct Plot {
 struct Picture {
   std::string title;    ///< "bullet_soft float32"
   std::string caption;  ///< "t = 6 s", "difference to the reference"
-  std::string png;      ///< file bytes
+  std::string image;    ///< bytes of a PNG or JPEG file
 };
 
 /// Pictures that belong side by side.

@@ -106,7 +106,8 @@ Json picture_rows_json(const Report& report, std::size_t section) {
       pictures.push_back({{"title", picture.title},
                           {"caption", picture.caption},
                           {"file", picture_path(report, section, r, p)},
-                          {"png_base64", to_base64(picture.png)}});
+                          {"mime", picture_type(picture.image).mime},
+                          {"base64", to_base64(picture.image)}});
     }
     array.push_back({{"title", rows[r].title}, {"pictures", pictures}});
   }

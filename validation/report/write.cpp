@@ -56,7 +56,7 @@ void write_pictures(const Report& report, const fs::path& folder) {
       for (std::size_t p = 0; p < rows[r].pictures.size(); ++p) {
         const fs::path path = folder / picture_path(report, s, r, p);
         make_folder(path.parent_path());
-        write_file(path, rows[r].pictures[p].png);
+        write_file(path, rows[r].pictures[p].image);
       }
     }
   }

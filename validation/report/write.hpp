@@ -6,7 +6,7 @@
 
 namespace weft::validation {
 
-/// Writes index.html, report.json, junit.xml, pictures/<...>.png and tables/<...>.csv into the folder, making it if
+/// Writes index.html, report.json, junit.xml, pictures/<...>.jpg and tables/<...>.csv into the folder, making it if
 /// needed. Each file is written under a temporary name and renamed, so a reader sees the old file
 /// or the new one, never a part; the page comes last. Files of an earlier report that this one does
 /// not have are left alone.

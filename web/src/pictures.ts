@@ -2,7 +2,7 @@ import { h } from "./dom";
 import type { Picture } from "./report";
 
 function source(picture: Picture): string {
-  return `data:image/png;base64,${picture.png_base64}`;
+  return `data:${picture.mime};base64,${picture.base64}`;
 }
 
 function altText(picture: Picture, rowTitle: string): string {

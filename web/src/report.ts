@@ -52,7 +52,9 @@ export interface Picture {
   title: string;
   caption: string;
   file: string;
-  png_base64: string;
+  /** "image/jpeg" or "image/png". */
+  mime: string;
+  base64: string;
 }
 
 /** Numbers in equal steps from lowest to highest; base64 of 16-bit words, low byte first. */
@@ -102,7 +104,7 @@ export interface Report {
   provenance: { name: string; value: string }[];
 }
 
-const SCHEMA_VERSION = 1;
+const SCHEMA_VERSION = 2;
 
 /** Reads the data slot; throws with one clear line if it is not a report this page knows. */
 export function readReport(): Report {
