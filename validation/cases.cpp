@@ -82,6 +82,8 @@ const std::array kCases = {
              &evaluate_contact_balance},
     CaseInfo{"capstan", "A chain round a body holds by the friction of its turns", nullptr,
              &evaluate_capstan, Tier::kCommit, capstan_parameters()},
+    CaseInfo{"overhang", "So much of a chain may hang over a table's edge", nullptr,
+             &evaluate_overhang, Tier::kCommit, overhang_parameters()},
     CaseInfo{"stick_slip", "A pressed strip's tip sticks, then slips", nullptr,
              &evaluate_stick_slip, Tier::kCommit, stick_slip_parameters()},
     CaseInfo{"incline", "Cloths on a slope stick and slide as Coulomb's law says", &plan_incline,

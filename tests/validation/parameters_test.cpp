@@ -110,6 +110,7 @@ TEST(Points, OffTheTableHoldToo) {
   expect_sound("helix", {{"pitch", 43}, {"natural-curvature", 0.3}});
   expect_sound("lattice_moduli", {{"leg", 77}, {"diagonal", 19}});
   expect_sound("capstan", {{"mu", 0.23}, {"nodes", 9}, {"wrap", 130}});
+  expect_sound("overhang", {{"mu", 0.37}, {"nodes", 6}, {"length", 7}});
 }
 
 }  // namespace

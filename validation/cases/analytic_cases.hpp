@@ -30,6 +30,7 @@ void evaluate_peirce(const CaseInfo&, const CaseOptions&, const EngineRuns&, Rep
 void evaluate_buckling(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 void evaluate_helix(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 void evaluate_capstan(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+void evaluate_overhang(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 void evaluate_stick_slip(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 void evaluate_contact_balance(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
@@ -44,6 +45,7 @@ void evaluate_contact_balance(const CaseInfo&, const CaseOptions&, const EngineR
 [[nodiscard]] std::span<const CaseParameter> cantilever_parameters();
 [[nodiscard]] std::span<const CaseParameter> helix_parameters();
 [[nodiscard]] std::span<const CaseParameter> capstan_parameters();
+[[nodiscard]] std::span<const CaseParameter> overhang_parameters();
 [[nodiscard]] std::span<const CaseParameter> stick_slip_parameters();
 [[nodiscard]] std::span<const CaseParameter> hanging_chain_parameters();
 [[nodiscard]] std::span<const CaseParameter> oscillator_parameters();
