@@ -69,10 +69,10 @@ class Panel:
         self.text(self.x + 14, (TOP + HEIGHT - BOTTOM) / 2, y_label,
                   extra=f'transform="rotate(-90 {self.x + 14} {(TOP + HEIGHT - BOTTOM) / 2})"')
 
-    def series(self, points, color):
-        """All points; a line through those that nothing beats at their cost."""
+    def series(self, points, color, joins_all=False):
+        """All points; a line through all, or through those that nothing beats at their cost."""
         places = [self.place(*point) for point in points]
-        front = [point for point in points if all(other[1] >= point[1] for other in points if other[0] <= point[0])]
+        front = [point for point in points if joins_all or all(other[1] >= point[1] for other in points if other[0] <= point[0])]
         path = " ".join("{:.1f},{:.1f}".format(*self.place(*point)) for point in sorted(front))
         if len(front) > 1:
             self.parts.append(f'<polyline points="{path}" fill="none" stroke="{color}" stroke-width="1.6"/>')
@@ -121,8 +121,8 @@ def scaling(results):
     first = Panel(0, "one step of 2 x 3", nodes, least + [2 * max(least), min(least) / 2], "nodes", "us per node")
     second = Panel(WIDTH, "memory, Bullet's and the solver's", nodes, memory + [2 * max(memory), min(memory) / 2],
                    "nodes", "kB per node")
-    first.series(list(zip(nodes, least)), COLORS["weft"])
-    second.series(list(zip(nodes, memory)), COLORS["weft"])
+    first.series(list(zip(nodes, least)), COLORS["weft"], joins_all=True)
+    second.series(list(zip(nodes, memory)), COLORS["weft"], joins_all=True)
     write("bench_scaling.svg", [first, second], [(NAMES["weft"], COLORS["weft"])])
 
 
