@@ -7,6 +7,7 @@
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <Eigen/Geometry>
 
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/node_state.hpp>
