@@ -4,6 +4,8 @@
 #include <weft/fast_solver/coarse_nodes.hpp>
 #include <weft/fast_solver/global_correction.hpp>
 
+#include "tests/fast_solver/dense_matrix.hpp"
+
 namespace weft::fast {
 namespace {
 
@@ -24,18 +26,6 @@ SymmetricMatrix hung_grid(int n, double mass) {
     }
   }
   return sum_of_parts(n * n, parts);
-}
-
-Eigen::MatrixXd dense(const SymmetricMatrix& a) {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(a.size(), a.size());
-  for (int i = 0; i < a.size(); ++i) {
-    const auto row = static_cast<std::size_t>(i);
-    result(i, i) = a.diagonal[row];
-    for (int e = a.starts[row]; e < a.starts[row + 1]; ++e) {
-      result(i, a.columns[static_cast<std::size_t>(e)]) = a.values[static_cast<std::size_t>(e)];
-    }
-  }
-  return result;
 }
 
 Eigen::MatrixXd dense(const Interpolation& p) {

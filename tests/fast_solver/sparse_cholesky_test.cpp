@@ -6,6 +6,8 @@
 #include <weft/fast_solver/minimum_degree.hpp>
 #include <weft/fast_solver/sparse_cholesky.hpp>
 
+#include "tests/fast_solver/dense_matrix.hpp"
+
 namespace weft::fast {
 namespace {
 
@@ -27,18 +29,6 @@ SymmetricMatrix grid_matrix(int n, double mass) {
     }
   }
   return sum_of_parts(n * n, parts);
-}
-
-Eigen::MatrixXd dense(const SymmetricMatrix& a) {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(a.size(), a.size());
-  for (int i = 0; i < a.size(); ++i) {
-    const auto row = static_cast<std::size_t>(i);
-    result(i, i) = a.diagonal[row];
-    for (int e = a.starts[row]; e < a.starts[row + 1]; ++e) {
-      result(i, a.columns[static_cast<std::size_t>(e)]) = a.values[static_cast<std::size_t>(e)];
-    }
-  }
-  return result;
 }
 
 std::vector<int> natural_order(int n) {
