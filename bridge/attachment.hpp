@@ -49,6 +49,8 @@ struct ContactEntry {
 
 struct SoftBodySolver::Attachments {
   std::vector<std::unique_ptr<Attachment>> list;
+  std::vector<Attachment*> stepped;  ///< fast bodies of the present step
+  std::vector<Attachment*> asked;    ///< of those, that contacts are still looked for
   std::vector<std::unique_ptr<ContactEntry>> contacts;
 };
 

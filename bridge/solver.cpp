@@ -285,7 +285,8 @@ void SoftBodySolver::for_bodies(const std::function<void(btSoftBody&, Attachment
 }
 
 void SoftBodySolver::solve_fast_bodies() {
-  std::vector<Attachment*> bodies;
+  std::vector<Attachment*>& bodies = attachments_->stepped;
+  bodies.clear();
   for (const auto& attachment : attachments_->list) {
     const bool is_stepped = attachment->was_in_world && attachment->body->isActive();
     if (attachment->fast && is_stepped && !is_still(*attachment->body)) {
@@ -301,7 +302,8 @@ void SoftBodySolver::solve_fast_bodies() {
     }
     one.fast->begin_solve(*one.body, time_step_);
   });
-  std::vector<Attachment*> asked = bodies;
+  std::vector<Attachment*>& asked = attachments_->asked;
+  asked.assign(bodies.begin(), bodies.end());
   for (int look = 0; look < FastBody::kMostLooks && !asked.empty(); ++look) {
     in_parallel(asked, [&](Attachment& one) {
       if (one.fast->looks_alone()) one.fast->look_again(*one.body, time_step_);

@@ -14,6 +14,11 @@ namespace {
 /// together do not overshoot; .5 to .7 converge alike.
 constexpr float kSmoothing = 0.6F;
 
+/// A body that is tied to the cloth gets its forces, and with them what is wrong with them, as impulses:
+/// rounds on top, and the share of the first unbalanced forces that may be left.
+constexpr int kTiedRounds = 4;
+constexpr double kTiedResidual = 0.02;
+
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
@@ -240,6 +245,11 @@ void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, int it
 }
 
 template <class Scalar>
+double ImplicitSolver<Scalar>::left_over() const {
+  return static_cast<double>((unbalanced_ + holding_forces_).norm());
+}
+
+template <class Scalar>
 void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const SolverEffort& effort,
                                    Matrix3XRef<Scalar> places) {
   const TraceScope trace("implicit solve");
@@ -258,14 +268,15 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const Sol
   for (int round = 0; round < effort.rounds; ++round) {
     do_round(problem, effort.iterations, round == 0, places);
   }
+  for (int extra = 0; !ties_.empty() && extra < kTiedRounds; ++extra) {
+    find_holding_forces(places);
+    if (left_over() <= kTiedResidual * first) break;
+    do_round(problem, effort.iterations, false, places);
+  }
   find_step_energy(problem);
   if (is_suspicious(problem, places)) tame(problem, effort.iterations, places);
   find_holding_forces(places);
-  double left = 0;
-  for (Eigen::Index i = 0; i < places.cols(); ++i) {
-    left += static_cast<double>((unbalanced_.col(i) + holding_forces_.col(i)).squaredNorm());
-  }
-  residual_ = first > 0 ? std::sqrt(left) / first : 0.0;
+  residual_ = first > 0 ? left_over() / first : 0.0;
   balance(places);
 }
 

@@ -112,6 +112,8 @@ class ImplicitSolver {
   void hold_back(const StepProblem<Scalar>& problem, double work_before,
                  Matrix3XRef<Scalar> places);
   void find_holding_forces(ConstMatrix3XRef<Scalar> places);
+  /// Norm of the forces that nothing balances [N].
+  [[nodiscard]] double left_over() const;
   void balance(Matrix3XRef<Scalar> places);
   bool clamp(const StepProblem<Scalar>& problem, Matrix3XRef<Scalar> places);
 

@@ -231,10 +231,14 @@ TEST(FastBody, HoldsABoxOnAnchors) {
   btRigidBody& load = scene.add(box(0.5, 0.1, 0.1), 2.0, at(0, 2, -0.5));
   scene.body().appendAnchor(72, &load, false, 1);
   scene.body().appendAnchor(80, &load, false, 1);
-  scene.step(600);
-  const btVector3 v = load.getLinearVelocity();
-  // It swings: what it may have fallen from its start is no more than 0.5 m.
-  EXPECT_LT(v.length(), std::sqrt(2 * 9.81 * 0.5));
+  for (int i = 0; i < 40; ++i) {
+    scene.step(15);
+    // It swings and is flung about, but never with more energy than at its start.
+    const double energy =
+        static_cast<double>(load.getLinearVelocity().length2()) +  // m v^2 / 2 with 2 kg [J]
+        2.0 * 9.81 * static_cast<double>(load.getCenterOfMassPosition().y() - 2);
+    EXPECT_LT(energy, 0.5) << i;
+  }
   EXPECT_GT(load.getCenterOfMassPosition().y(), 0.5);
   EXPECT_FALSE(scene.solver().blow_up(scene.body()));
 }
