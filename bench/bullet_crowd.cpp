@@ -138,7 +138,7 @@ class World {
       world_.solver().attach(body, mesh, laws);
     } else {
       laws.push_back({"tension", {}, {{"stiffness", {stiffness}}}});
-      (void)world_.solver().attach_fast(body, mesh, laws);
+      (void)world_.solver().attach_fast(body, mesh, laws, {.may_sleep = false});
     }
     bodies_.push_back(&body);
   }

@@ -66,7 +66,8 @@ class Run {
         law("hinge_torsion", "rigidity", cloth.bending)};
     if (solver.kind == Kind::kLinks) world_.solver().attach(*body_, mesh_, {gravity});
     if (solver.kind == Kind::kLaws) world_.solver().attach(*body_, mesh_, laws);
-    if (solver.kind == Kind::kFast) (void)world_.solver().attach_fast(*body_, mesh_, laws);
+    if (solver.kind == Kind::kFast)
+      (void)world_.solver().attach_fast(*body_, mesh_, laws, {.may_sleep = false});
     if (cloth.pull > 0) return;
     add_obstacle(world_, std::make_shared<btSphereShape>(btScalar(0.3)), 0.3);
     add_obstacle(world_, std::make_shared<btBoxShape>(btVector3(20, btScalar(0.5), 20)), -0.5);

@@ -55,7 +55,7 @@ void bench_tear(const Settings& settings) {
   bridge::SoftWorld world({{0, -9.81, 0}, 0.05});
   const bridge::ClothSettings cloth{.collision_margin = 0.01, .time_step = kTimeStep};
   btSoftBody& body = world.add(bridge::make_cloth_body(world.info(), mesh, cloth));
-  (void)world.solver().attach_fast(body, mesh, laws);
+  (void)world.solver().attach_fast(body, mesh, laws, {.may_sleep = false});
   auto shape = std::make_shared<btSphereShape>(btScalar(0.16));
   btVector3 inertia;
   shape->calculateLocalInertia(4, inertia);
