@@ -1,5 +1,6 @@
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -239,6 +240,8 @@ TEST(FastBody, HoldsABoxOnAnchors) {
         2.0 * 9.81 * static_cast<double>(load.getCenterOfMassPosition().y() - 2);
     EXPECT_LT(energy, 0.5) << i;
   }
+  // What it may have fallen from its start by then is no more than 0.5 m.
+  EXPECT_LT(load.getLinearVelocity().length(), std::sqrt(2 * 9.81 * 0.5));
   EXPECT_GT(load.getCenterOfMassPosition().y(), 0.5);
   EXPECT_FALSE(scene.solver().blow_up(scene.body()));
 }
@@ -267,6 +270,31 @@ TEST(FastBody, TakesPinsThatChangeAtRunTime) {
   scene.body().m_nodes[0].m_im = scene.body().m_nodes[63].m_im;
   scene.step(30);
   EXPECT_LT(scene.positions()(1, 0), 0.9);
+}
+
+TEST(FastBody, DoesNotExplodeWithRandomMaterials) {
+  std::mt19937 random(11);
+  const auto between = [&](double low, double high) {  // uniform in the exponent
+    const double share = static_cast<double>(random()) / 4294967296.0;
+    return low * std::pow(high / low, share);
+  };
+  for (int run = 0; run < 40; ++run) {
+    const double h = between(1.0 / 1000, 1.0 / 30);
+    const double stiffness = between(1, 1e6);
+    const double mass = between(1e-3, 100);
+    ClothMesh mesh = cloth(8, 1, between(0.1, 3), mass);
+    if (run % 2 == 0) mesh.pinned = {0, 7};
+    Scene scene(mesh, {kGravity, law("tension", "stiffness", stiffness),
+                       law("spring_damping", "damping", between(1e-6, 10))});
+    scene.add(std::make_shared<btSphereShape>(btScalar(0.3)), 0, at(0, -0.3, 0));
+    scene.set_velocity(btVector3(static_cast<btScalar>(between(0.1, 20)), 0, 0));
+    scene.step(40, h);
+    EXPECT_FALSE(scene.solver().blow_up(scene.body())) << run;
+    const double speed = scene.velocities().colwise().norm().maxCoeff();
+    // No node may be faster than start, fall and whip: four times what energy gives the whole cloth.
+    EXPECT_LT(speed, 4 * std::sqrt(400 + 2 * 9.81 * 4 + 9.81 * 9.81 * 2))
+        << run << ": k " << stiffness << " N/m, " << mass << " kg, h " << h;
+  }
 }
 
 /// A cloth that has fallen on a box, and sleeps.
