@@ -39,7 +39,10 @@ for scene in "${scenes[@]}"; do
   row=$(awk -v kind="$kind" -v seconds="$seconds" -v commit="$commit" \
     '/ s simulated in /{print $1 "," $2 "," kind "," seconds "," $9 "," $15 "," commit}' <<<"$output")
   [[ -n $row ]] || fail "there is no scene '$scene' in the catalog"
-  { grep -vE "^$scene,[a-z_]*,$kind,$seconds," "$table"; echo "$row"; } >"$table.part"
-  mv "$table.part" "$table"
+  (
+    flock 9 # two of these may run at once
+    { grep -vE "^$scene,[a-z_]*,$kind,$seconds," "$table"; echo "$row"; } >"$table.part"
+    mv "$table.part" "$table"
+  ) 9>"$step_root/build/long_runs.lock"
   echo "$row"
 done
