@@ -97,6 +97,31 @@ TEST(Convergence, TwoLevelsNeedTheMethodsOrderAndALargerMargin) {
   EXPECT_TRUE(std::isnan(two_level_uncertainty(kNaN, 5.12, 2.0, 2.0)));
 }
 
+TEST(Convergence, AConfirmedOrderOfAShapeNeedsTheSmallMargin) {
+  const NormStudy s = study_norms(0.01, 0.02, 2.0, {1.0, 1.0});
+  EXPECT_TRUE(s.is_confirmed);
+  EXPECT_NEAR(s.uncertainty, 1.25 * 0.01, kRoundoff);
+  const NormStudy low = study_norms(0.01, 0.015, 2.0, {1.0, 1.0});
+  EXPECT_NEAR(low.uncertainty, 1.25 * 0.01 / (1.5 - 1), kRoundoff);
+  // An order above the method's lowest is not believed beyond that.
+  EXPECT_NEAR(study_norms(0.01, 0.0275, 2.0, {1.0, 1.0}).uncertainty, 1.25 * 0.01, kRoundoff);
+  EXPECT_NEAR(study_norms(0.01, 0.04, 2.0, {1.0, 2.0}).uncertainty, 1.25 * 0.01, kRoundoff);
+  EXPECT_NEAR(study_norms(0.01, 0.04, 2.0, {2.0, 2.0}).uncertainty, 1.25 * 0.01 / 3, kRoundoff);
+}
+
+TEST(Convergence, AnUnconfirmedOrderOfAShapeNeedsTheLargeMargin) {
+  for (const double coarse : {0.09, 0.011, 0.01, 0.004, 0.0}) {
+    const NormStudy s = study_norms(0.01, coarse, 2.0, {1.0, 1.0});
+    EXPECT_FALSE(s.is_confirmed) << coarse;
+    EXPECT_NEAR(s.uncertainty, 3 * 0.01, kRoundoff) << coarse;
+  }
+  EXPECT_FALSE(study_norms(0.01, 0.09, 2.0, {1.0, 2.0}).is_confirmed);
+  EXPECT_EQ(study_norms(0.0, 0.01, 2.0, {1.0, 1.0}).uncertainty, 0.0);
+  EXPECT_FALSE(std::isfinite(study_norms(kNaN, 0.01, 2.0, {1.0, 1.0}).uncertainty));
+  EXPECT_FALSE(std::isfinite(study_norms(0.01, kInfinity, 2.0, {1.0, 1.0}).uncertainty));
+  EXPECT_THROW((void)study_norms(0.01, 0.02, 2.0, {2.0, 1.0}), InvalidArgument);
+}
+
 TEST(Convergence, RefusesInputThatMakesNoSense) {
   const std::vector<double> one{1.0};
   EXPECT_THROW((void)observed_order(one, one), InvalidArgument);

@@ -21,8 +21,11 @@ struct CollisionScene {
   bool is_led = false;    ///< the body follows a path, which bullet_deformable does not know
   bool slides = false;    ///< in sliding contact, which is not the same in Bullet's classic world
   double duration = 3.0;  ///< [s] until it is at rest
-  Sabotage (*early)() = &no_contact;       ///< a mistake that shows in the first half second
-  Sabotage (*late)() = &body_moved;        ///< one that shows at rest
+  double drag =
+      4.0;  ///< [1/s] of velocity_damping; more where folds would stick in one of many places
+  int finest_division = 4;            ///< the reference's shortest step is the scene's over this
+  Sabotage (*early)() = &no_contact;  ///< a mistake that shows in the first half second
+  Sabotage (*late)() = &body_moved;   ///< one that shows at rest
   void (*edit)(scenes::Scene&) = nullptr;  ///< what TOML is too long for
 };
 

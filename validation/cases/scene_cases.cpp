@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include <weft/scenes/catalog.hpp>
-#include <weft/validation/cases/scene_gates.hpp>
 #include <weft/validation/cases/scene_section.hpp>
+#include <weft/validation/cases/scene_truth.hpp>
 
 namespace weft::validation {
 namespace {
@@ -20,20 +20,6 @@ const History* find_history(const std::vector<History>& histories, const EngineC
     }
   }
   return nullptr;
-}
-
-const char* metric_text(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::kLargestDistance:
-      return "largest node distance";
-    case Quantity::kRmsDistance:
-      return "RMS node distance / cloth size";
-    case Quantity::kRigidDistance:
-      return "largest distance of the rigid body";
-    case Quantity::kDepth:
-      break;
-  }
-  return "deepest node below a surface";
 }
 
 SabotageResult try_sabotage(const SceneGate& gate, const Sabotage& sabotage,
@@ -48,15 +34,20 @@ SabotageResult try_sabotage(const SceneGate& gate, const Sabotage& sabotage,
       wrong[f].rigids = reference[f].rigids;
     }
   }
+  const Frames& judged = alone ? wrong : history.frames;
   const double measured =
-      metrics.largest(gate.quantity, alone ? wrong : history.frames, wrong, gate.begin, gate.end);
+      gate.against == Against::kSeeds
+          ? std::abs(metrics.mean_shape_number(gate.quantity, judged, gate.begin, gate.end) -
+                     metrics.mean_shape_number(gate.quantity, wrong, gate.begin, gate.end))
+          : metrics.largest(gate.quantity, judged, wrong, gate.begin, gate.end);
   // A mistake must show in the number that the bound holds: a sabotaged run that blows up has no such number.
   const bool noticed = std::isfinite(measured) && judge(measured, gate.tolerance) == Verdict::kFail;
   return {sabotage.name, measured, noticed};
 }
 
-CheckResult check_gate(const CaseInfo& info, const SceneGate& gate, const SceneMetrics& metrics,
-                       const History& history, const Frames& reference) {
+CheckResult check_gate(const CaseInfo& info, const SceneGate& gate, const SceneTruth& truth,
+                       const SceneMetrics& metrics, const History& history,
+                       const Frames& reference) {
   CheckResult check;
   check.case_id = info.id;
   check.engine = gate.engine.title();
@@ -66,8 +57,7 @@ CheckResult check_gate(const CaseInfo& info, const SceneGate& gate, const SceneM
           ? fmt::format("{} at {:g} s", metric_text(gate.quantity), gate.end)
           : fmt::format("{}, {:g} to {:g} s", metric_text(gate.quantity), gate.begin, gate.end);
   check.unit = unit_of(gate.quantity);
-  check.source = gate.quantity == Quantity::kDepth ? "signed distance to the collider's surface"
-                                                   : "reference solver, modified Euler, same step";
+  check.source = truth.source(gate);
   check.tolerance = gate.tolerance;
   check.note = gate.note;
   if (!history.failure.empty()) {
@@ -76,7 +66,7 @@ CheckResult check_gate(const CaseInfo& info, const SceneGate& gate, const SceneM
     check.note = history.failure;
     return check;
   }
-  check.measured = metrics.largest(gate.quantity, history.frames, reference, gate.begin, gate.end);
+  check.measured = truth.measured(gate, metrics, history.frames, reference);
   check.verdict = judge(check.measured, gate.tolerance);
   for (const Sabotage& sabotage : gate.sabotages) {
     check.sabotages.push_back(try_sabotage(gate, sabotage, metrics, history, reference));
@@ -125,10 +115,11 @@ void add_departures(const CaseInfo& info, const SceneMetrics& metrics,
 
 void plan_scene(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
   const std::string id(info.id);
+  const scenes::Scene scene = scenes::with_bullets_time_step(scenes::load_scene(id));
   for (const EngineChoice& engine : cross_validated_engines(options.bullet)) {
-    runs.add({engine.label(id), scenes::with_bullets_time_step(scenes::load_scene(id)),
-              engine.engine, engine.precision});
+    runs.add({engine.label(id), scene, engine.engine, engine.precision});
   }
+  SceneTruth(id, scene, options.bullet).plan(runs);
 }
 
 void evaluate_scene(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
@@ -139,12 +130,20 @@ void evaluate_scene(const CaseInfo& info, const CaseOptions& options, const Engi
   for (const EngineChoice& engine : cross_validated_engines(options.bullet)) {
     histories.push_back(load_history(runs, id, engine));
   }
-  for (const SceneGate& gate : scene_gates(id)) {
+  SceneTruth truth(id, metrics.scene(), options.bullet);
+  truth.load(metrics, runs);
+  for (const SceneGate& gate : truth.gates()) {
     const History* history = find_history(histories, gate.engine);
-    if (!history) continue;  // a Bullet engine in a build without Bullet
-    report.checks.push_back(check_gate(info, gate, metrics, *history, histories.back().frames));
+    if (!history) continue;
+    report.checks.push_back(
+        check_gate(info, gate, truth, metrics, *history, histories.back().frames));
   }
-  report.sections.push_back(scene_section(metrics, histories, options.pictures));
+  for (CheckResult& check : truth.own_checks(info, metrics))
+    report.checks.push_back(std::move(check));
+  Section section = scene_section(metrics, histories, options.pictures);
+  Table own = truth.own_table(metrics);
+  if (!own.rows.empty()) section.tables.push_back(std::move(own));
+  report.sections.push_back(std::move(section));
   add_departures(info, metrics, histories, report);
 }
 

@@ -38,4 +38,7 @@ void evaluate_collision_sweep(const CaseInfo&, const CaseOptions&, const EngineR
 void plan_work_precision(const CaseInfo&, const CaseOptions&, EngineRuns&);
 void evaluate_work_precision(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
+/// The largest stable step over stiffness and added inertia, predicted by the spectrum and tried.
+void evaluate_stability_maps(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+
 }  // namespace weft::validation

@@ -44,6 +44,14 @@ const char* const kContactWhy =
     "reference "
     "has exact surfaces; after the first touch folds amplify every difference";
 
+const char* const kLongStepWhy =
+    "steps of 1/100 s with a method of order 1: 3.0e-3 of it is that, the same in every engine; "
+    "the rest is contact";
+const char* const kFoldsWhy =
+    "folds may fall either way: node by node two steps of the reference end 0.5 % of the size "
+    "apart, which a "
+    "number of the whole shape does not see";
+
 const char* const kSameEquationsNote =
     "compare the order of operations in a step, the masses, or Bullet's single-precision time step";
 const char* const kContactNote = "contact hardness, margin, or friction of the Bullet engine";
@@ -62,8 +70,15 @@ SceneGate step_for_step(Quantity quantity, double end, std::vector<Sabotage> sab
 
 SceneGate near(const EngineChoice& engine, double begin, double end, Tolerance tolerance,
                std::vector<Sabotage> sabotages, const char* note) {
-  return {engine, "stays near the reference", Quantity::kRmsDistance, begin,
-          end,    std::move(tolerance),       std::move(sabotages),   note};
+  return {engine,
+          "stays near the reference",
+          Quantity::kRmsDistance,
+          begin,
+          end,
+          std::move(tolerance),
+          std::move(sabotages),
+          note,
+          Against::kSolution};
 }
 
 SceneGate stays_outside(const EngineChoice& engine, double end, double depth, const char* why) {
@@ -86,10 +101,26 @@ std::vector<SceneGate> drape_sphere() {
   std::vector<SceneGate> gates{
       step_for_step(Quantity::kLargestDistance, free_fall, {one_step_dropped(), damping_sign()})};
   for (const EngineChoice& engine : {kForces32, kForces64}) {
-    gates.push_back(near(engine, 0, kFirstHalfSecond, model_gap(0.002, kContactWhy),
+    gates.push_back(near(engine, 0, kFirstHalfSecond, model_gap(0.005, kLongStepWhy),
                          {no_contact(), one_step_dropped()}, kContactNote));
-    gates.push_back(near(engine, end, end, model_gap(0.03, kContactWhy),
-                         {no_contact(), colliders_moved({0.5, 0, 0})}, kContactNote));
+    gates.push_back({engine,
+                     "drapes as the reference does",
+                     Quantity::kMeanHeight,
+                     end - 1,
+                     end,
+                     model_gap(0.005, kFoldsWhy),
+                     {no_contact(), colliders_moved({0.5, 0, 0})},
+                     kContactNote,
+                     Against::kSeeds});
+    gates.push_back({engine,
+                     "drapes as the reference does",
+                     Quantity::kMeanRadius,
+                     end - 1,
+                     end,
+                     model_gap(0.01, kFoldsWhy),
+                     {no_contact()},  // a draped cloth is as wide on a ball elsewhere
+                     kContactNote,
+                     Against::kSeeds});
   }
   for (const EngineChoice& engine : {kSoft32, kSoft64}) {
     gates.push_back(near(engine, 0, kFirstHalfSecond, model_gap(0.005, kLinksWhy),
@@ -166,7 +197,8 @@ std::vector<SceneGate> ball_on_cloth() {
                      kFirstHalfSecond,
                      model_gap(links ? 0.05 : 0.02, links ? kLinksWhy : kContactWhy),
                      {no_contact(), initial_velocity_unset()},
-                     kContactNote});
+                     kContactNote,
+                     Against::kSolution});
   }
   return gates;
 }
@@ -185,8 +217,9 @@ std::vector<SceneGate> wind_hover() {
                    single_precision(size, time_step, kFirstHalfSecond),
                    {wind_removed(), initial_velocity_unset()},
                    kSameEquationsNote});
-  // Flat and hardly stretched, the cloth shows little of the links; single precision shows more.
-  for (const auto& [engine, gap] : {std::pair{kSoft32, 0.004}, std::pair{kSoft64, 1e-4}}) {
+  // Flat and hardly stretched, the cloth shows little of the links: 3.5e-4 of it is the step of modified Euler. Single
+  // precision shows more.
+  for (const auto& [engine, gap] : {std::pair{kSoft32, 0.004}, std::pair{kSoft64, 0.001}}) {
     gates.push_back(near(engine, 0, kFirstHalfSecond, model_gap(gap, kLinksWhy),
                          {wind_removed(), initial_velocity_unset()}, kLinksNote));
   }

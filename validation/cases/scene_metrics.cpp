@@ -19,8 +19,12 @@ double larger(double a, double b) {
 
 }  // namespace
 
+bool is_shape_number(Quantity quantity) {
+  return quantity == Quantity::kMeanHeight || quantity == Quantity::kMeanRadius;
+}
+
 const char* unit_of(Quantity quantity) {
-  return quantity == Quantity::kRmsDistance ? "1" : "m";
+  return quantity == Quantity::kRmsDistance || is_shape_number(quantity) ? "1" : "m";
 }
 
 SceneMetrics::SceneMetrics(const scenes::Scene& scene) : scene_(scene), energy_(scene) {
@@ -46,6 +50,9 @@ double SceneMetrics::at(Quantity quantity, const scenes::SceneState& state,
     }
     return value;
   }
+  if (is_shape_number(quantity)) {
+    return std::abs(shape_number(quantity, state) - shape_number(quantity, reference));
+  }
   for (std::size_t c = 0; c < state.cloths.size(); ++c) {
     const VertexDistance distance =
         vertex_distance(state.cloths[c].positions, reference.cloths[c].positions, weights_[c]);
@@ -54,6 +61,35 @@ double SceneMetrics::at(Quantity quantity, const scenes::SceneState& state,
                               : distance.rms_relative_to(cloth_size_));
   }
   return value;
+}
+
+double SceneMetrics::shape_number(Quantity quantity, const scenes::SceneState& state) const {
+  double sum = 0.0, count = 0.0;
+  for (const scenes::ClothState& cloth : state.cloths) {
+    const Matrix3X<double>& nodes = cloth.positions;
+    const Vector3<double> middle = nodes.rowwise().mean();
+    sum += quantity == Quantity::kMeanHeight
+               ? nodes.row(1).sum()
+               : (nodes.row(0).array() - middle.x()).square().sum() +
+                     (nodes.row(2).array() - middle.z()).square().sum();
+    count += static_cast<double>(nodes.cols());
+  }
+  const double mean = sum / count;
+  return (quantity == Quantity::kMeanHeight ? mean : std::sqrt(mean)) / cloth_size_;
+}
+
+double SceneMetrics::mean_shape_number(Quantity quantity, const Frames& frames, double begin,
+                                       double end) const {
+  const double slack = 0.01 * scene_.world.time_step;
+  double sum = 0.0, count = 0.0;
+  for (const scenes::SceneState& frame : frames) {
+    if (frame.time < begin - slack || frame.time > end + slack) continue;
+    sum += shape_number(quantity, frame);
+    count += 1.0;
+  }
+  const bool covers =
+      !frames.empty() && frames.back().time + scene_.world.frame_interval > end - slack;
+  return covers && count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
 
 double SceneMetrics::largest(Quantity quantity, const Frames& frames, const Frames& reference,

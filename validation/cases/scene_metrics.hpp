@@ -16,6 +16,8 @@ enum class Quantity {
   kRmsDistance,      ///< area-weighted RMS of it over the size of the cloth [-]
   kRigidDistance,    ///< largest distance of a rigid body's centre to the reference's [m]
   kDepth,            ///< deepest node below a collider's surface [m]; needs no reference
+  kMeanHeight,  ///< mean height of the nodes, apart from the reference's, over the cloth's size [-]
+  kMeanRadius,  ///< the same of their RMS distance from the vertical through their middle
 };
 
 /// Meshes, weights and sizes of a scene, made once.
@@ -33,6 +35,12 @@ class SceneMetrics {
   /// A quantity of one frame. NaN if a position is not finite.
   [[nodiscard]] double at(Quantity quantity, const scenes::SceneState& state,
                           const scenes::SceneState& reference) const;
+
+  /// kMeanHeight or kMeanRadius of all nodes in one frame, over the cloth's size [-].
+  [[nodiscard]] double shape_number(Quantity quantity, const scenes::SceneState& state) const;
+  /// The same, mean over the frames from begin to end [s]. NaN if the run ends before.
+  [[nodiscard]] double mean_shape_number(Quantity quantity, const Frames& frames, double begin,
+                                         double end) const;
 
   /// Largest value over the frames from begin to end [s]. Infinity if either run ends before: an
   /// exploded run is infinitely far away.
@@ -64,5 +72,7 @@ class SceneMetrics {
 };
 
 [[nodiscard]] const char* unit_of(Quantity quantity);
+/// A number of one frame alone, of which differences are taken.
+[[nodiscard]] bool is_shape_number(Quantity quantity);
 
 }  // namespace weft::validation

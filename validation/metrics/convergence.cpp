@@ -97,6 +97,26 @@ std::optional<double> order_of_differences(double fine_difference, double coarse
   return std::log(coarse_difference / fine_difference) / std::log(ratio);
 }
 
+NormStudy study_norms(double fine_difference, double coarse_difference, double ratio,
+                      const MethodOrder& method) {
+  constexpr double kConfirmed = 0.5;
+  if (!(method.highest >= method.lowest)) {
+    throw InvalidArgument(fmt::format("convergence: highest order = {} [-], expected >= {}",
+                                      method.highest, method.lowest));
+  }
+  NormStudy study;
+  study.order = order_of_differences(fine_difference, coarse_difference, ratio);
+  study.uncertainty = two_level_uncertainty(0.0, fine_difference, ratio, method.lowest);
+  if (!std::isfinite(coarse_difference)) study.uncertainty = coarse_difference;
+  study.is_confirmed = study.order && *study.order >= method.lowest - kConfirmed &&
+                       *study.order <= method.highest + kConfirmed;
+  if (study.is_confirmed) {
+    const double believed = std::min(*study.order, method.lowest);
+    study.uncertainty = kThreeLevelSafety * fine_difference / (std::pow(ratio, believed) - 1.0);
+  }
+  return study;
+}
+
 double two_level_uncertainty(double fine, double medium, double ratio, double order) {
   check_ratio(ratio);
   if (!std::isfinite(order) || order <= 0) {

@@ -56,6 +56,25 @@ struct RefinementStudy {
 [[nodiscard]] std::optional<double> order_of_differences(double fine_difference,
                                                          double coarse_difference, double ratio);
 
+/// Orders between which a method converges: velocity Verlet is of order 2 where motion is smooth, of order 1 where bodies touch.
+struct MethodOrder {
+  double lowest = 1.0;   ///< [-], > 0
+  double highest = 1.0;  ///< [-], >= lowest
+};
+
+/// What the differences of three levels of a shape tell of the finest one.
+struct NormStudy {
+  std::optional<double> order;  ///< observed [-]
+  bool is_confirmed = false;    ///< the observed order is one of the method's, within 0.5
+  /// Of the finest level, in the unit of the differences: Fs |x_h - x_rh| / (r^p - 1). With a confirmed order Fs = 1.25
+  /// and p the lesser of the observed and the method's lowest; else Fs = 3 and p the lowest. NaN if a difference is not finite.
+  double uncertainty = 0.0;
+};
+
+/// Throws InvalidArgument unless ratio > 1 and the method's orders are in their domain.
+[[nodiscard]] NormStudy study_norms(double fine_difference, double coarse_difference, double ratio,
+                                    const MethodOrder& method);
+
 /// Uncertainty of f1 from two levels and the order of the method: Fs |f1 - f2| / (r^p - 1), Fs = 3,
 /// in the unit of f. NaN if a result is not finite. Throws InvalidArgument unless ratio > 1 and
 /// order > 0.

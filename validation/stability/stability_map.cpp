@@ -1,5 +1,6 @@
 #include <weft/validation/stability/stability_map.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -141,6 +142,15 @@ CheckResult stability_check(const StabilityMap& map) {
   }
   check.tolerance = tolerance;
   check.verdict = judge(check.measured, tolerance);
+  double without = 0.0;
+  for (const StabilityPoint& point : map.points) {
+    for (const StabilityPoint& bare : map.points) {
+      if (bare.beta != 0.0 || bare.stiffness_factor != point.stiffness_factor) continue;
+      without = std::max(without, std::abs(point.measured / bare.predicted - 1));
+    }
+  }
+  check.sabotages.push_back({"added inertia left out of the prediction", without,
+                             judge(without, tolerance) == Verdict::kFail});
   check.note = "damping that differs much from mode to mode, or a body that is soft at rest";
   return check;
 }
