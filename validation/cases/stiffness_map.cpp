@@ -235,7 +235,7 @@ void evaluate_stiffness_map(const CaseInfo& info, const CaseOptions& options,
   Section section{std::string(info.id), std::string(info.summary), {}, {}, {}, ""};
   Table matrix{
       "Stiffness of a spring in a hanging rope over what was asked for, by time step and "
-      "iterations",
+      "iterations (unstable: its step is too near 2 / omega, not run)",
       {"engine", "springs"},
       {}};
   for (const Setting& setting : settings(1)) {

@@ -164,7 +164,7 @@ Section stability_section(const StabilityMap& map) {
             true,
             true,
             {}};
-  Table table{"Stable step",
+  Table table{"Stable step, found within 1 %",
               {"stiffness factor", "beta", "predicted [s]", "measured [s]", "measured / predicted"},
               {}};
   for (const double beta : kBetas) {

@@ -19,9 +19,16 @@ function looksNumeric(text: string): boolean {
   return /^\s*[-−+]?(\d|\.\d|NaN|Infinity|∞)/.test(text);
 }
 
+/** Says that there is no number: such a cell does not decide how its column is aligned. */
+function isGap(text: string): boolean {
+  return /^(|-|unstable|blew up)$/.test(text.trim());
+}
+
 function renderTable(table: Section["tables"][number]): HTMLElement {
   const numeric = table.columns.map(
-    (_, column) => table.rows.length > 0 && table.rows.every((row) => looksNumeric(row[column] ?? "")),
+    (_, column) =>
+      table.rows.some((row) => looksNumeric(row[column] ?? "")) &&
+      table.rows.every((row) => isGap(row[column] ?? "") || looksNumeric(row[column] ?? "")),
   );
   const alignment = (column: number): string => (numeric[column] ? "number" : "");
   return h(
