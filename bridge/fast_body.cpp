@@ -23,6 +23,9 @@ constexpr btScalar kStepRatio = btScalar(1.3);
 /// Of m |y - q|^2 / (2 h^2), what a step may gain: rounding, and BDF2 gives back a little of what it took before.
 constexpr double kEnergySlack = 0.01;
 
+/// Of the margin: how far below its plane a node may end a step.
+constexpr btScalar kDepthShare = btScalar(0.5);
+
 Vector3<btScalar> from_bullet(const btVector3& v) {
   return {v.x(), v.y(), v.z()};
 }
@@ -113,6 +116,7 @@ void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& o
 
 // Those that are known again, and those that the solution keeps to anyway, are left out.
 bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
+  deep_.clear();
   if (obstacles_.empty()) return false;
   const std::size_t num_known = contacts_.size();
   for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_x = to_bullet(places_.col(i));
@@ -122,8 +126,12 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
                                           -1, -1);
     add_rigid_contacts(body, object, time_step, found_);
   }
+  deep_.clear();
+  const btScalar depth = kDepthShare * body.getCollisionShape()->getMargin();
   std::erase_if(found_, [&](const RigidContact& found) {
-    return btDot(found.normal, body.m_nodes[found.node].m_x) >= found.offset;
+    const btScalar gap = btDot(found.normal, body.m_nodes[found.node].m_x) - found.offset;
+    if (gap < -depth && movable(found.object) == nullptr) deep_.push_back(found);
+    return gap >= 0;
   });
   if (found_.empty()) return false;
   last_contact_.assign(static_cast<std::size_t>(body.m_nodes.size()), -1);
@@ -287,6 +295,17 @@ void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
   contacts_.resize(num_solved);  // the others have no force in the solution
 }
 
+// A node is held by one plane at a time; where facets meet, that of one may let it into another. Where the step
+// began it was outside.
+void FastBody::leave_depths() {
+  for (const RigidContact& contact : deep_) {
+    const Vector3<btScalar> normal = from_bullet(contact.normal);
+    const Vector3<btScalar> start = starts_.col(contact.node) + from_bullet(contact.motion);
+    if (normal.dot(start) > normal.dot(places_.col(contact.node)))
+      places_.col(contact.node) = start;
+  }
+}
+
 // The solution counts on a body that gives way at once. Bullet has moved it before, and moves it next by the impulse
 // that it gets now: until then nodes stand where it is, with the velocities of the solution.
 void FastBody::stay_outside(btSoftBody& body, bool of_movable) const {
@@ -300,6 +319,7 @@ void FastBody::stay_outside(btSoftBody& body, bool of_movable) const {
 
 void FastBody::place(btSoftBody& body, btScalar time_step) {
   keep_out_of_missed(body, time_step);
+  leave_depths();
   give_impulses(body, time_step);
   for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_x = to_bullet(places_.col(i));
 }

@@ -101,6 +101,7 @@ class FastBody {
   void read_constraints(const btSoftBody& body);
   void give_impulses(btSoftBody& body, btScalar time_step);
   void keep_out_of_missed(btSoftBody& body, btScalar time_step);
+  void leave_depths();
   void stay_outside(btSoftBody& body, bool of_movable) const;
   [[nodiscard]] bool gets_work_from_outside(const btSoftBody& body) const;
   /// True if velocities_ had to be slowed down.
@@ -138,7 +139,9 @@ class FastBody {
   std::vector<Obstacle> obstacles_;
   std::vector<RigidContact> contacts_;
   std::vector<RigidContact> found_;  ///< of a second look
-  std::vector<int> last_contact_;    ///< of each node, or -1; contact_before_: the one before it
+  std::vector<RigidContact>
+      deep_;  ///< of it, with what does not give way, where the solution is well inside
+  std::vector<int> last_contact_;  ///< of each node, or -1; contact_before_: the one before it
   std::vector<int> contact_before_;
   std::vector<fast::PlaneContact<btScalar>> plane_contacts_;
   std::vector<fast::LedNode<btScalar>> led_;
