@@ -98,6 +98,9 @@ class FastBody {
   /// Contacts that the solution would need, and that nobody looked for where Bullet had predicted the
   /// nodes. True if there are any.
   [[nodiscard]] bool find_missed_contacts(btSoftBody& body, btScalar time_step);
+  void choose_origin(const btSoftBody& body);
+  [[nodiscard]] btVector3 in_world(int node) const;
+  void write_places(btSoftBody& body) const;
   void read_constraints(const btSoftBody& body);
   void give_impulses(btSoftBody& body, btScalar time_step);
   void keep_out_of_missed(btSoftBody& body, btScalar time_step);
@@ -115,6 +118,7 @@ class FastBody {
   btScalar solver_step_ = 0;  ///< [s] of the steps that solver_ was made for
 
   BodySleep sleep_;
+  Vector3<btScalar> origin_ = Vector3<btScalar>::Zero();  ///< that places are counted from [m]
   // Of the present step, 3 x n.
   Matrix3X<btScalar> starts_;            ///< q [m]
   Matrix3X<btScalar> start_velocities_;  ///< v [m/s]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <weft/custom_forces/core/error.hpp>
@@ -95,6 +96,7 @@ ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const Vecto
   holding_forces_.setZero(3, n);
   unbalanced_.setZero(3, n);
   unmoved_.setZero(3, n);
+  remainders_.setZero(3, n);
   holds_.assign(at(static_cast<int>(n)), Hold::kFree);
   contact_of_.assign(at(static_cast<int>(n)), -1);
   blocks_.setZero(n_filled, 6);
@@ -285,6 +287,24 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const Sol
   find_holding_forces(places);
   residual_ = first > 0 ? left_over() / first : 0.0;
   balance(places);
+  find_remainders(places);
+}
+
+// One step of Jacobi's method for the forces that are left, which places on their grid cannot follow.
+template <class Scalar>
+void ImplicitSolver<Scalar>::find_remainders(ConstMatrix3XRef<Scalar> places) {
+  const BlockArrays& blocks = forces_.diagonal_blocks();
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    const Hold hold = holds_[at(static_cast<int>(i))];
+    const bool may_move = hold == Hold::kFree || hold == Hold::kOnPlane;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Scalar stiffness = Scalar(inertia_[i] + blocks(i, axis));
+      const Scalar left = unbalanced_(axis, i) + holding_forces_(axis, i);
+      const Scalar most = std::numeric_limits<Scalar>::epsilon() / 2 * std::abs(places(axis, i));
+      remainders_(axis, i) =
+          may_move && stiffness > 0 ? std::clamp(left / stiffness, -most, most) : Scalar(0);
+    }
+  }
 }
 
 template class ImplicitSolver<float>;
