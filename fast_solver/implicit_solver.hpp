@@ -91,6 +91,7 @@ class ImplicitSolver {
   void evaluate(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places);
   void decide_holds(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places,
                     bool is_first);
+  [[nodiscard]] Scalar first_push(int node, const Vector3<Scalar>& normal) const;
   void invert_blocks();
   void project(Floats& vectors) const;
   void smooth(const Floats& residual, Floats& correction) const;
