@@ -1,8 +1,11 @@
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -26,6 +29,7 @@ constexpr const char* kUsualEngine = "bullet_forces";
 
 struct SheetOptions {
   std::vector<std::string> names;
+  std::vector<std::string> engines;  // none: the first of each scene
   std::string output;
   std::string page;
   int columns = 4;
@@ -52,8 +56,11 @@ double poster_time(const scenes::Scene& scene) {
   return scene.camera.poster_time.value_or(scene.world.duration);
 }
 
-Exhibit simulate(const scenes::Scene& scene) {
-  const std::string name = scene.engines.empty() ? kUsualEngine : scene.engines.front();
+std::string first_engine(const scenes::Scene& scene) {
+  return scene.engines.empty() ? kUsualEngine : scene.engines.front();
+}
+
+Exhibit simulate(const scenes::Scene& scene, const std::string& name) {
   const std::unique_ptr<scenes::Simulator> simulator = find_any_precision(name).make();
   simulator->load(scene);
   const double end = poster_time(scene);
@@ -83,15 +90,23 @@ Exhibit from_recording(const std::string& path) {
           {}};
 }
 
-Exhibit make_exhibit(const std::string& name, int width) {
-  Exhibit exhibit =
-      name.ends_with(".weftrec") ? from_recording(name) : simulate(scenes::load_scene(name));
+bool is_recording(const std::string& name) {
+  return name.ends_with(".weftrec");
+}
+
+Exhibit drawn(Exhibit exhibit, int width) {
   scenes::RenderOptions options;
   options.width = width;
   options.height = width * 9 / 16;
   options.samples = 4;
   exhibit.picture = scenes::Renderer(exhibit.scene).render(exhibit.state, options);
   return exhibit;
+}
+
+Exhibit make_exhibit(const std::string& name, int width) {
+  if (is_recording(name)) return drawn(from_recording(name), width);
+  const scenes::Scene scene = scenes::load_scene(name);
+  return drawn(simulate(scene, first_engine(scene)), width);
 }
 
 /// "Shows a cloth" is "a cloth" where a column says so.
@@ -149,11 +164,39 @@ void write_page(const std::filesystem::path& path, const std::vector<Exhibit>& e
   if (!file) throw Error(path.string() + ": cannot be written");
 }
 
+/// The same scene on several engines, as neighbours; white where it is not made for one.
+std::vector<scenes::SheetEntry> compare_engines(const SheetOptions& options) {
+  std::vector<scenes::SheetEntry> entries;
+  for (const std::string& name : options.names) {
+    if (is_recording(name))
+      throw Error(name + ": a recording has its engine, expected a scene with --engines");
+    const scenes::Scene scene = scenes::load_scene(name);
+    for (const std::string& engine : options.engines) {
+      if (scenes::is_for_engine(scene, engine)) {
+        const Exhibit exhibit = drawn(simulate(scene, engine), options.width);
+        entries.push_back({exhibit.picture, scene.name, engine});
+      } else {
+        scenes::Image empty = entries.empty() ? scenes::Image{} : entries.front().picture;
+        std::fill(empty.rgb.begin(), empty.rgb.end(), std::uint8_t{255});
+        entries.push_back({std::move(empty), scene.name, "not made for " + engine});
+      }
+    }
+  }
+  return entries;
+}
+
 int make_sheet(SheetOptions options) {
   if (options.names.empty()) {
     for (const scenes::CatalogEntry& entry : scenes::scene_catalog()) {
       options.names.emplace_back(entry.name);
     }
+  }
+  if (!options.engines.empty()) {
+    const std::vector<scenes::SheetEntry> entries = compare_engines(options);
+    scenes::write_png(options.output, scenes::contact_sheet(entries, options.columns));
+    fmt::print("{}: {} scenes on {} engines\n", options.output, options.names.size(),
+               options.engines.size());
+    return kOk;
   }
   std::vector<Exhibit> exhibits;
   std::vector<scenes::SheetEntry> entries;
@@ -178,9 +221,16 @@ Action add_contact_sheet_command(CLI::App& parser) {
   command->add_option("SCENE", options->names,
                       "Catalog names, scene files, recordings (default: the whole catalog)");
   command->add_option("-o,--output", options->output, "PNG to write")->required();
-  command->add_option("--page", options->page,
-                      "Markdown table of the scenes to write, with its pictures in img/scenes "
-                      "beside it");
+  CLI::Option* page =
+      command->add_option("--page", options->page,
+                          "Markdown table of the scenes to write, with its pictures in img/scenes "
+                          "beside it");
+  command
+      ->add_option("--engines", options->engines,
+                   "Each scene on each of these, side by side, e.g. bullet_weft,reference")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"bullet_soft", "bullet_forces", "bullet_weft", "reference"}))
+      ->excludes(page);
   command->add_option("--columns", options->columns, "Pictures in a row")
       ->check(CLI::Range(1, 20))
       ->capture_default_str();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 
 #include <weft/custom_forces/core/error.hpp>
@@ -17,6 +18,9 @@ using Face = btSoftBody::Face;
 /// A node beside a face by up to this share of it still counts as over it [-]: between two faces
 /// that bend away from each other it would be over none.
 constexpr btScalar kOverlap = btScalar(0.1);
+/// A node that is beside a face by that overlap and nearer than the thickness lies within this share
+/// of the thickness of the face's box [-]: the overlap is at most .4 of the thickness.
+constexpr btScalar kReach = btScalar(1.1);
 /// How fast layers that are closer than their thickness part, while they are pressed together [1/s].
 constexpr btScalar kRecoveryRate = 5;
 
@@ -103,16 +107,6 @@ void try_contact(btSoftBody& body, Node& node, Face& face, const Rules& rules) {
   body.m_scontacts.push_back(contact);
 }
 
-/// The farthest that a node moves in this step, relative to the mean of all [m].
-btScalar largest_motion(const btSoftBody& body, const btVector3& mean) {
-  btScalar largest = 0;
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    const Node& node = body.m_nodes[i];
-    largest = std::max(largest, (node.m_x - node.m_q - mean).length2());
-  }
-  return btSqrt(largest);
-}
-
 btVector3 mean_motion(const btSoftBody& body) {
   btVector3 sum(0, 0, 0);
   for (int i = 0; i < body.m_nodes.size(); ++i) {
@@ -161,19 +155,40 @@ ClothContact::ClothContact(const btSoftBody& body, const ClothContactSettings& s
   check(settings);
   if (!settings.with_itself) return;
   const auto thickness = static_cast<btScalar>(settings.self_thickness);
-  grid_.build(body, thickness);
+  refit(body);
   near_at_rest_.resize(static_cast<std::size_t>(body.m_nodes.size()));
-  std::vector<int> candidates;
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    const Node& node = body.m_nodes[i];
-    candidates.clear();
-    grid_.collect(node.m_x, candidates);
-    for (const int f : candidates) {
-      if (squared_distance(node.m_x, body.m_faces[f]) <= thickness * thickness) {
-        near_at_rest_[static_cast<std::size_t>(i)].push_back(f);
-      }
+  for_candidates(body, thickness, *this, [&](int i, std::span<const int> slots) {
+    for (const int slot : slots) {
+      const btScalar squared =
+          squared_distance(body.m_nodes[i].m_x, body.m_faces[tree_.face(slot)]);
+      if (squared > thickness * thickness) continue;
+      near_at_rest_[static_cast<std::size_t>(i)].push_back(slot);
     }
+  });
+}
+
+/// use(node, slots of faces that it may meet) for all nodes, in the order of their groups.
+template <class Use>
+void ClothContact::for_candidates(const btSoftBody& body, btScalar reach, const ClothContact& faces,
+                                  const Use& use) {
+  const auto box_of = [&](int i) {
+    return MotionBox::of(body.m_nodes[i], faces.motion_).grown(reach);
+  };
+  if (groups_.num_nodes() != body.m_nodes.size())
+    groups_.arrange(body);  // at first, and after a tear
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    MotionBox all = MotionBox::nowhere();
+    for (const int i : groups_[g]) all.include(box_of(i));
+    faces.tree_.find(all, nearby_);
+    if (nearby_.leaves.empty()) continue;
+    for (const int i : groups_[g]) use(i, faces.tree_.collect(box_of(i), nearby_));
   }
+}
+
+void ClothContact::refit(const btSoftBody& body) {
+  motion_ = mean_motion(body);
+  tree_.refit(body, motion_);
+  is_tree_of_this_step_ = true;
 }
 
 // What was near the whole node at rest is near both of its halves.
@@ -188,36 +203,32 @@ void ClothContact::add_self_contacts(btSoftBody& body, btScalar time_step) {
   const Rules rules{static_cast<btScalar>(settings_.self_thickness),
                     static_cast<btScalar>(settings_.friction * settings_.friction), time_step,
                     body.m_cfg.piterations};
-  const btScalar motion = largest_motion(body, mean_motion(body));
-  grid_.build(body, rules.thickness + 2 * motion);
-  std::vector<int> candidates;
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    candidates.clear();
-    grid_.collect(body.m_nodes[i].m_x, candidates);
+  refit(body);
+  for_candidates(body, kReach * rules.thickness, *this, [&](int i, std::span<const int> slots) {
     const std::vector<int>& near = near_at_rest_[static_cast<std::size_t>(i)];
-    for (const int f : candidates) {
-      if (std::binary_search(near.begin(), near.end(), f)) continue;
-      try_contact(body, body.m_nodes[i], body.m_faces[f], rules);
+    auto next = near.begin();  // both lists ascend
+    for (const int slot : slots) {
+      while (next != near.end() && *next < slot) ++next;
+      if (next != near.end() && *next == slot) continue;
+      try_contact(body, body.m_nodes[i], body.m_faces[tree_.face(slot)], rules);
     }
-  }
+  });
 }
 
-void add_contacts(btSoftBody& body, const ClothContactSettings& settings, btSoftBody& other,
-                  const ClothContactSettings& other_settings, btScalar time_step) {
-  const Rules rules{static_cast<btScalar>(settings.margin + other_settings.margin),
-                    static_cast<btScalar>(settings.friction * other_settings.friction), time_step,
+void ClothContact::add_contacts(btSoftBody& body, btSoftBody& other, ClothContact& other_contact,
+                                btScalar time_step) {
+  const ClothContactSettings& theirs = other_contact.settings_;
+  const Rules rules{static_cast<btScalar>(settings_.margin + theirs.margin),
+                    static_cast<btScalar>(settings_.friction * theirs.friction), time_step,
                     body.m_cfg.piterations};
-  const btVector3 mean = mean_motion(other);
-  FaceGrid grid;
-  grid.build(other, rules.thickness + largest_motion(other, mean) + largest_motion(body, mean));
-  std::vector<int> candidates;
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    candidates.clear();
-    grid.collect(body.m_nodes[i].m_x, candidates);
-    for (const int f : candidates) {
-      try_contact(body, body.m_nodes[i], other.m_faces[f], rules);
-    }
-  }
+  if (!other_contact.is_tree_of_this_step_) other_contact.refit(other);
+  for_candidates(body, kReach * rules.thickness, other_contact,
+                 [&](int i, std::span<const int> slots) {
+                   for (const int slot : slots) {
+                     btSoftBody::Face& face = other.m_faces[other_contact.tree_.face(slot)];
+                     try_contact(body, body.m_nodes[i], face, rules);
+                   }
+                 });
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -5,7 +5,7 @@
 
 #include <BulletSoftBody/btSoftBody.h>
 
-#include <weft/bridge/face_grid.hpp>
+#include <weft/bridge/face_tree.hpp>
 #include <weft/bridge/precision.hpp>
 
 namespace weft::bridge {
@@ -39,18 +39,28 @@ class ClothContact {
   [[nodiscard]] const ClothContactSettings& settings() const { return settings_; }
   /// Nodes of the body were split (tearing.hpp): origins are the nodes that those appended were.
   void add_copies(const std::vector<int>& origins);
+  /// Before btSoftBody::predictMotion: the body will be elsewhere.
+  void begin_step() { is_tree_of_this_step_ = false; }
   /// Between btSoftBody::predictMotion and solveConstraints. time_step [s].
   void add_self_contacts(btSoftBody& body, btScalar time_step);
+  /// Contacts of the body's nodes with the faces of another one; add both ways. At the same place in a step.
+  void add_contacts(btSoftBody& body, btSoftBody& other, ClothContact& other_contact,
+                    btScalar time_step);
 
  private:
-  ClothContactSettings settings_;
-  FaceGrid grid_;
-  std::vector<std::vector<int>> near_at_rest_;  ///< per node: faces, sorted
-};
+  void refit(const btSoftBody& body);
+  template <class Use>
+  void for_candidates(const btSoftBody& body, btScalar reach, const ClothContact& faces,
+                      const Use& use);
 
-/// Contacts of the nodes of one body with the faces of another one; add both ways.
-void add_contacts(btSoftBody& body, const ClothContactSettings& settings, btSoftBody& other,
-                  const ClothContactSettings& other_settings, btScalar time_step);
+  ClothContactSettings settings_;
+  FaceTree tree_;
+  btVector3 motion_;  ///< [m] mean of the body's nodes, of the step that the tree is of
+  bool is_tree_of_this_step_ = false;
+  NodeGroups groups_;
+  FaceTree::Nearby nearby_;
+  std::vector<std::vector<int>> near_at_rest_;  ///< per node: slots of the tree, ascending
+};
 
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

@@ -23,6 +23,12 @@ constexpr btScalar kStepRatio = btScalar(1.3);
 /// Of m |y - q|^2 / (2 h^2), what a step may gain: rounding, and BDF2 gives back a little of what it took before.
 constexpr double kEnergySlack = 0.01;
 
+/// [m] Places are counted from a multiple of this near the body.
+constexpr btScalar kOriginGrid = btScalar(0.25);
+constexpr btScalar kFarFromOrigin = 2;  // [m] from which on another one is chosen
+/// Of the margin: how far below its plane a node may end a step.
+constexpr btScalar kDepthShare = btScalar(0.5);
+
 Vector3<btScalar> from_bullet(const btVector3& v) {
   return {v.x(), v.y(), v.z()};
 }
@@ -75,10 +81,29 @@ std::optional<std::string> FastBody::obstacle(const btSoftBody& body) {
   return std::nullopt;
 }
 
+btVector3 FastBody::in_world(int node) const {
+  return to_bullet(places_.col(node) + origin_);
+}
+
+// Far from the world's origin numbers in single precision are coarse. A multiple of a power of two changes them
+// least: what is near the world's origin stays as it is.
+void FastBody::choose_origin(const btSoftBody& body) {
+  if (body.m_nodes.size() == 0) return;
+  const Vector3<btScalar> near = from_bullet(body.m_nodes[0].m_x);
+  const bool is_far = (near - origin_).norm() > kFarFromOrigin;
+  if ((num_steps_ > 0 && !is_far) || !near.allFinite()) return;
+  const Vector3<btScalar> origin = (near / kOriginGrid).array().round() * kOriginGrid;
+  last_starts_.colwise() += origin_ - origin;
+  places_.colwise() += origin_ - origin;
+  origin_ = origin;
+}
+
 void FastBody::predict(btSoftBody& body, btScalar time_step) {
   last_starts_.swap(starts_);
   last_velocities_.swap(start_velocities_);
+  choose_origin(body);
   read_nodes(body, starts_, start_velocities_);
+  starts_.colwise() -= origin_;
   contacts_.clear();
   obstacles_.clear();
   if (num_steps_++ % kCoveredSteps == 0) {
@@ -94,8 +119,8 @@ void FastBody::predict(btSoftBody& body, btScalar time_step) {
 void FastBody::publish_bounds(btSoftBody& body) const {
   btVector3 low = body.m_bounds[0];
   btVector3 high = body.m_bounds[1];
-  low.setMin(to_bullet(starts_.rowwise().minCoeff()));
-  high.setMax(to_bullet(starts_.rowwise().maxCoeff()));
+  low.setMin(to_bullet(starts_.rowwise().minCoeff() + origin_));
+  high.setMax(to_bullet(starts_.rowwise().maxCoeff() + origin_));
   body.m_bounds[0] = low;
   body.m_bounds[1] = high;
   if (btBroadphaseProxy* const proxy = body.getBroadphaseHandle()) {
@@ -113,17 +138,22 @@ void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& o
 
 // Those that are known again, and those that the solution keeps to anyway, are left out.
 bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
+  deep_.clear();
   if (obstacles_.empty()) return false;
   const std::size_t num_known = contacts_.size();
-  for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_x = to_bullet(places_.col(i));
+  write_places(body);
   found_.clear();
   for (const Obstacle& obstacle : obstacles_) {
     const btCollisionObjectWrapper object(nullptr, obstacle.shape, obstacle.object, obstacle.place,
                                           -1, -1);
     add_rigid_contacts(body, object, time_step, found_);
   }
+  deep_.clear();
+  const btScalar depth = kDepthShare * body.getCollisionShape()->getMargin();
   std::erase_if(found_, [&](const RigidContact& found) {
-    return btDot(found.normal, body.m_nodes[found.node].m_x) >= found.offset;
+    const btScalar gap = btDot(found.normal, body.m_nodes[found.node].m_x) - found.offset;
+    if (gap < -depth && movable(found.object) == nullptr) deep_.push_back(found);
+    return gap >= 0;
   });
   if (found_.empty()) return false;
   last_contact_.assign(static_cast<std::size_t>(body.m_nodes.size()), -1);
@@ -180,7 +210,7 @@ void FastBody::read_constraints(const btSoftBody& body) {
     fast::PlaneContact<btScalar> plane;
     plane.node = contact.node;
     plane.normal = from_bullet(contact.normal);
-    plane.offset = contact.offset;
+    plane.offset = contact.offset - plane.normal.dot(origin_);
     plane.motion = from_bullet(contact.motion);
     plane.friction = body.m_cfg.kDF * contact.object->getFriction();
     if (const btRigidBody* const rigid = movable(contact.object)) {
@@ -199,7 +229,7 @@ void FastBody::read_constraints(const btSoftBody& body) {
     const btVector3 place = anchor.m_body->getWorldTransform() * anchor.m_local;
     fast::LedNode<btScalar> led;
     led.node = node;
-    led.place = from_bullet(place);
+    led.place = from_bullet(place) - origin_;
     if (const btRigidBody* const rigid = movable(anchor.m_body)) {
       int shares = 0;
       for (int b = 0; b < body.m_anchors.size(); ++b) {
@@ -215,7 +245,7 @@ void FastBody::give_impulses(btSoftBody& body, btScalar time_step) {
   const auto impulse_on = [&](int node) {
     return -time_step * to_bullet(solver_->holding_forces().col(node));
   };
-  const auto place_of = [&](int node) { return to_bullet(places_.col(node)); };
+  const auto place_of = [&](int node) { return in_world(node); };
   for (int a = 0; a < body.m_anchors.size(); ++a) {
     const btSoftBody::Anchor& anchor = body.m_anchors[a];
     const auto node = static_cast<int>(anchor.m_node - &body.m_nodes[0]);
@@ -280,11 +310,22 @@ void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
         continue;
       }
       const Vector3<btScalar> normal = from_bullet(contact.normal);
-      const btScalar gap = normal.dot(places_.col(contact.node)) - contact.offset;
+      const btScalar gap = normal.dot(places_.col(contact.node) + origin_) - contact.offset;
       if (gap < 0 && movable(contact.object) == nullptr) places_.col(contact.node) -= gap * normal;
     }
   }
   contacts_.resize(num_solved);  // the others have no force in the solution
+}
+
+// A node is held by one plane at a time; where facets meet, that of one may let it into another. Where the step
+// began it was outside.
+void FastBody::leave_depths() {
+  for (const RigidContact& contact : deep_) {
+    const Vector3<btScalar> normal = from_bullet(contact.normal);
+    const Vector3<btScalar> start = starts_.col(contact.node) + from_bullet(contact.motion);
+    if (normal.dot(start) > normal.dot(places_.col(contact.node)))
+      places_.col(contact.node) = start;
+  }
 }
 
 // The solution counts on a body that gives way at once. Bullet has moved it before, and moves it next by the impulse
@@ -300,8 +341,16 @@ void FastBody::stay_outside(btSoftBody& body, bool of_movable) const {
 
 void FastBody::place(btSoftBody& body, btScalar time_step) {
   keep_out_of_missed(body, time_step);
+  leave_depths();
   give_impulses(body, time_step);
-  for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_x = to_bullet(places_.col(i));
+  write_places(body);
+}
+
+// Pinned nodes are where their leader has put them, to the last bit.
+void FastBody::write_places(btSoftBody& body) const {
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    if (body.m_nodes[i].m_im > 0) body.m_nodes[i].m_x = in_world(i);
+  }
 }
 
 void FastBody::project_cloth_contacts(btSoftBody& body) {
@@ -313,11 +362,12 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
   const TraceScope trace("write back");
   bool meets_cloth = body.m_scontacts.size() > 0;
   for (int i = 0; i < body.m_nodes.size(); ++i) {
-    const Vector3<btScalar> place = from_bullet(body.m_nodes[i].m_x);
-    meets_cloth = meets_cloth || place != places_.col(i);  // another body's contact has moved it
-    places_.col(i) = place;
+    const btSoftBody::Node& node = body.m_nodes[i];
+    if (node.m_im <= 0 || node.m_x == in_world(i)) continue;
+    meets_cloth = true;  // another body's contact has moved it
+    places_.col(i) = from_bullet(node.m_x) - origin_;
   }
-  velocities_ = (places_ - origins_) / inertia_step_;
+  velocities_ = (places_ - origins_ + solver_->remainders()) / inertia_step_;
   if (meets_cloth) excess_ = 0;
   const bool is_limited = !meets_cloth && keep_energy(body, time_step);
   for (int i = 0; i < body.m_nodes.size(); ++i) {
@@ -325,6 +375,7 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
     node.m_f.setZero();
     if (node.m_im > 0) {
       node.m_v = (1 - body.m_cfg.kDP) * to_bullet(velocities_.col(i));
+      places_.col(i) = from_bullet(node.m_x) - origin_;  // with Bullet's rounding
     } else {
       node.m_v = (node.m_x - node.m_q) / time_step;
     }
@@ -355,7 +406,7 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step) {
   for (int i = 0; i < body.m_nodes.size(); ++i) {
     const btSoftBody::Node& node = body.m_nodes[i];
     if (node.m_im <= 0) {
-      targets_.col(i) = from_bullet(node.m_x);
+      targets_.col(i) = from_bullet(node.m_x) - origin_;
       continue;
     }
     const Vector3<btScalar> start = start_velocities_.col(i);

@@ -98,9 +98,13 @@ class FastBody {
   /// Contacts that the solution would need, and that nobody looked for where Bullet had predicted the
   /// nodes. True if there are any.
   [[nodiscard]] bool find_missed_contacts(btSoftBody& body, btScalar time_step);
+  void choose_origin(const btSoftBody& body);
+  [[nodiscard]] btVector3 in_world(int node) const;
+  void write_places(btSoftBody& body) const;
   void read_constraints(const btSoftBody& body);
   void give_impulses(btSoftBody& body, btScalar time_step);
   void keep_out_of_missed(btSoftBody& body, btScalar time_step);
+  void leave_depths();
   void stay_outside(btSoftBody& body, bool of_movable) const;
   [[nodiscard]] bool gets_work_from_outside(const btSoftBody& body) const;
   /// True if velocities_ had to be slowed down.
@@ -114,6 +118,7 @@ class FastBody {
   btScalar solver_step_ = 0;  ///< [s] of the steps that solver_ was made for
 
   BodySleep sleep_;
+  Vector3<btScalar> origin_ = Vector3<btScalar>::Zero();  ///< that places are counted from [m]
   // Of the present step, 3 x n.
   Matrix3X<btScalar> starts_;            ///< q [m]
   Matrix3X<btScalar> start_velocities_;  ///< v [m/s]
@@ -138,7 +143,9 @@ class FastBody {
   std::vector<Obstacle> obstacles_;
   std::vector<RigidContact> contacts_;
   std::vector<RigidContact> found_;  ///< of a second look
-  std::vector<int> last_contact_;    ///< of each node, or -1; contact_before_: the one before it
+  std::vector<RigidContact>
+      deep_;  ///< of it, with what does not give way, where the solution is well inside
+  std::vector<int> last_contact_;  ///< of each node, or -1; contact_before_: the one before it
   std::vector<int> contact_before_;
   std::vector<fast::PlaneContact<btScalar>> plane_contacts_;
   std::vector<fast::LedNode<btScalar>> led_;

@@ -1,13 +1,16 @@
 #include <weft/bridge/rigid_contacts.hpp>
 
 #include <optional>
-#include <utility>
+
+#include <Eigen/Core>
 
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <weft/custom_forces/core/types.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -55,42 +58,67 @@ std::optional<RigidContact> stop_on_the_way(const btCollisionObjectWrapper& obje
   return contact;
 }
 
+using Place = Vector3<double>;
+
+Place in_double(const btVector3& v) {
+  return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
+}
+
+struct Distance {
+  double distance;  ///< [m], signed
+  Place out;        ///< unit vector out of the shape
+};
+
 /// Balls and boxes, whose distance takes no field: exactly, and from several threads at the same time. A box is as
-/// large as with its margin. Signed distance [m] and direction out of the shape, in its frame.
-std::optional<std::pair<btScalar, btVector3>> exact_distance(const btCollisionShape& shape,
-                                                             const btVector3& local) {
+/// large as with its margin. In the shape's frame.
+std::optional<Distance> exact_distance(const btCollisionShape& shape, const Place& local) {
   if (shape.getShapeType() == SPHERE_SHAPE_PROXYTYPE) {
-    const btScalar length = local.length();
-    const btScalar radius = static_cast<const btSphereShape&>(shape).getRadius();
-    const btVector3 out = length > 0 ? local / length : btVector3(0, 1, 0);
-    return std::pair{length - radius, out};
+    const double length = local.norm();
+    const auto radius = static_cast<double>(static_cast<const btSphereShape&>(shape).getRadius());
+    return Distance{length - radius, length > 0 ? Place(local / length) : Place(0, 1, 0)};
   }
   if (shape.getShapeType() != BOX_SHAPE_PROXYTYPE) return std::nullopt;
-  const btVector3 half = static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin();
-  const btVector3 beyond = local.absolute() - half;
-  const int axis = beyond.maxAxis();
-  btVector3 out(0, 0, 0);
-  if (beyond[axis] <= 0) {
-    out[axis] = btScalar(local[axis] < 0 ? -1 : 1);
-    return std::pair{beyond[axis], out};
+  const Place half = in_double(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin());
+  const Place beyond = local.cwiseAbs() - half;
+  Eigen::Index axis = 0;
+  const double deepest = beyond.maxCoeff(&axis);
+  Place out = Place::Zero();
+  if (deepest <= 0) {
+    out[axis] = local[axis] < 0 ? -1 : 1;
+    return Distance{deepest, out};
   }
   for (int k = 0; k < 3; ++k) {
     if (beyond[k] > 0) out[k] = local[k] < 0 ? -beyond[k] : beyond[k];
   }
-  const btScalar distance = out.length();
-  return std::pair{distance, out / distance};
+  const double distance = out.norm();
+  return Distance{distance, out / distance};
+}
+
+/// In double precision: the ground may be a box of many metres, of which a place is a millionth.
+std::optional<RigidContact> near_exactly(const btCollisionObjectWrapper& object,
+                                         const btVector3& place, btScalar margin) {
+  const btTransform& frame = object.getWorldTransform();
+  Matrix3<double> turn;
+  for (int k = 0; k < 3; ++k) turn.row(k) = in_double(frame.getBasis().getRow(k));
+  const Place world = in_double(place);
+  const Place local = turn.transpose() * (world - in_double(frame.getOrigin()));
+  const auto exact = exact_distance(*object.getCollisionShape(), local);
+  if (!exact || exact->distance >= 2 * static_cast<double>(margin)) return std::nullopt;
+  const Place out = turn * exact->out;
+  RigidContact contact;
+  contact.normal.setValue(static_cast<btScalar>(out.x()), static_cast<btScalar>(out.y()),
+                          static_cast<btScalar>(out.z()));
+  // Of the normal as it is rounded, so that the plane is where it should be for this place.
+  contact.offset = static_cast<btScalar>(in_double(contact.normal).dot(world) - exact->distance +
+                                         static_cast<double>(margin));
+  return contact;
 }
 
 std::optional<RigidContact> near_surface(const btSoftBody& body,
                                          const btCollisionObjectWrapper& object,
                                          const btVector3& place, btScalar margin) {
-  const btTransform& frame = object.getWorldTransform();
-  if (const auto exact = exact_distance(*object.getCollisionShape(), frame.invXform(place))) {
-    if (exact->first >= 2 * margin) return std::nullopt;
-    RigidContact contact;
-    contact.normal = frame.getBasis() * exact->second;
-    contact.offset = btDot(contact.normal, place) - exact->first + margin;
-    return contact;
+  if (!needs_distance_field(*object.getCollisionShape())) {
+    return near_exactly(object, place, margin);
   }
   btSoftBody::sCti found;
   if (!body.checkContact(&object, place, 2 * margin, found)) return std::nullopt;
@@ -103,7 +131,7 @@ std::optional<RigidContact> near_surface(const btSoftBody& body,
 }  // namespace
 
 bool needs_distance_field(const btCollisionShape& shape) {
-  return !exact_distance(shape, btVector3(0, 0, 0));
+  return !exact_distance(shape, Place::Zero());
 }
 
 void add_rigid_contacts(const btSoftBody& body, const btCollisionObjectWrapper& object,

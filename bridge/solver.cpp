@@ -255,6 +255,7 @@ void SoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool fo
 void SoftBodySolver::predictMotion(btScalar time_step) {
   const TraceScope trace("predict motion");
   time_step_ = time_step;
+  for (const auto& entry : attachments_->contacts) entry->contact.begin_step();
   for (const auto& attachment : attachments_->list) {
     if (attachment->fast && attachment->was_in_world)
       attachment->fast->begin_step(*attachment->body);
@@ -401,12 +402,12 @@ void SoftBodySolver::tell_of_each_other(btSoftBody& body, btSoftBody& other) {
 void SoftBodySolver::processCollision(btSoftBody* body, btSoftBody* other) {
   tell_of_each_other(*body, *other);
   if (is_still(*body) || is_still(*other)) return;
-  const ClothContact* contact = find_contact(*body);
-  const ClothContact* other_contact = find_contact(*other);
+  ClothContact* const contact = find_contact(*body);
+  ClothContact* const other_contact = find_contact(*other);
   if (contact && other_contact && contact->settings().with_others &&
       other_contact->settings().with_others) {
-    add_contacts(*body, contact->settings(), *other, other_contact->settings(), time_step_);
-    add_contacts(*other, other_contact->settings(), *body, contact->settings(), time_step_);
+    contact->add_contacts(*body, *other, *other_contact, time_step_);
+    other_contact->add_contacts(*other, *body, *contact, time_step_);
     return;
   }
   btDefaultSoftBodySolver::processCollision(body, other);

@@ -15,6 +15,8 @@ constexpr int kFewEnough = 8000;
 constexpr double kSmallShare = 0.05;
 /// The next coarser ones must be fewer by this to be worth it.
 constexpr double kLeastGain = 0.7;
+/// Terms of a sum beyond so many times the mean stand apart.
+constexpr std::size_t kLongSum = 3;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -36,6 +38,7 @@ GlobalCorrection::GlobalCorrection(const SymmetricMatrix& matrix, const std::vec
   right_.setZero(3, coarse.size());
   solution_.setZero(3, coarse.size());
   coarse_.setZero(4, coarse.size());
+  coarse_sums_.setZero(4, coarse.size());
   nodes_.setZero(4, num_nodes);
   std::vector<int> unknown_of(at(num_nodes), -1);
   for (int u = 0; u < static_cast<int>(names.size()); ++u) unknown_of[at(names[at(u)])] = u;
@@ -58,13 +61,24 @@ GlobalCorrection::GlobalCorrection(const SymmetricMatrix& matrix, const std::vec
 GlobalCorrection::Sums GlobalCorrection::make_sums(
     const std::vector<std::vector<std::pair<int, float>>>& rows) {
   Sums sums;
-  for (const auto& row : rows)
-    sums.num_terms = std::max(sums.num_terms, static_cast<int>(row.size()));
+  std::size_t longest = 0;
+  std::size_t all = 0;
   for (const auto& row : rows) {
-    for (int k = 0; k < sums.num_terms; ++k) {
-      const bool is_filled = k < static_cast<int>(row.size());
-      sums.columns.push_back(is_filled ? row[at(k)].first : 0);
-      sums.weights.push_back(is_filled ? row[at(k)].second : 0.0F);
+    longest = std::max(longest, row.size());
+    all += row.size();
+  }
+  const std::size_t common = kLongSum * all / std::max<std::size_t>(rows.size(), 1) + 1;
+  sums.num_terms = static_cast<int>(std::min(longest, common));
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const auto& row = rows[r];
+    for (std::size_t k = 0; k < std::max(row.size(), at(sums.num_terms)); ++k) {
+      const auto [column, weight] = k < row.size() ? row[k] : std::pair{0, 0.0F};
+      if (k >= at(sums.num_terms)) {
+        sums.rest.push_back({static_cast<int>(r), column, weight});
+        continue;
+      }
+      sums.columns.push_back(column);
+      sums.weights.push_back(weight);
     }
   }
   return sums;
@@ -75,14 +89,17 @@ std::size_t GlobalCorrection::num_bytes() const {
   return factor_.num_bytes() + num_weights * (sizeof(int) + sizeof(float));
 }
 
-inline Eigen::Vector4f GlobalCorrection::sum_of(const Sums& sums, Eigen::Index row,
-                                                const Fours& values) {
-  const Eigen::Index first = row * sums.num_terms;
-  const int* const columns = sums.columns.data() + first;
-  const float* const weights = sums.weights.data() + first;
-  Eigen::Vector4f sum = Eigen::Vector4f::Zero();
-  for (int k = 0; k < sums.num_terms; ++k) sum += weights[k] * values.col(columns[k]);
-  return sum;
+void GlobalCorrection::add_up(const Sums& sums, const Fours& values, Fours& results) {
+  const int* columns = sums.columns.data();
+  const float* weights = sums.weights.data();
+  for (Eigen::Index row = 0; row < results.cols(); ++row) {
+    Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+    for (int k = 0; k < sums.num_terms; ++k) sum += *weights++ * values.col(*columns++);
+    results.col(row) = sum;
+  }
+  for (const Sums::Term& term : sums.rest) {
+    results.col(term.sum) += term.weight * values.col(term.column);
+  }
 }
 
 // Four numbers for a node, of which the last is not used: what a processor loads and adds at once.
@@ -92,15 +109,16 @@ void GlobalCorrection::solve(const NodeArrays<float>& residual, NodeArrays<float
   for (Eigen::Index i = 0; i < nodes_.cols(); ++i) {
     nodes_.col(i) << from[i], from[n + i], from[2 * n + i], 0.0F;
   }
-  for (int c = 0; c < size(); ++c) right_.col(c) = sum_of(coarsen_, c, nodes_).head<3>();
+  add_up(coarsen_, nodes_, coarse_sums_);
+  right_ = coarse_sums_.topRows<3>();
   factor_.solve(right_, solution_);
   coarse_.topRows<3>() = solution_;
+  add_up(refine_, coarse_, nodes_);
   float* const to = correction.data();
   for (Eigen::Index i = 0; i < nodes_.cols(); ++i) {
-    const Eigen::Vector4f sum = sum_of(refine_, i, coarse_);
-    to[i] = sum[0];
-    to[n + i] = sum[1];
-    to[2 * n + i] = sum[2];
+    to[i] = nodes_(0, i);
+    to[n + i] = nodes_(1, i);
+    to[2 * n + i] = nodes_(2, i);
   }
   correction.bottomRows(n - nodes_.cols()).setZero();
 }

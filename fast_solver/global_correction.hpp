@@ -29,15 +29,21 @@ class GlobalCorrection {
 
  private:
   using Fours = Eigen::Matrix<float, 4, Eigen::Dynamic>;
-  /// Weighted sums, all of as many terms as the longest, so that the processor foresees where each ends.
+  /// Weighted sums, all of equally many terms, so that the processor foresees where each ends. A few may be much
+  /// longer, as that of a node to which all others are tied: the rest of their terms stands apart.
   struct Sums {
+    struct Term {
+      int sum;
+      int column;
+      float weight;
+    };
     int num_terms = 0;
     std::vector<int> columns;  ///< num_terms for each sum
     std::vector<float> weights;
+    std::vector<Term> rest;
   };
   [[nodiscard]] static Sums make_sums(const std::vector<std::vector<std::pair<int, float>>>& rows);
-  [[nodiscard]] static Eigen::Vector4f sum_of(const Sums& sums, Eigen::Index row,
-                                              const Fours& values);
+  static void add_up(const Sums& sums, const Fours& values, Fours& results);
 
   Sums coarsen_;  ///< P^T: of each coarse unknown, nodes
   Sums refine_;   ///< P: of each node, coarse unknowns
@@ -46,6 +52,7 @@ class GlobalCorrection {
   Matrix3X<float> solution_;
   Fours nodes_;
   Fours coarse_;
+  Fours coarse_sums_;
 };
 
 }  // namespace weft::fast

@@ -19,6 +19,8 @@ constexpr double kRoundingShare = 0.01;
 /// Rounds of a step that would have gained energy, and halvings of each of them.
 constexpr int kExtraRounds = 6;
 constexpr int kHalvings = 6;
+/// Of the energy of the motion without springs: what a round must take away for another one to follow.
+constexpr double kLastDescent = 1e-4;
 constexpr int kExtraIterations = 4;
 
 std::size_t at(int i) {
@@ -141,16 +143,32 @@ bool ImplicitSolver<Scalar>::go_downhill(const StepProblem<Scalar>& problem, int
                                          Matrix3XRef<Scalar> places) {
   places = unmoved_;
   evaluate(problem, places);
+  // What springs will hold back would be held by a plane that it would reach without them.
+  std::fill(holds_.begin(), holds_.end(), Hold::kFree);
+  bool is_careful = false;
+  bool went_down = false;
   for (int round = 0; round < kExtraRounds; ++round) {
-    do_round(problem, kExtraIterations * iterations, round == 0, places);
-    if (!descend(problem, unmoved_, places)) {
+    do_round(problem, kExtraIterations * iterations, false, places);
+    const double before = energy(problem, unmoved_);
+    const bool goes_down = descend(problem, unmoved_, places);
+    if (goes_down) {
+      unmoved_ = places;
+      went_down = true;
+      if (before - energy(problem, places) <= kLastDescent * step_energy_) break;
+    }
+    if (!goes_down && is_careful) break;
+    // Slack springs resist nothing across in a linearisation, and all the more once they have turned.
+    is_careful = !goes_down;
+    forces_.set_least_across(is_careful ? Scalar(1) : Scalar(0));
+    if (!goes_down) {
       places = unmoved_;
       evaluate(problem, places);
-      return round > 0;
     }
-    unmoved_ = places;
   }
-  return true;
+  places = unmoved_;
+  forces_.set_least_across(0);
+  evaluate(problem, places);
+  return went_down;
 }
 
 // The exact solution has no more of the energy that it minimises than the places at the start. One

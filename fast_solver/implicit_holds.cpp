@@ -52,8 +52,9 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
     const Scalar tie = candidate.mass / (problem.inertia_step * problem.inertia_step);
     Scalar pressure = -normal.dot(unbalanced_.col(i)) + inertia * std::max(Scalar(0), -gap);
     if (candidate.mass > 0 && was_held) pressure = -tie * gap;
-    const bool is_near =
-        is_first ? std::min(gap, gap_at(candidate, problem.targets.col(i))) < 0 : gap < 0;
+    Scalar least_gap = gap;
+    if (is_first) least_gap += std::min(Scalar(0), first_push(i, normal));
+    const bool is_near = least_gap < 0;
     if (!(was_held ? pressure > 0 : is_near)) {
       contact_of_[at(i)] = -1;
       continue;
@@ -85,6 +86,17 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
     ties_.push_back({led.node, led.mass / (problem.inertia_step * problem.inertia_step),
                      Vector3<Scalar>::Zero(), led.place});
   }
+}
+
+// How far what pushes a node would move it along a normal, if its neighbours stood still [m]. Without springs would
+// be too far by much: gas in a ball pushes thirty times as hard as the weight, and the skin holds it back.
+template <class Scalar>
+Scalar ImplicitSolver<Scalar>::first_push(int node, const Vector3<Scalar>& normal) const {
+  const auto b = forces_.diagonal_blocks().row(node);
+  const Vector3<float> n = normal.template cast<float>();
+  const float across = b[0] * n[0] * n[0] + b[1] * n[1] * n[1] + b[2] * n[2] * n[2] +
+                       2 * (b[3] * n[0] * n[1] + b[4] * n[1] * n[2] + b[5] * n[2] * n[0]);
+  return normal.dot(unbalanced_.col(node)) / Scalar(inertia_[node] + across);
 }
 
 template <class Scalar>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include <weft/custom_forces/core/error.hpp>
@@ -18,6 +19,10 @@ constexpr float kSmoothing = 0.6F;
 /// rounds on top, and the share of the first unbalanced forces that may be left.
 constexpr int kTiedRounds = 4;
 constexpr double kTiedResidual = 0.02;
+
+/// An iteration that gains no more than this share of what the first of its round gained is the last of that round:
+/// with short steps inertia outweighs springs, and two are as good as four.
+constexpr float kLastGain = 1e-4F;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -91,6 +96,7 @@ ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const Vecto
   holding_forces_.setZero(3, n);
   unbalanced_.setZero(3, n);
   unmoved_.setZero(3, n);
+  remainders_.setZero(3, n);
   holds_.assign(at(static_cast<int>(n)), Hold::kFree);
   contact_of_.assign(at(static_cast<int>(n)), -1);
   blocks_.setZero(n_filled, 6);
@@ -212,6 +218,7 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem,
   direction_.setZero();
   direction_product_.setZero();
   float curvature = 1;
+  float first_gain = 0;
   for (int k = 0; k < iterations; ++k) {
     precondition();
     const auto [gain, overlap] = vectors.add_correction(
@@ -225,6 +232,8 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem,
     curvature = new_curvature;
     vectors.advance(direction_.data(), direction_product_.data(), descent / curvature, size,
                     step_.data(), residual_vector_.data());
+    if (k == 0) first_gain = gain;
+    if (gain <= kLastGain * first_gain) break;
   }
 }
 
@@ -278,6 +287,24 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const Sol
   find_holding_forces(places);
   residual_ = first > 0 ? left_over() / first : 0.0;
   balance(places);
+  find_remainders(places);
+}
+
+// One step of Jacobi's method for the forces that are left, which places on their grid cannot follow.
+template <class Scalar>
+void ImplicitSolver<Scalar>::find_remainders(ConstMatrix3XRef<Scalar> places) {
+  const BlockArrays& blocks = forces_.diagonal_blocks();
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    const Hold hold = holds_[at(static_cast<int>(i))];
+    const bool may_move = hold == Hold::kFree || hold == Hold::kOnPlane;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Scalar stiffness = Scalar(inertia_[i] + blocks(i, axis));
+      const Scalar left = unbalanced_(axis, i) + holding_forces_(axis, i);
+      const Scalar most = std::numeric_limits<Scalar>::epsilon() / 2 * std::abs(places(axis, i));
+      remainders_(axis, i) =
+          may_move && stiffness > 0 ? std::clamp(left / stiffness, -most, most) : Scalar(0);
+    }
+  }
 }
 
 template class ImplicitSolver<float>;

@@ -57,6 +57,9 @@ class ImplicitSolver {
   /// After solve(): what each node is pushed with by contacts, and led nodes by what leads them, 3 x n
   /// [N]. Zero elsewhere.
   [[nodiscard]] const Matrix3X<Scalar>& holding_forces() const { return holding_forces_; }
+  /// After solve(): what places would need to be on top, if they had more digits, 3 x n [m]; at most the
+  /// rounding of each. Of a slow motion in short steps it is a good part.
+  [[nodiscard]] const Matrix3X<Scalar>& remainders() const { return remainders_; }
   /// After solve(): the contact of the problem that holds a node, or -1.
   [[nodiscard]] int contact_of(int node) const {
     return contact_of_[static_cast<std::size_t>(node)];
@@ -88,6 +91,7 @@ class ImplicitSolver {
   void evaluate(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places);
   void decide_holds(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places,
                     bool is_first);
+  [[nodiscard]] Scalar first_push(int node, const Vector3<Scalar>& normal) const;
   void invert_blocks();
   void project(Floats& vectors) const;
   void smooth(const Floats& residual, Floats& correction) const;
@@ -115,6 +119,7 @@ class ImplicitSolver {
   /// Norm of the forces that nothing balances [N].
   [[nodiscard]] double left_over() const;
   void balance(Matrix3XRef<Scalar> places);
+  void find_remainders(ConstMatrix3XRef<Scalar> places);
   bool clamp(const StepProblem<Scalar>& problem, Matrix3XRef<Scalar> places);
 
   NetworkForces<Scalar> forces_;
@@ -127,6 +132,7 @@ class ImplicitSolver {
   VectorX<float> inertia_;       ///< m / h'^2 [N/m]; 0 for pinned nodes; filled up with zeros
   Matrix3X<Scalar> unbalanced_;  ///< forces that are left [N]
   Matrix3X<Scalar> holding_forces_;
+  Matrix3X<Scalar> remainders_;
   Matrix3X<Scalar> unmoved_;
   std::vector<Hold> holds_;        ///< of each node
   std::vector<Hold> held_before_;  ///< the same in the round before

@@ -60,6 +60,7 @@ NetworkView<Scalar> NetworkForces<Scalar>::view() const {
           springs_.data(),
           dampers_.empty() ? nullptr : dampers_.data(),
           stabilisers_.empty() ? nullptr : stabilisers_.data(),
+          least_across_,
           linear_.data()};
 }
 

@@ -27,6 +27,11 @@ class NetworkForces {
   /// Lengths at the start of a step of time_step [s], > 0; starts: q, 3 x n [m].
   void begin_step(ConstMatrix3XRef<Scalar> starts, Scalar time_step);
 
+  /// From the next add_forces() on t is at least this share of s, 0 to 1. With 1 no spring can store more than its
+  /// linearisation says, so that a step that the linear system thinks good is good (as the global step of Bouaziz et
+  /// al. 2014); with 0 steps of Newton's method are as large as they can be.
+  void set_least_across(Scalar share) { least_across_ = share; }
+
   /// forces (3 x n) += those of the network at places x (3 x n) [N], and linearises there.
   void add_forces(ConstMatrix3XRef<Scalar> places, Matrix3XRef<Scalar> forces);
 
@@ -52,6 +57,7 @@ class NetworkForces {
   std::vector<Scalar> damping_;  ///< of each lane [N s/m]; empty: none
   std::vector<Scalar> dampers_;
   std::vector<Scalar> stabilisers_;
+  Scalar least_across_ = 0;
   mutable std::vector<float> linear_;
   NodeArrays<Scalar> starts_;
   NodeArrays<Scalar> places_;

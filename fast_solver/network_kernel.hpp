@@ -27,6 +27,7 @@ struct NetworkView {
   const Scalar* springs;      ///< rest length, stiffness, what compression adds to the stiffness
   const Scalar* dampers;      ///< damping / time step, length at the start; nullptr: none
   const Scalar* stabilisers;  ///< w; nullptr: none
+  Scalar least_across;        ///< t over s at least
   /// sqrt(s - t) u and t, of the stiffness s u u^T + t (I - u u^T) of an edge of direction u
   float* linear;
 };

@@ -12,6 +12,7 @@ NAMES = {"bullet": "Bullet's links", "bullet_reordered": "the same, reordered", 
          "weft_euler": "bullet_weft, Euler", "bullet_forces": "bullet_forces, explicit",
          "bullet_substeps": "Bullet's links, 4 steps"}
 WIDTH, HEIGHT = 330, 250
+COLUMNS = 3
 LEFT, RIGHT, TOP, BOTTOM = 58, 16, 30, 42
 
 
@@ -80,13 +81,18 @@ class Panel:
 
 
 def write(name, panels, legend):
-    width = WIDTH * len(panels)
-    height = HEIGHT + 24
-    parts = [part for panel in panels for part in panel.parts]
+    """Panels in rows of COLUMNS, each made with the offset of its column."""
+    rows = math.ceil(len(panels) / COLUMNS)
+    width = WIDTH * min(len(panels), COLUMNS)
+    height = HEIGHT * rows + 24
+    parts = []
+    for number, panel in enumerate(panels):
+        shift = HEIGHT * (number // COLUMNS)
+        parts += [f'<g transform="translate(0 {shift})">', *panel.parts, "</g>"]
     x = LEFT
     for text, color in legend:
-        parts.append(f'<circle cx="{x}" cy="{HEIGHT + 10}" r="4" fill="{color}"/>'
-                     f'<text x="{x + 9}" y="{HEIGHT + 14}">{text}</text>')
+        parts.append(f'<circle cx="{x}" cy="{height - 14}" r="4" fill="{color}"/>'
+                     f'<text x="{x + 9}" y="{height - 10}">{text}</text>')
         x += 40 + 6.4 * len(text)
     path = ROOT / "docs" / "img" / name
     path.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" '
@@ -103,7 +109,7 @@ def work_precision(results):
         here = [row for row in rows if row["workload"] == workload]
         times = [float(row["median_ms"]) for row in here]
         errors = [100 * float(row["rms_error_m"]) for row in here]
-        panel = Panel(WIDTH * len(panels), workload, times, errors, "ms per step", "RMS error [cm]")
+        panel = Panel(WIDTH * (len(panels) % COLUMNS), workload, times, errors, "ms per step", "RMS error [cm]")
         for solver in dict.fromkeys(row["solver"] for row in here):
             points = [(float(row["median_ms"]), 100 * float(row["rms_error_m"])) for row in here
                       if row["solver"] == solver]

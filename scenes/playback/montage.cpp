@@ -13,6 +13,7 @@ namespace {
 constexpr Rgb kInk = {38, 44, 54};
 constexpr Rgb kGrayInk = {104, 112, 124};
 constexpr Rgb kPaper = {255, 255, 255};
+constexpr double kDark = 120;  // of 255: what is darker gets white letters
 constexpr const char* kEllipsis = "...";
 
 Image blank(int width, int height) {
@@ -47,6 +48,22 @@ void check_same_size(const Image& first, const Image& other) {
                   other.width, other.height, first.width, first.height));
 }
 
+/// Mean of all colours in a rectangle.
+double mean_of(const Image& image, float left, float right, float top, float bottom) {
+  const auto row_at = [&](float y) { return std::clamp(static_cast<int>(y), 0, image.height); };
+  const auto column_at = [&](float x) { return std::clamp(static_cast<int>(x), 0, image.width); };
+  double sum = 0;
+  double count = 0;
+  for (int row = row_at(top); row < row_at(bottom); ++row) {
+    for (int k = 3 * column_at(left); k < 3 * column_at(right); ++k) {
+      sum += image.rgb[static_cast<std::size_t>(row) * 3 * static_cast<std::size_t>(image.width) +
+                       static_cast<std::size_t>(k)];
+      ++count;
+    }
+  }
+  return count > 0 ? sum / count : 255.0;
+}
+
 /// Longest head of a line that leaves room for the ellipsis.
 std::string cut(std::string line, float width, float height) {
   while (!line.empty() && text_width(line + kEllipsis, height) > width) line.pop_back();
@@ -57,8 +74,11 @@ std::string cut(std::string line, float width, float height) {
 
 void draw_label(Image& image, const std::string& text) {
   const float height = std::max(11.0f, static_cast<float>(image.height) / 22.0f);
-  draw_text(image, text, 0.7f * height, static_cast<float>(image.height) - 0.7f * height, height,
-            kInk);
+  const float left = 0.7f * height;
+  const float base = static_cast<float>(image.height) - 0.7f * height;
+  const bool is_dark =
+      mean_of(image, left, left + text_width(text, height), base - height, base) < kDark;
+  draw_text(image, text, left, base, height, is_dark ? kPaper : kInk);
 }
 
 Image filmstrip(const std::vector<Image>& pictures, int columns) {

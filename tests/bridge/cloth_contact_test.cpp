@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <weft/bridge/cloth_body.hpp>
-#include <weft/bridge/face_grid.hpp>
+#include <weft/bridge/face_tree.hpp>
 #include <weft/bridge/node_state.hpp>
 #include <weft/bridge/soft_world.hpp>
 #include <weft/custom_forces/core/error.hpp>
@@ -217,31 +217,65 @@ TEST(ClothContact, SettingsOutOfTheirDomainAreRefused) {
   EXPECT_THROW(world.solver().set_cloth_contact(body, {.friction = nan}), InvalidArgument);
 }
 
-TEST(FaceGrid, MissesNoFaceThatIsNear) {
-  const ClothMesh mesh = square(0.0, 0.4);
+/// Do the ways of a node and of a face in this step come within reach, axis by axis?
+bool ways_meet(const btSoftBody::Node& node, const btSoftBody::Face& face, const btVector3& shift,
+               btScalar reach) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = std::minmax(node.m_x[axis], (node.m_q + shift)[axis]);
+    btScalar face_low = face.m_n[0]->m_x[axis];
+    btScalar face_high = face_low;
+    for (const btSoftBody::Node* corner : face.m_n) {
+      const auto [from, to] = std::minmax(corner->m_x[axis], (corner->m_q + shift)[axis]);
+      face_low = std::min(face_low, from);
+      face_high = std::max(face_high, to);
+    }
+    if (high + reach < face_low || low - reach > face_high) return false;
+  }
+  return true;
+}
+
+// Another body's nodes, and faces whose nodes went 2 cm in directions of their own.
+TEST(FaceTree, FindsTheFacesWhoseWayMeetsANodesWayAndNoOthers) {
   SoftWorld world({});
-  btSoftBody& body = world.add(make_cloth_body(world.info(), mesh, {}));
-  const btScalar reach = btScalar(0.02);
-  FaceGrid grid;
-  grid.build(body, reach);
-  for (int i = 0; i < 500; ++i) {
-    const btVector3 point(btScalar(0.25 * std::sin(12.9 * i)), btScalar(0.05 * std::sin(7.1 * i)),
-                          btScalar(0.25 * std::sin(78.2 * i)));
-    std::vector<int> found;
-    grid.collect(point, found);
-    EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
-    for (int f = 0; f < body.m_faces.size(); ++f) {
-      bool is_in = true;
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto& n = body.m_faces[f].m_n;
-        const auto [low, high] = std::minmax({n[0]->m_x[axis], n[1]->m_x[axis], n[2]->m_x[axis]});
-        is_in = is_in && point[axis] >= low - reach && point[axis] <= high + reach;
-      }
-      if (is_in) {
-        EXPECT_TRUE(std::binary_search(found.begin(), found.end(), f));
-      }
+  btSoftBody& faces = world.add(make_cloth_body(world.info(), square(0.0, 0.4), {}));
+  btSoftBody& nodes = world.add(make_cloth_body(world.info(), square(0.01, 0.1), {}));
+  const auto wave = [](double phase) { return static_cast<btScalar>(0.02 * std::sin(phase)); };
+  for (btSoftBody* body : {&faces, &nodes}) {
+    for (int i = 0; i < body->m_nodes.size(); ++i) {
+      btSoftBody::Node& node = body->m_nodes[i];
+      node.m_q = node.m_x + btVector3(wave(12.9 * i), wave(78.2 * i + 1), wave(39.4 * i));
     }
   }
+  const btScalar reach = btScalar(0.01);
+  const btVector3 shift(0, btScalar(0.01), 0);
+  FaceTree tree;
+  tree.refit(faces, shift);
+  NodeGroups groups;
+  groups.arrange(nodes);
+  FaceTree::Nearby nearby;
+  int num_asked = 0;
+  int num_found = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    MotionBox all = MotionBox::nowhere();
+    for (const int i : groups[g]) all.include(MotionBox::of(nodes.m_nodes[i], shift).grown(reach));
+    tree.find(all, nearby);
+    for (const int i : groups[g]) {
+      const btSoftBody::Node& node = nodes.m_nodes[i];
+      const auto found = tree.collect(MotionBox::of(node, shift).grown(reach), nearby);
+      EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+      std::vector<bool> is_found(static_cast<std::size_t>(faces.m_faces.size()));
+      for (const int slot : found) is_found[static_cast<std::size_t>(tree.face(slot))] = true;
+      for (int f = 0; f < faces.m_faces.size(); ++f) {
+        EXPECT_EQ(is_found[static_cast<std::size_t>(f)],
+                  ways_meet(node, faces.m_faces[f], shift, reach))
+            << "node " << i << ", face " << f;
+      }
+      ++num_asked;
+      num_found += static_cast<int>(found.size());
+    }
+  }
+  EXPECT_EQ(num_asked, nodes.m_nodes.size());
+  EXPECT_GT(num_found, num_asked);
 }
 
 }  // namespace

@@ -93,7 +93,8 @@ TEST_P(CapedFigure, ItsCapeFollowsTheShouldersFlowsAndStaysOutOfTheBody) {
   RecordProperty("swing", std::to_string(worst.swing));
 }
 
-INSTANTIATE_TEST_SUITE_P(Bullet, CapedFigure, testing::Values("bullet_soft", "bullet_forces"),
+INSTANTIATE_TEST_SUITE_P(Bullet, CapedFigure,
+                         testing::Values("bullet_soft", "bullet_forces", "bullet_weft"),
                          [](const auto& info) { return std::string(info.param); });
 
 // Exporters may write a quaternion as q at one key and as -q, the same pose, at the next: a spline

@@ -1,3 +1,5 @@
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include <weft/scenes/catalog.hpp>
@@ -8,13 +10,16 @@
 namespace weft::scenes {
 namespace {
 
+class CollidersScene : public testing::TestWithParam<const char*> {};
+
 /// Share of its margin that a node may go below a surface: a fixed or led surface is never reached.
 /// A free body is struck by the cloth and moves against it within the same step: measured 1.35.
 constexpr double kShareOfMargin = 1.0;
 constexpr double kShareOfMarginFree = 1.6;
 
-TEST(CollidersScene, NoNodeGoesDeeperThanTheMargin) {
+TEST_P(CollidersScene, NoNodeGoesDeeperThanTheMargin) {
   Scene scene = load_scene("colliders");
+  scene.engines = {GetParam()};
   scene.world.duration = 1.0;  // [s]: all have landed after 0.4 s
   scene.world.frame_interval = 2 * scene.world.time_step;
   run_scene(scene, [&](const SceneState& state) {
@@ -29,7 +34,7 @@ TEST(CollidersScene, NoNodeGoesDeeperThanTheMargin) {
   });
 }
 
-TEST(CollidersScene, HasEveryKindOfObstacle) {
+TEST(CollidersSceneFile, HasEveryKindOfObstacle) {
   const Scene scene = load_scene("colliders");
   std::vector<bool> seen(std::variant_size_v<Shape>, false);
   bool is_led = false;
@@ -43,6 +48,9 @@ TEST(CollidersScene, HasEveryKindOfObstacle) {
   EXPECT_TRUE(is_led);
   EXPECT_TRUE(is_free);
 }
+
+INSTANTIATE_TEST_SUITE_P(Engines, CollidersScene, testing::Values("bullet_soft", "bullet_weft"),
+                         [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
 }  // namespace weft::scenes

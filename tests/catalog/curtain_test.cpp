@@ -1,3 +1,5 @@
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include <weft/scenes/catalog.hpp>
@@ -7,8 +9,11 @@
 namespace weft::scenes {
 namespace {
 
-TEST(CurtainScene, IsDrawnTogetherAndFolds) {
+class CurtainScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(CurtainScene, IsDrawnTogetherAndFolds) {
   Scene scene = load_scene("curtain");
+  scene.engines = {GetParam()};
   scene.world.duration = 2.3;  // [s]: drawn together
   scene.world.frame_interval = 0.1;
   const RunNumbers numbers = measure_scene(scene);
@@ -19,6 +24,9 @@ TEST(CurtainScene, IsDrawnTogetherAndFolds) {
   EXPECT_NEAR(x(0, 40) - x(0, 0), 0.9, 0.01);
   EXPECT_GT(x.row(2).maxCoeff() - x.row(2).minCoeff(), 0.1);
 }
+
+INSTANTIATE_TEST_SUITE_P(Engines, CurtainScene, testing::Values("bullet_soft", "bullet_weft"),
+                         [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
 }  // namespace weft::scenes

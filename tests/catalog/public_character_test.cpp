@@ -46,7 +46,8 @@ TEST_P(PublicCharacter, WearsACapeThatItsChestLeads) {
   EXPECT_LT(swing, 1.2);  // twice its length: it has not flown off
 }
 
-INSTANTIATE_TEST_SUITE_P(Bullet, PublicCharacter, testing::Values("bullet_soft", "bullet_forces"),
+INSTANTIATE_TEST_SUITE_P(Bullet, PublicCharacter,
+                         testing::Values("bullet_soft", "bullet_forces", "bullet_weft"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

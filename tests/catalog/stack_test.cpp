@@ -1,3 +1,5 @@
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include <weft/scenes/catalog.hpp>
@@ -7,8 +9,11 @@
 namespace weft::scenes {
 namespace {
 
-TEST(StackScene, LiesInLayersInTheOrderOfItsFall) {
+class StackScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(StackScene, LiesInLayersInTheOrderOfItsFall) {
   Scene scene = load_scene("stack");
+  scene.engines = {GetParam()};
   scene.world.duration = 1.0;  // [s]: the last cloth lands after 0.45 s, the ball on it after 0.5 s
   scene.world.frame_interval = 0.1;
   const RunNumbers numbers = measure_scene(scene);
@@ -21,6 +26,9 @@ TEST(StackScene, LiesInLayersInTheOrderOfItsFall) {
     below = x(1, middle);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Engines, StackScene, testing::Values("bullet_soft", "bullet_weft"),
+                         [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
 }  // namespace weft::scenes

@@ -1,3 +1,5 @@
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include <weft/scenes/catalog.hpp>
@@ -7,8 +9,11 @@
 namespace weft::scenes {
 namespace {
 
-TEST(TowelScene, SlidesOffFoldsAndDoesNotPassThroughItself) {
+class TowelScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(TowelScene, SlidesOffFoldsAndDoesNotPassThroughItself) {
   Scene scene = load_scene("towel");
+  scene.engines = {GetParam()};
   scene.world.frame_interval = 0.1;  // [s]
   const RunNumbers numbers = measure_scene(scene);
   EXPECT_EQ(numbers.most_piercings, 0);
@@ -20,13 +25,17 @@ TEST(TowelScene, SlidesOffFoldsAndDoesNotPassThroughItself) {
   EXPECT_LT(x.row(2).maxCoeff() - x.row(2).minCoeff(), 0.7);
 }
 
-TEST(TowelScene, PassesThroughItselfWithoutSelfCollision) {
+TEST_P(TowelScene, PassesThroughItselfWithoutSelfCollision) {
   Scene scene = load_scene("towel");
+  scene.engines = {GetParam()};
   scene.world.frame_interval = 0.1;  // [s]
   scene.cloths[0].self_collision = false;
   scene.cloths[0].self_thickness.reset();
   EXPECT_GT(measure_scene(scene).most_piercings, 20);
 }
+
+INSTANTIATE_TEST_SUITE_P(Engines, TowelScene, testing::Values("bullet_soft", "bullet_weft"),
+                         [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
 }  // namespace weft::scenes

@@ -1,5 +1,8 @@
 #include <weft/scenes/playback/montage.hpp>
 
+#include <algorithm>
+#include <cstdlib>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,6 +27,18 @@ TEST(Filmstrip, PutsPicturesInTheirOrderIntoRows) {
   EXPECT_EQ(pixel(page, 62, 10)[0], 20);
   EXPECT_EQ(pixel(page, 20, 32)[0], 30);
   EXPECT_EQ(pixel(page, 62, 32)[0], 255);
+}
+
+TEST(Label, IsSeenOnLightAndOnDarkPictures) {
+  for (const int ground : {20, 230}) {
+    Image image = filled(200, 100, static_cast<std::uint8_t>(ground));
+    draw_label(image, "t = 1 s");
+    int farthest = 0;
+    for (const std::uint8_t value : image.rgb) {
+      farthest = std::max(farthest, std::abs(static_cast<int>(value) - ground));
+    }
+    EXPECT_GT(farthest, 150) << ground;
+  }
 }
 
 TEST(Filmstrip, RefusesWhatMakesNoStrip) {
