@@ -19,7 +19,7 @@ TEST(CollisionScenes, AreTenBodiesAndTwoThatSlideEachWithItsOwnName) {
   EXPECT_EQ(sliding, 2);
 }
 
-TEST(CollisionScenes, DifferInNothingButTheNumberOfNodesBetweenResolutions) {
+TEST(CollisionScenes, AreTheSameClothInEveryResolution) {
   for (const CollisionScene& row : collision_scenes()) {
     const scenes::Scene coarse = make_collision_scene(row, 12);
     const scenes::Scene fine = make_collision_scene(row, 26);
@@ -43,6 +43,13 @@ TEST(CollisionScenes, HaveAMistakeThatChangesThem) {
           wrong.cloths[0].friction != right.cloths[0].friction;
       EXPECT_TRUE(differs) << row.id << ": " << sabotage.name;
     }
+  }
+}
+
+TEST(CollisionScenes, LeaveRoomForThreeStepsOfTheReference) {
+  for (const CollisionScene& row : collision_scenes()) {
+    EXPECT_GE(row.finest_division, 4) << row.id;
+    EXPECT_EQ(row.finest_division % 4, 0) << row.id;
   }
 }
 

@@ -38,6 +38,17 @@ TEST(SceneGates, EveryGateHasASabotageABasisAndANote) {
   }
 }
 
+// A reference with the engine's own step is no solution: only what holds between equal recurrences may be held against it.
+TEST(SceneGates, OnlyRoundOffIsHeldAgainstTheSameRecurrence) {
+  for (const scenes::CatalogEntry& entry : scenes::scene_catalog()) {
+    for (const SceneGate& gate : scene_gates(std::string(entry.name))) {
+      if (gate.quantity == Quantity::kDepth) continue;  // needs no reference
+      SCOPED_TRACE(std::string(entry.name) + " " + gate.engine.title() + " " + gate.claim);
+      EXPECT_EQ(gate.against == Against::kScheme, gate.tolerance.basis == Basis::kRoundoff);
+    }
+  }
+}
+
 TEST(Cases, IdsAreUnique) {
   std::set<std::string_view> ids;
   for (const CaseInfo& info : all_cases()) EXPECT_TRUE(ids.insert(info.id).second) << info.id;

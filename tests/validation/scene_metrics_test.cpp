@@ -32,6 +32,7 @@ class SceneMetricsTest : public ::testing::Test {
   double interval_ = metrics_.scene().world.frame_interval;
   // Positions of about 1 m carry a rounding of 1e-16; distances are differences of them.
   double tolerance_ = 8 * std::numeric_limits<double>::epsilon();
+  double sum_tolerance_ = 1000 * std::numeric_limits<double>::epsilon();  // a sum over 625 nodes
 };
 
 TEST_F(SceneMetricsTest, UniformShiftIsItsOwnRmsAndLargestDistance) {
@@ -51,6 +52,34 @@ TEST_F(SceneMetricsTest, RunThatEndsEarlyIsInfinitelyFar) {
   EXPECT_TRUE(std::isinf(
       metrics_.largest(Quantity::kLargestDistance, short_run, still, 0, 10 * interval_)));
   EXPECT_EQ(metrics_.largest(Quantity::kLargestDistance, short_run, still, 0, 3 * interval_), 0.0);
+}
+
+TEST_F(SceneMetricsTest, ShapeNumbersAreMeansOverNodesAndFrames) {
+  const Frames moved = shifted_frames(metrics_, 11, 0.01);
+  const double size = metrics_.cloth_size();
+  const double height = metrics_.shape_number(Quantity::kMeanHeight, moved[0]);
+  EXPECT_NEAR(metrics_.shape_number(Quantity::kMeanHeight, moved[10]), height + 0.1 / size,
+              sum_tolerance_);
+  EXPECT_NEAR(
+      metrics_.mean_shape_number(Quantity::kMeanHeight, moved, 4 * interval_, 10 * interval_),
+      height + 0.07 / size, sum_tolerance_);
+  EXPECT_NEAR(
+      metrics_.largest(Quantity::kMeanHeight, moved, {moved.begin(), moved.end()}, 0, interval_),
+      0.0, sum_tolerance_);
+  EXPECT_TRUE(std::isnan(
+      metrics_.mean_shape_number(Quantity::kMeanHeight, moved, 4 * interval_, 12 * interval_)));
+}
+
+TEST_F(SceneMetricsTest, RadiusIsFromTheVerticalThroughTheMiddle) {
+  Frames frames = shifted_frames(metrics_, 1, 0.0);
+  Matrix3X<double>& nodes = frames[0].cloths[0].positions;
+  for (Eigen::Index node = 0; node < nodes.cols(); ++node) {
+    nodes.col(node) = Vector3<double>(node % 2 == 0 ? 3.0 : 5.0, static_cast<double>(node), -7.0);
+  }
+  const double share =
+      static_cast<double>((nodes.cols() + 1) / 2) / static_cast<double>(nodes.cols());
+  EXPECT_NEAR(metrics_.shape_number(Quantity::kMeanRadius, frames[0]),
+              2 * std::sqrt(share * (1 - share)) / metrics_.cloth_size(), sum_tolerance_);
 }
 
 TEST_F(SceneMetricsTest, NonFinitePositionIsNeverASmallNumber) {

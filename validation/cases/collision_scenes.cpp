@@ -81,6 +81,7 @@ constexpr const char* kLedSphere = R"(shape = "sphere"
 radius = "12 cm"
 path = { times = ["0 s", "0.5 s"], points = [["-10 cm", "-20 cm", "0 cm"], ["5 cm", "-8 cm", "3 cm"]] })";
 
+constexpr double kDrag = 4.0;    // [1/s]
 constexpr double kDamped = 8.0;  // [1/s]
 /// Where folds form, differences grow before they decay: shorter steps.
 constexpr int kFolding = 16;
@@ -101,7 +102,7 @@ height = "1 m"
 position = ["0 cm", "-12 cm", "0 cm"]
 orientation = { axis = [1, 0, 0], angle = "90 deg" })",
                    .friction = 1.0,
-                   .drag = kDamped,
+                   .fine_drag = kDamped,
                    .finest_division = kFolding,
                    .late = &friction_removed},
     CollisionScene{.id = "table_edge",
@@ -111,7 +112,7 @@ pin = [{ edge = "-u" }])",
 size = ["60 cm", "40 cm", "1 m"]
 position = ["-27 cm", "-20 cm", "0 cm"])",
                    .friction = 1.0,
-                   .drag = kDamped,
+                   .fine_drag = kDamped,
                    .finest_division = kFolding},
     CollisionScene{.id = "cone", .start = kHeldAtCorners, .collider = R"(shape = "cone"
 radius = "25 cm"
@@ -187,7 +188,8 @@ std::span<const CollisionScene> collision_scenes() {
 scenes::Scene make_collision_scene(const CollisionScene& scene, int nodes) {
   const std::string text =
       fmt::format(fmt::runtime(kCloth), fmt::arg("id", scene.id), fmt::arg("nodes", nodes),
-                  fmt::arg("duration", scene.duration), fmt::arg("drag", scene.drag),
+                  fmt::arg("duration", scene.duration),
+                  fmt::arg("drag", nodes >= kFoldingNodes ? scene.fine_drag : kDrag),
                   fmt::arg("start", scene.start), fmt::arg("friction", scene.friction),
                   fmt::arg("collider", scene.collider));
   scenes::Scene made = scenes::read_scene_text(text, fmt::format("collision_sweep/{}", scene.id));
