@@ -221,11 +221,11 @@ TEST(ClothContact, SettingsOutOfTheirDomainAreRefused) {
 bool ways_meet(const btSoftBody::Node& node, const btSoftBody::Face& face, const btVector3& shift,
                btScalar reach) {
   for (int axis = 0; axis < 3; ++axis) {
-    const auto [low, high] = std::minmax(node.m_x[axis], (node.m_q + shift)[axis]);
+    const auto [low, high] = std::minmax({node.m_x[axis], (node.m_q + shift)[axis]});
     btScalar face_low = face.m_n[0]->m_x[axis];
     btScalar face_high = face_low;
     for (const btSoftBody::Node* corner : face.m_n) {
-      const auto [from, to] = std::minmax(corner->m_x[axis], (corner->m_q + shift)[axis]);
+      const auto [from, to] = std::minmax({corner->m_x[axis], (corner->m_q + shift)[axis]});
       face_low = std::min(face_low, from);
       face_high = std::max(face_high, to);
     }
