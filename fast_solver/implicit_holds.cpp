@@ -92,11 +92,12 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
 // be too far by much: gas in a ball pushes thirty times as hard as the weight, and the skin holds it back.
 template <class Scalar>
 Scalar ImplicitSolver<Scalar>::first_push(int node, const Vector3<Scalar>& normal) const {
-  const auto b = forces_.diagonal_blocks().row(node);
-  const Vector3<float> n = normal.template cast<float>();
-  const float across = b[0] * n[0] * n[0] + b[1] * n[1] * n[1] + b[2] * n[2] * n[2] +
-                       2 * (b[3] * n[0] * n[1] + b[4] * n[1] * n[2] + b[5] * n[2] * n[0]);
-  return normal.dot(unbalanced_.col(node)) / Scalar(inertia_[node] + across);
+  const auto block = [&](int k) { return Scalar(forces_.diagonal_blocks()(node, k)); };
+  const Scalar across = block(0) * normal[0] * normal[0] + block(1) * normal[1] * normal[1] +
+                        block(2) * normal[2] * normal[2] +
+                        2 * (block(3) * normal[0] * normal[1] + block(4) * normal[1] * normal[2] +
+                             block(5) * normal[2] * normal[0]);
+  return normal.dot(unbalanced_.col(node)) / (Scalar(inertia_[node]) + across);
 }
 
 template <class Scalar>
