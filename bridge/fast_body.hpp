@@ -84,6 +84,8 @@ class FastBody {
   static constexpr int kClothContactSweeps = 8;
   /// Velocities from m_x.
   void end_solve(btSoftBody& body, btScalar time_step);
+  /// [s] What the end of this step's velocity counts of a rate: BDF2 takes two thirds of the step, and the rest from the steps before.
+  [[nodiscard]] btScalar velocity_step() const { return inertia_step_; }
   /// How often look_again() is called.
   static constexpr int kMostLooks = 2;
 

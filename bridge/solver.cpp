@@ -340,7 +340,7 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
   for_bodies([&](btSoftBody& body, Attachment* attachment) {
     if (!attachment) return;
     apply_position_limits(attachment->limits, static_cast<double>(time_step_), body);
-    attachment->damp_velocities(time_step_);
+    attachment->damp_velocities(attachment->fast ? attachment->fast->velocity_step() : time_step_);
   });
   for (const auto& attachment : attachments_->list) {
     if (attachment->was_in_world) attachment->time += static_cast<double>(time_step_);
