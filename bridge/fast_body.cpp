@@ -81,6 +81,35 @@ std::optional<std::string> FastBody::obstacle(const btSoftBody& body) {
   return std::nullopt;
 }
 
+// What the body knew of the steps before is of other nodes.
+void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>& is_changed,
+                    VectorX<double> masses, const std::vector<int>& origins) {
+  torn_nodes_.resize(is_changed.size(), 0);
+  fast::replace_springs(is_changed, springs, torn_springs_);
+  for (std::size_t node = 0; node < is_changed.size(); ++node) {
+    if (is_changed[node] != 0) torn_nodes_[node] = 1;
+  }
+  masses_ = std::move(masses);
+  if (solver_) {
+    solver_->tear(springs, is_changed, masses_, origins);
+    for (const int origin : origins) {
+      is_free_.push_back(is_free_[static_cast<std::size_t>(origin)]);
+    }
+  }
+  contacts_.clear();
+  obstacles_.clear();
+  excess_ = 0;
+  wake();
+}
+
+// What several tears have changed together, when it is needed: the network is large.
+void FastBody::settle_network() {
+  if (torn_nodes_.empty()) return;
+  fast::replace_springs(torn_nodes_, torn_springs_, network_);
+  torn_springs_ = {};
+  torn_nodes_.clear();
+}
+
 btVector3 FastBody::in_world(int node) const {
   return to_bullet(places_.col(node) + origin_);
 }
@@ -186,7 +215,11 @@ void FastBody::prepare_solver(const btSoftBody& body, btScalar time_step) {
     if (is_free_[static_cast<std::size_t>(i)] != is_free) is_same = false;
     is_free_[static_cast<std::size_t>(i)] = is_free;
   }
-  if (is_same) return;
+  if (is_same) {
+    solver_->renew({&network_, &torn_nodes_, &torn_springs_}, masses_);
+    return;
+  }
+  settle_network();
   const TraceScope trace("factorise");
   solver_ = std::make_unique<fast::ImplicitSolver<btScalar>>(
       network_, masses_, is_free_, static_cast<double>(time_step * kInertiaStep));

@@ -43,6 +43,11 @@ class FastBody {
     wake();
   }
 
+  /// The body has come apart: springs in the place of all that have an end among the changed nodes
+  /// (flags), masses of all nodes [kg], the last of which are copies of the origins.
+  void tear(const fast::SpringNetwork& springs, const std::vector<char>& is_changed,
+            VectorX<double> masses, const std::vector<int>& origins);
+
   /// A body that sleeps is not to be stepped: only these are called.
   [[nodiscard]] bool is_asleep() const { return sleep_.is_asleep(); }
   [[nodiscard]] bool is_at_rest() const { return sleep_.is_at_rest(settings_); }
@@ -112,7 +117,11 @@ class FastBody {
   /// True if velocities_ had to be slowed down.
   bool keep_energy(const btSoftBody& body, btScalar time_step);
 
+  void settle_network();
+
   fast::SpringNetwork network_;
+  fast::SpringNetwork torn_springs_;  ///< not in network_ yet: all with an end among torn_nodes_
+  std::vector<char> torn_nodes_;      ///< flags
   VectorX<double> masses_;
   FastSettings settings_;
   std::unique_ptr<fast::ImplicitSolver<btScalar>> solver_;

@@ -10,7 +10,9 @@
 
 #include <weft/bridge/attachment.hpp>
 #include <weft/bridge/position_limits.hpp>
+#include <weft/bridge/torn_laws.hpp>
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/core/tear.hpp>
 #include <weft/custom_forces/core/trace.hpp>
 
 namespace weft::bridge {
@@ -155,6 +157,30 @@ void SoftBodySolver::replace_laws(btSoftBody& body, const ClothMesh& mesh,
   }
   auto fast = std::make_unique<FastBody>(mesh, laws, mesh.masses, old->fast->settings());
   replace_laws(body, explicit_laws(mesh, laws), mesh.masses.cast<btScalar>());
+  find(body)->fast = std::move(fast);
+}
+
+TornLaws SoftBodySolver::laws_after(const btSoftBody& body, const Tear& tear,
+                                    const std::vector<forces::LawSpecification>& laws) const {
+  if (!is_fast(body)) return {make_laws(tear.mesh, laws), {}, {}};
+  TornLaws torn{explicit_laws(tear.mesh, laws), {}, {}};
+  torn.is_changed.assign(static_cast<std::size_t>(tear.mesh.num_nodes()), 0);
+  for (const int node : tear.changed) torn.is_changed[static_cast<std::size_t>(node)] = 1;
+  torn.springs = fast::make_network_at(torn.is_changed, tear.mesh, laws);
+  return torn;
+}
+
+void SoftBodySolver::replace_laws(btSoftBody& body, const Tear& tear, TornLaws laws) {
+  Attachment* const old = find(body);
+  std::unique_ptr<FastBody> fast = old ? std::move(old->fast) : nullptr;
+  try {
+    replace_laws(body, std::move(laws.laws), tear.mesh.masses.cast<btScalar>());
+  } catch (...) {
+    if (old) old->fast = std::move(fast);
+    throw;
+  }
+  if (!fast) return;
+  fast->tear(laws.springs, laws.is_changed, tear.mesh.masses, tear.origins);
   find(body)->fast = std::move(fast);
 }
 

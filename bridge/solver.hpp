@@ -16,8 +16,14 @@
 #include <weft/custom_forces/core/position_limits.hpp>
 #include <weft/custom_forces/law_set.hpp>
 
+namespace weft {
+struct Tear;
+}
+
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
+
+struct TornLaws;
 
 /// Where the damping laws of a body act in Bullet's step: velocity-level laws (rotation_damping and
 /// the like) and inertia-level laws (acceleration_damping). A force-driven body wants them before
@@ -111,6 +117,12 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   /// parameters, or a torn mesh. A fast body is factorised anew in the next step.
   void replace_laws(btSoftBody& body, const ClothMesh& mesh,
                     const std::vector<forces::LawSpecification>& laws);
+  /// Both for a tear, in time that goes by what it changes: laws_after() before the body is torn, with
+  /// errors as make_laws(); replace_laws() when it has its new nodes. The factor of a fast body is made
+  /// anew in parts, over the following steps.
+  [[nodiscard]] TornLaws laws_after(const btSoftBody& body, const Tear& tear,
+                                    const std::vector<forces::LawSpecification>& laws) const;
+  void replace_laws(btSoftBody& body, const Tear& tear, TornLaws laws);
   [[nodiscard]] bool has_laws(const btSoftBody& body) const;
   /// Set once the body has exploded; it does not move any more.
   [[nodiscard]] std::optional<BodyBlowUp> blow_up(const btSoftBody& body) const;

@@ -5,6 +5,7 @@
 
 #include <weft/bridge/cloth_links.hpp>
 #include <weft/bridge/node_state.hpp>
+#include <weft/bridge/torn_laws.hpp>
 #include <weft/custom_forces/core/error.hpp>
 
 namespace weft::bridge {
@@ -38,9 +39,10 @@ void check(const Tear& tear, const btSoftBody& body) {
               std::to_string(tear.mesh.triangles.cols()) + " as in the mesh");
   for (int f = 0; f < body.m_faces.size(); ++f) {
     for (int corner = 0; corner < 3; ++corner) {
-      require(index_of(body, body.m_faces[f].m_n[corner]) ==
-                  origin_of(tear, tear.mesh.triangles(corner, f)),
-              "face " + std::to_string(f) + " of the body has other nodes than in the mesh");
+      const int expected = origin_of(tear, tear.mesh.triangles(corner, f));
+      if (body.m_faces[f].m_n[corner] == &body.m_nodes[expected]) continue;
+      throw InvalidArgument("tearing: face " + std::to_string(f) +
+                            " of the body has other nodes than in the mesh");
     }
   }
   require(body.m_tetras.size() == 0, "the body has tetrahedra, expected cloth");
@@ -49,7 +51,35 @@ void check(const Tear& tear, const btSoftBody& body) {
           "the body has a pose to match, expected none");
 }
 
+/// Moves the nodes to where there is room for some more tears. Bullet would take twice the memory, and all nodes
+/// would have to be copied there at once; links and faces are led to their nodes afterwards.
+void make_room(int num_nodes, btSoftBody& body) {
+  if (num_nodes <= body.m_nodes.capacity()) return;
+  std::vector<int> anchored;
+  for (int a = 0; a < body.m_anchors.size(); ++a) {
+    anchored.push_back(index_of(body, body.m_anchors[a].m_node));
+  }
+  std::vector<int> noted;
+  for (int i = 0; i < body.m_notes.size(); ++i) {
+    for (int k = 0; k < body.m_notes[i].m_rank; ++k) {
+      noted.push_back(index_of(body, body.m_notes[i].m_nodes[k]));
+    }
+  }
+  body.m_nodes.reserve(num_nodes + num_nodes / 8);
+  for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_leaf->data = &body.m_nodes[i];
+  for (int a = 0; a < body.m_anchors.size(); ++a) {
+    body.m_anchors[a].m_node = &body.m_nodes[anchored[static_cast<std::size_t>(a)]];
+  }
+  auto next = noted.begin();
+  for (int i = 0; i < body.m_notes.size(); ++i) {
+    for (int k = 0; k < body.m_notes[i].m_rank; ++k) {
+      body.m_notes[i].m_nodes[k] = &body.m_nodes[*next++];
+    }
+  }
+}
+
 void append_nodes(const Tear& tear, btSoftBody& body) {
+  make_room(tear.mesh.num_nodes(), body);
   for (const int origin : tear.origins) {
     const btVector3 place = body.m_nodes[origin].m_x;  // a copy: the nodes may move in memory
     body.appendNode(place, 1);
@@ -77,26 +107,32 @@ void lead_faces(const Tear& tear, btSoftBody& body) {
   }
 }
 
-/// As btSoftBody::updateArea(), which would measure the shape as it is now.
-void update_areas(const Tear& tear, btSoftBody& body) {
-  std::vector<bool> is_split(static_cast<std::size_t>(body.m_nodes.size()), false);
-  for (std::size_t k = 0; k < tear.origins.size(); ++k) {
-    is_split[static_cast<std::size_t>(tear.origins[k])] = true;
-    is_split[static_cast<std::size_t>(num_before(tear)) + k] = true;
-  }
-  std::vector<int> counts(is_split.size(), 0);
-  for (std::size_t i = 0; i < is_split.size(); ++i) {
-    if (is_split[i]) body.m_nodes[static_cast<int>(i)].m_area = 0;
+/// Areas and normals of the nodes that were split: as btSoftBody::updateArea(), which would measure the shape as
+/// it is now, and as btSoftBody::updateNormals(), which would go through all nodes.
+void update_split_nodes(const Tear& tear, btSoftBody& body) {
+  std::vector<int> counts(static_cast<std::size_t>(body.m_nodes.size()), -1);  // -1: not split
+  std::vector<int> split = tear.origins;
+  for (int node = num_before(tear); node < body.m_nodes.size(); ++node) split.push_back(node);
+  for (const int node : split) {
+    counts[static_cast<std::size_t>(node)] = 0;
+    body.m_nodes[node].m_area = 0;
+    body.m_nodes[node].m_n.setZero();
   }
   for (int f = 0; f < body.m_faces.size(); ++f) {
     for (const int node : tear.mesh.triangles.col(f)) {
-      if (!is_split[static_cast<std::size_t>(node)]) continue;
-      body.m_nodes[node].m_area += btFabs(body.m_faces[f].m_ra);
+      if (counts[static_cast<std::size_t>(node)] < 0) continue;
+      const btSoftBody::Face& face = body.m_faces[f];
+      body.m_nodes[node].m_area += btFabs(face.m_ra);
+      body.m_nodes[node].m_n +=
+          btCross(face.m_n[1]->m_x - face.m_n[0]->m_x, face.m_n[2]->m_x - face.m_n[0]->m_x);
       ++counts[static_cast<std::size_t>(node)];
     }
   }
-  for (std::size_t i = 0; i < is_split.size(); ++i) {
-    if (counts[i] > 0) body.m_nodes[static_cast<int>(i)].m_area /= static_cast<btScalar>(counts[i]);
+  for (const int node : split) {
+    int& count = counts[static_cast<std::size_t>(node)];
+    if (count > 0) body.m_nodes[node].m_area /= static_cast<btScalar>(count);
+    if (count > 0) body.m_nodes[node].m_n.safeNormalize();
+    count = 0;  // a node with several copies is there more than once
   }
 }
 
@@ -107,20 +143,11 @@ Matrix3X<double> positions_of(const btSoftBody& body) {
   return positions.cast<double>();
 }
 
-Tear part(SoftBodySolver& solver, btSoftBody& body, ClothMesh& mesh, const ClothSettings& settings,
-          const std::vector<forces::LawSpecification>& laws, const Edges& edges) {
-  if (edges.cols() == 0) return {mesh, {}};
-  Tear tear = cut_along(mesh, edges);
+/// The same tear, of the body and the mesh too.
+Tear apply(Tear tear, SoftBodySolver& solver, btSoftBody& body, ClothMesh& mesh,
+           const ClothSettings& settings, const std::vector<forces::LawSpecification>& laws) {
   if (!tear.any()) return tear;
-  // Laws that do not fit are noticed before the body is touched.
-  forces::LawSet<btScalar> new_laws = make_laws(tear.mesh, laws);
-  apply_tear(tear, settings, body);
-  solver.add_copies(body, tear.origins);
-  if (solver.is_fast(body)) {
-    solver.replace_laws(body, tear.mesh, laws);
-  } else if (solver.has_laws(body)) {
-    solver.replace_laws(body, std::move(new_laws), tear.mesh.masses.cast<btScalar>());
-  }
+  apply_tear(tear, settings, laws, solver, body);
   mesh = tear.mesh;
   return tear;
 }
@@ -137,21 +164,33 @@ void apply_tear(const Tear& tear, const ClothSettings& settings, btSoftBody& bod
   body.m_links.resizeNoInitialize(0);
   append_links(tear.mesh, settings, body);
   body.updateLinkConstants();
-  update_areas(tear, body);
-  body.updateNormals();
+  update_split_nodes(tear, body);
   body.m_bUpdateRtCst = false;
+}
+
+void apply_tear(const Tear& tear, const ClothSettings& settings,
+                const std::vector<forces::LawSpecification>& laws, SoftBodySolver& solver,
+                btSoftBody& body) {
+  // Laws that do not fit are noticed before the body is touched.
+  TornLaws new_laws;
+  const bool has_laws = solver.has_laws(body);
+  if (has_laws) new_laws = solver.laws_after(body, tear, laws);
+  apply_tear(tear, settings, body);
+  solver.add_copies(body, tear.origins);
+  if (has_laws) solver.replace_laws(body, tear, std::move(new_laws));
 }
 
 Tear tear(SoftBodySolver& solver, btSoftBody& body, ClothMesh& mesh, const ClothSettings& settings,
           const std::vector<forces::LawSpecification>& laws, const TearRule& rule) {
   if (solver.blow_up(body)) return {mesh, {}};
-  return part(solver, body, mesh, settings, laws, edges_to_tear(mesh, positions_of(body), rule));
+  return apply(tear_now(mesh, positions_of(body), rule), solver, body, mesh, settings, laws);
 }
 
 Tear cut(SoftBodySolver& solver, btSoftBody& body, ClothMesh& mesh, const ClothSettings& settings,
          const std::vector<forces::LawSpecification>& laws, const Blade& blade) {
   if (solver.blow_up(body)) return {mesh, {}};
-  return part(solver, body, mesh, settings, laws, edges_under(blade, mesh, positions_of(body)));
+  return apply(cut_along(mesh, edges_under(blade, mesh, positions_of(body))), solver, body, mesh,
+               settings, laws);
 }
 
 }  // namespace WEFT_BULLET_PRECISION

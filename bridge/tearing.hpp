@@ -30,6 +30,12 @@ inline namespace WEFT_BULLET_PRECISION {
 /// had, or with tetrahedra, clusters or a pose to match.
 void apply_tear(const Tear& tear, const ClothSettings& settings, btSoftBody& body);
 
+/// The same for a body with its laws, contacts with cloth and all that the solver knows of it. Throws
+/// InvalidArgument as make_laws() too; nothing changes then.
+void apply_tear(const Tear& tear, const ClothSettings& settings,
+                const std::vector<forces::LawSpecification>& laws, SoftBodySolver& solver,
+                btSoftBody& body);
+
 /// Looks whether a body tears now, and tears it: nodes, faces, links, and the laws, which are made
 /// anew for the torn mesh; mesh becomes that. laws are those of attach(). A body without attached
 /// laws is torn alike. One that has blown up is not.

@@ -11,34 +11,6 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Adds rows of numbers, one row at a time.
-class RowSum {
- public:
-  explicit RowSum(int num_columns) : values_(at(num_columns), 0.0), is_used_(at(num_columns), 0) {}
-
-  void add(int column, double value) {
-    if (is_used_[at(column)] == 0) columns_.push_back(column);
-    is_used_[at(column)] = 1;
-    values_[at(column)] += value;
-  }
-  /// Calls take(column, value) in ascending order of columns, and starts anew.
-  template <class Take>
-  void flush(const Take& take) {
-    std::sort(columns_.begin(), columns_.end());
-    for (const int column : columns_) {
-      take(column, values_[at(column)]);
-      values_[at(column)] = 0;
-      is_used_[at(column)] = 0;
-    }
-    columns_.clear();
-  }
-
- private:
-  std::vector<double> values_;
-  std::vector<char> is_used_;
-  std::vector<int> columns_;
-};
-
 /// Number among the coarse unknowns, or -1. In the order of the unknowns, which on a grid keeps
 /// distances even.
 std::vector<int> choose_coarse(const SymmetricMatrix& matrix, int& num_coarse) {
@@ -87,41 +59,48 @@ Interpolation make_interpolation(const SymmetricMatrix& matrix) {
   return result;
 }
 
-SymmetricMatrix coarse_matrix(const SymmetricMatrix& matrix, const Interpolation& p) {
-  // Row by row of P^T (A P), by the unknowns that a coarse one has a part in.
-  std::vector<std::vector<std::pair<int, double>>> parts(at(p.num_coarse));
+CoarseMatrixMaker::CoarseMatrixMaker(const SymmetricMatrix& matrix, const Interpolation& p)
+    : matrix_(&matrix), p_(&p), parts_(at(p.num_coarse)), sum_(p.num_coarse) {
   for (int i = 0; i < p.size(); ++i) {
     for (int e = p.starts[at(i)]; e < p.starts[at(i) + 1]; ++e) {
-      parts[at(p.columns[at(e)])].emplace_back(i, p.values[at(e)]);
+      parts_[at(p.columns[at(e)])].emplace_back(i, p.values[at(e)]);
     }
   }
-  SymmetricMatrix result;
-  result.diagonal.assign(at(p.num_coarse), 0.0);
-  result.starts.push_back(0);
-  RowSum sum(p.num_coarse);
+  result_.diagonal.assign(at(p.num_coarse), 0.0);
+  result_.starts.push_back(0);
+}
+
+bool CoarseMatrixMaker::add_rows(int count) {
+  const Interpolation& p = *p_;
   const auto add_row = [&](int unknown, double factor) {
     for (int e = p.starts[at(unknown)]; e < p.starts[at(unknown) + 1]; ++e) {
-      sum.add(p.columns[at(e)], factor * p.values[at(e)]);
+      sum_.add(p.columns[at(e)], factor * p.values[at(e)]);
     }
   };
-  for (int c = 0; c < p.num_coarse; ++c) {
-    for (const auto& [i, weight] : parts[at(c)]) {
-      add_row(i, weight * matrix.diagonal[at(i)]);
-      for (int e = matrix.starts[at(i)]; e < matrix.starts[at(i) + 1]; ++e) {
-        add_row(matrix.columns[at(e)], weight * matrix.values[at(e)]);
+  for (const int end = std::min(p.num_coarse, next_ + count); next_ < end; ++next_) {
+    for (const auto& [i, weight] : parts_[at(next_)]) {
+      add_row(i, weight * matrix_->diagonal[at(i)]);
+      for (int e = matrix_->starts[at(i)]; e < matrix_->starts[at(i) + 1]; ++e) {
+        add_row(matrix_->columns[at(e)], weight * matrix_->values[at(e)]);
       }
     }
-    sum.flush([&](int column, double value) {
-      if (column == c) {
-        result.diagonal[at(c)] = value;
+    sum_.flush([&](int column, double value) {
+      if (column == next_) {
+        result_.diagonal[at(next_)] = value;
       } else {
-        result.columns.push_back(column);
-        result.values.push_back(value);
+        result_.columns.push_back(column);
+        result_.values.push_back(value);
       }
     });
-    result.starts.push_back(static_cast<int>(result.columns.size()));
+    result_.starts.push_back(static_cast<int>(result_.columns.size()));
   }
-  return result;
+  return next_ == p.num_coarse;
+}
+
+SymmetricMatrix coarse_matrix(const SymmetricMatrix& matrix, const Interpolation& p) {
+  CoarseMatrixMaker maker(matrix, p);
+  (void)maker.add_rows(p.num_coarse);
+  return maker.take();
 }
 
 Interpolation composed(const Interpolation& first, const Interpolation& second) {

@@ -30,4 +30,33 @@ struct EdgeSlots {
 /// edges: node indices in [0, num_nodes).
 [[nodiscard]] EdgeSlots make_edge_slots(const Edges& edges, int num_nodes);
 
+/// An edge as one of its ends sees it.
+struct EdgeLane {
+  int node;
+  int other;
+  int edge;
+};
+
+/// Puts the lanes of block after block into slots.
+class SlotMaker {
+ public:
+  /// Appends a block with these lanes of its nodes to slots, whose num_nodes is set.
+  void append(int block, const std::vector<EdgeLane>& lanes, EdgeSlots& slots);
+
+ private:
+  /// A neighbour at the same distance for each node; -1: none.
+  struct Row {
+    int offset;
+    int num_lanes;
+    int lanes[kNodeBlock];
+  };
+  Row& row_at(int offset);
+  void sort_into_rows(int first, const std::vector<EdgeLane>& lanes, int num_nodes);
+  void add_scattered(int first, const std::vector<EdgeLane>& lanes, EdgeSlots& slots);
+
+  std::vector<Row> rows_;
+  std::size_t next_row_ = 0;  ///< on a grid, lanes come in the same order for each node
+  std::vector<int> rest_;     ///< lanes that no row has
+};
+
 }  // namespace weft::fast

@@ -3,18 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-#include <weft/fast_solver/minimum_degree.hpp>
+#include <weft/fast_solver/correction_maker.hpp>
 
 namespace weft::fast {
 namespace {
 
-/// Coarse unknowns up to which no coarser ones are looked for: so many, or this share of all. Their factor is
-/// read in a fraction of the time that the other parts of an iteration take, and every further
-/// level leaves out more than one smoothing can do.
-constexpr int kFewEnough = 8000;
-constexpr double kSmallShare = 0.05;
-/// The next coarser ones must be fewer by this to be worth it.
-constexpr double kLeastGain = 0.7;
 /// Terms of a sum beyond so many times the mean stand apart.
 constexpr std::size_t kLongSum = 3;
 
@@ -26,36 +19,35 @@ std::size_t at(int i) {
 
 GlobalCorrection::GlobalCorrection(const SymmetricMatrix& matrix, const std::vector<int>& names,
                                    int num_nodes) {
-  Interpolation total = make_interpolation(matrix);
-  SymmetricMatrix coarse = coarse_matrix(matrix, total);
-  while (coarse.size() > std::max<double>(kFewEnough, kSmallShare * matrix.size())) {
-    const Interpolation next = make_interpolation(coarse);
-    if (next.num_coarse > kLeastGain * coarse.size()) break;
-    coarse = coarse_matrix(coarse, next);
-    total = composed(total, next);
+  CorrectionMaker maker(matrix, names, num_nodes);
+  while (!maker.advance()) {
   }
-  factor_ = SparseCholesky(coarse, minimum_degree_order(coarse));
-  right_.setZero(3, coarse.size());
-  solution_.setZero(3, coarse.size());
-  coarse_.setZero(4, coarse.size());
-  coarse_sums_.setZero(4, coarse.size());
-  nodes_.setZero(4, num_nodes);
-  std::vector<int> unknown_of(at(num_nodes), -1);
-  for (int u = 0; u < static_cast<int>(names.size()); ++u) unknown_of[at(names[at(u)])] = u;
-  using Row = std::vector<std::pair<int, float>>;
-  std::vector<Row> of_coarse(at(coarse.size()));
-  std::vector<Row> of_node(at(num_nodes));
-  for (int node = 0; node < num_nodes; ++node) {
-    const int u = unknown_of[at(node)];
-    if (u < 0) continue;
-    for (int e = total.starts[at(u)]; e < total.starts[at(u) + 1]; ++e) {
-      const auto weight = static_cast<float>(total.values[at(e)]);
-      of_node[at(node)].emplace_back(total.columns[at(e)], weight);
-      of_coarse[at(total.columns[at(e)])].emplace_back(node, weight);
+  *this = maker.take();
+}
+
+void GlobalCorrection::add_copies(const std::vector<int>& origins) {
+  auto node = static_cast<int>(nodes_.cols());
+  const auto take_part = [&](int coarse, float weight) {
+    if (weight != 0) coarsen_.rest.push_back({coarse, node, weight});
+  };
+  for (const int origin : origins) {
+    for (int k = 0; k < refine_.num_terms; ++k) {
+      const std::size_t term = at(origin * refine_.num_terms + k);
+      const int coarse = refine_.columns[term];
+      const float weight = refine_.weights[term];
+      refine_.columns.push_back(coarse);
+      refine_.weights.push_back(weight);
+      take_part(coarse, weight);
     }
+    for (std::size_t t = 0, end = refine_.rest.size(); t < end; ++t) {
+      const Sums::Term term = refine_.rest[t];
+      if (term.sum != origin) continue;
+      refine_.rest.push_back({node, term.column, term.weight});
+      take_part(term.column, term.weight);
+    }
+    ++node;
   }
-  refine_ = make_sums(of_node);
-  coarsen_ = make_sums(of_coarse);
+  nodes_.setZero(4, node);
 }
 
 GlobalCorrection::Sums GlobalCorrection::make_sums(

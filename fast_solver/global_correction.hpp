@@ -19,6 +19,11 @@ class GlobalCorrection {
   /// names: the node of each unknown. Throws InvalidArgument for a matrix that is not positive definite.
   GlobalCorrection(const SymmetricMatrix& matrix, const std::vector<int>& names, int num_nodes);
 
+  /// Nodes that come behind the others, copies of these: they have their origins' parts in the coarse
+  /// unknowns from now on. That is no correction of a network that has come apart between them, but still
+  /// a symmetric positive semidefinite one, and for a few nodes a good one.
+  void add_copies(const std::vector<int>& origins);
+
   /// Coarse unknowns.
   [[nodiscard]] int size() const { return factor_.size(); }
   /// Memory that solve() reads [bytes].
@@ -44,6 +49,9 @@ class GlobalCorrection {
   };
   [[nodiscard]] static Sums make_sums(const std::vector<std::vector<std::pair<int, float>>>& rows);
   static void add_up(const Sums& sums, const Fours& values, Fours& results);
+
+  friend class CorrectionMaker;
+  GlobalCorrection() = default;
 
   Sums coarsen_;  ///< P^T: of each coarse unknown, nodes
   Sums refine_;   ///< P: of each node, coarse unknowns

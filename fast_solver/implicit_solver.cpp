@@ -28,26 +28,12 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// The matrix of a network whose springs resist as much across as along, over the free nodes.
-SymmetricMatrix isotropic_matrix(const SpringNetwork& network, const VectorX<double>& masses,
-                                 const std::vector<int>& unknown_of, int num_unknowns,
-                                 double inertia_step) {
-  std::vector<MatrixPart> parts;
-  parts.reserve(at(static_cast<int>(3 * network.edges.cols() + masses.size())));
-  for (int i = 0; i < static_cast<int>(masses.size()); ++i) {
-    const int u = unknown_of[at(i)];
-    if (u >= 0) parts.push_back({u, u, masses[i] / (inertia_step * inertia_step)});
+std::vector<int> free_nodes(const std::vector<bool>& is_free) {
+  std::vector<int> nodes;
+  for (std::size_t i = 0; i < is_free.size(); ++i) {
+    if (is_free[i]) nodes.push_back(static_cast<int>(i));
   }
-  for (Eigen::Index e = 0; e < network.edges.cols(); ++e) {
-    const double weight =
-        network.stiffness[e] + network.damping[e] / inertia_step + network.stabiliser[e];
-    const int a = unknown_of[at(network.edges(0, e))];
-    const int b = unknown_of[at(network.edges(1, e))];
-    if (a >= 0) parts.push_back({a, a, weight});
-    if (b >= 0) parts.push_back({b, b, weight});
-    if (a >= 0 && b >= 0) parts.push_back({a, b, -weight});
-  }
-  return sum_of_parts(num_unknowns, parts);
+  return nodes;
 }
 
 GlobalCorrection correction_of(const SpringNetwork& network, const VectorX<double>& masses,
@@ -58,16 +44,11 @@ GlobalCorrection correction_of(const SpringNetwork& network, const VectorX<doubl
                           " flags of free nodes, expected one for each of the " +
                           std::to_string(n) + " nodes");
   }
-  std::vector<int> unknown_of(n, -1);
-  std::vector<int> names;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!is_free[i]) continue;
-    unknown_of[i] = static_cast<int>(names.size());
-    names.push_back(static_cast<int>(i));
-  }
-  const SymmetricMatrix matrix =
-      isotropic_matrix(network, masses, unknown_of, static_cast<int>(names.size()), inertia_step);
-  return {matrix, names, static_cast<int>(n)};
+  const std::vector<int> names = free_nodes(is_free);
+  const SpringNetwork none;
+  const std::vector<char> nowhere;
+  return {isotropic_matrix({&network, &nowhere, &none}, masses, names, inertia_step), names,
+          static_cast<int>(n)};
 }
 
 template <class Scalar>
@@ -85,28 +66,64 @@ ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const Vecto
                                        const std::vector<bool>& is_free, double inertia_step)
     : forces_(network, static_cast<int>(masses.size())),
       global_(correction_of(network, masses, is_free, inertia_step)),
-      masses_(masses.cast<Scalar>()),
-      is_free_(is_free) {
+      inertia_step_(inertia_step) {
+  set_nodes(masses, is_free);
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
+                                       const std::vector<bool>& is_free) {
+  masses_ = masses.cast<Scalar>();
+  is_free_ = is_free;
   const Eigen::Index n = masses.size();
+  pinned_.clear();
   for (int i = 0; i < static_cast<int>(n); ++i) {
     if (!is_free_[at(i)]) pinned_.push_back(i);
   }
-  const Eigen::Index n_filled = fill_up(static_cast<int>(n));
-  inertia_.setZero(n_filled);
-  holding_forces_.setZero(3, n);
-  unbalanced_.setZero(3, n);
-  unmoved_.setZero(3, n);
-  remainders_.setZero(3, n);
+  held_.clear();
+  held_.reserve(at(static_cast<int>(n)));
   holds_.assign(at(static_cast<int>(n)), Hold::kFree);
   contact_of_.assign(at(static_cast<int>(n)), -1);
+  for (auto* vectors : {&holding_forces_, &unbalanced_, &unmoved_, &remainders_}) {
+    vectors->setZero(3, n);
+  }
+  for (auto* vectors : {&normals_, &friction_}) vectors->setZero(3, n);
+  const Eigen::Index n_filled = fill_up(static_cast<int>(n));
+  inertia_.setZero(n_filled);
+  if (blocks_.rows() == n_filled) return;  // the others keep no number from one step to the next
   blocks_.setZero(n_filled, 6);
-  normals_.setZero(3, n);
-  friction_.setZero(3, n);
   for (Floats* vectors : {&step_, &residual_vector_, &direction_, &direction_product_, &correction_,
                           &correction_product_, &work_, &coarse_, &coarse_product_}) {
     vectors->setZero(n_filled, 3);
   }
-  held_.reserve(at(static_cast<int>(n)));
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::tear(const SpringNetwork& springs, const std::vector<char>& is_changed,
+                                  const VectorX<double>& masses, const std::vector<int>& origins) {
+  std::vector<bool> is_free = is_free_;
+  for (const int origin : origins) is_free.push_back(is_free_[at(origin)]);
+  forces_.replace(springs, is_changed, static_cast<int>(masses.size()));
+  set_nodes(masses, is_free);
+  global_.add_copies(origins);
+  copies_.insert(copies_.end(), origins.begin(), origins.end());
+  is_outdated_ = true;
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::renew(const ChangedNetwork& network, const VectorX<double>& masses) {
+  if (next_global_) {
+    if (!next_global_->advance()) return;
+    global_ = next_global_->take();
+    global_.add_copies(copies_);
+    next_global_.reset();
+  } else if (is_outdated_) {
+    const std::vector<int> names = free_nodes(is_free_);
+    next_global_ = std::make_unique<CorrectionMaker>(
+        isotropic_matrix(network, masses, names, inertia_step_), names, num_nodes());
+    copies_.clear();
+    is_outdated_ = false;
+  }
 }
 
 template <class Scalar>

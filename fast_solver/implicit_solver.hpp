@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
+#include <weft/fast_solver/correction_maker.hpp>
 #include <weft/fast_solver/global_correction.hpp>
 #include <weft/fast_solver/network_forces.hpp>
 #include <weft/fast_solver/node_arrays.hpp>
@@ -50,6 +52,17 @@ class ImplicitSolver {
   [[nodiscard]] int num_nodes() const { return forces_.num_nodes(); }
   [[nodiscard]] const GlobalCorrection& global_correction() const { return global_; }
 
+  /// The cloth has come apart: springs in the place of all that have an end among the changed nodes (flags),
+  /// copies of the origins behind the other nodes, masses of all [kg]. Takes a small part of what a
+  /// solver made anew takes, for the global correction stays: copies have their origins' parts in it.
+  void tear(const SpringNetwork& springs, const std::vector<char>& is_changed,
+            const VectorX<double>& masses, const std::vector<int>& origins);
+  /// To be called once in every step: after a tear the global correction is made anew in parts, one in
+  /// each call, a dozen in all; nothing happens otherwise. network, masses: the present ones. What a
+  /// step gives depends on how many there were since the tear, and on no clock or thread.
+  void renew(const ChangedNetwork& network, const VectorX<double>& masses);
+  [[nodiscard]] bool is_renewed() const { return !is_outdated_ && !next_global_; }
+
   /// places: 3 x n [m], in: a guess; out: the solution.
   void solve(const StepProblem<Scalar>& problem, const SolverEffort& effort,
              Matrix3XRef<Scalar> places);
@@ -88,6 +101,7 @@ class ImplicitSolver {
   [[nodiscard]] Vector3<Scalar> step_of(Eigen::Index node) const {
     return step_.row(node).transpose().template cast<Scalar>();
   }
+  void set_nodes(const VectorX<double>& masses, const std::vector<bool>& is_free);
   void evaluate(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places);
   void decide_holds(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places,
                     bool is_first);
@@ -124,6 +138,10 @@ class ImplicitSolver {
 
   NetworkForces<Scalar> forces_;
   GlobalCorrection global_;
+  double inertia_step_;                           ///< [s] of the global correction
+  std::unique_ptr<CorrectionMaker> next_global_;  ///< for the network as it was at some tear
+  std::vector<int> copies_;                       ///< since then, their origins
+  bool is_outdated_ = false;                      ///< there was a tear since then
   VectorX<Scalar> masses_;
   std::vector<bool> is_free_;
   std::vector<int> pinned_;

@@ -13,42 +13,218 @@ namespace {
 /// Blocks of nodes of a task at least: 1280 nodes, some 5 to 20 us. Tasks of one network are alike, so that
 /// threads end together.
 constexpr int kFewestBlocks = 75;
+/// Memory for more slots than there are, over theirs: nothing is touched until blocks grow.
+constexpr double kRoom = 2.0;
+/// Slots that a block which has grown may grow by again.
+constexpr int kSpareSlots = 6;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
+/// By first, then by second node, and the lane of the first before that of the second.
+std::uint64_t place_of(const EdgeLane& lane) {
+  const auto low = static_cast<std::uint64_t>(std::min(lane.node, lane.other));
+  const auto high = static_cast<std::uint64_t>(std::max(lane.node, lane.other));
+  return low << 32U | high << 1U | (lane.node > lane.other ? 1U : 0U);
+}
+
 }  // namespace
 
 template <class Scalar>
+void NetworkForces<Scalar>::reserve(std::size_t num_slots) {
+  const std::size_t num_lanes = num_slots * kNodeBlock;
+  slots_.slots.reserve(num_slots);
+  slots_.others.reserve(num_lanes);
+  slots_.edges.reserve(num_lanes);
+  springs_.reserve(3 * num_lanes);
+  if (has_damping_) {
+    damping_.reserve(num_lanes);
+    dampers_.reserve(2 * num_lanes);
+  }
+  if (has_stabiliser_) stabilisers_.reserve(num_lanes);
+  linear_.reserve(4 * num_lanes);
+}
+
+template <class Scalar>
 NetworkForces<Scalar>::NetworkForces(const SpringNetwork& network, int num_nodes)
-    : slots_(make_edge_slots(network.edges, num_nodes)), edges_(network.edges) {
-  const auto num_lanes = slots_.edges.size();
-  const bool has_damping = (network.damping.array() != 0).any();
-  const bool has_stabiliser = (network.stabiliser.array() != 0).any();
-  springs_.resize(3 * num_lanes);
-  if (has_damping) {
-    damping_.assign(num_lanes, Scalar(0));
-    dampers_.assign(2 * num_lanes, Scalar(0));
-  }
-  if (has_stabiliser) stabilisers_.assign(num_lanes, Scalar(0));
-  for (std::size_t place = 0; place < num_lanes; ++place) {
-    const std::size_t block = kNodeBlock;
-    Scalar* const spring = springs_.data() + place / block * 3 * block + place % block;
+    : slots_(make_edge_slots(network.edges, num_nodes)) {
+  has_damping_ = (network.damping.array() != 0).any();
+  has_stabiliser_ = (network.stabiliser.array() != 0).any();
+  reserve(static_cast<std::size_t>(kRoom * slots_.num_slots()));
+  resize_arrays();
+  for (std::size_t place = 0; place < slots_.edges.size(); ++place) {
     const int e = slots_.edges[place];
-    spring[0] = e < 0 ? Scalar(1) : static_cast<Scalar>(network.rest_lengths[e]);
     if (e < 0) continue;
-    spring[block] = static_cast<Scalar>(network.stiffness[e]);
-    spring[2 * block] = static_cast<Scalar>(network.compressed_stiffness[e] - network.stiffness[e]);
-    if (has_damping) damping_[place] = static_cast<Scalar>(network.damping[e]);
-    if (has_stabiliser) stabilisers_[place] = static_cast<Scalar>(network.stabiliser[e]);
+    write(place, {0,
+                  {},
+                  static_cast<Scalar>(network.rest_lengths[e]),
+                  static_cast<Scalar>(network.stiffness[e]),
+                  static_cast<Scalar>(network.compressed_stiffness[e] - network.stiffness[e]),
+                  static_cast<Scalar>(network.damping[e]),
+                  static_cast<Scalar>(network.stabiliser[e])});
   }
-  linear_.assign(4 * num_lanes, 0.0F);
+  for (const SlotRange& range : slots_.blocks) room_.push_back(range.end - range.begin);
+}
+
+/// Of the lanes that slots_ has: new ones are empty.
+template <class Scalar>
+void NetworkForces<Scalar>::resize_arrays() {
+  const std::size_t block = kNodeBlock;
+  const std::size_t num_lanes = slots_.edges.size();
+  const std::size_t num_before = springs_.size() / 3;
+  springs_.resize(3 * num_lanes, Scalar(0));
+  for (std::size_t place = num_before; place < num_lanes; ++place) {
+    springs_[place / block * 3 * block + place % block] = Scalar(1);
+  }
+  if (has_damping_) {
+    damping_.resize(num_lanes, Scalar(0));
+    dampers_.resize(2 * num_lanes, Scalar(0));
+  }
+  if (has_stabiliser_) stabilisers_.resize(num_lanes, Scalar(0));
+  linear_.resize(4 * num_lanes, 0.0F);
+  const int num_rows = fill_up(num_nodes());
   for (NodeArrays<Scalar>* arrays : {&starts_, &places_, &forces_}) {
-    arrays->setZero(fill_up(num_nodes), 3);
+    if (arrays->rows() != num_rows) arrays->setZero(num_rows, 3);
   }
-  diagonal_.setZero(fill_up(num_nodes), 6);
+  if (diagonal_.rows() != num_rows) diagonal_.setZero(num_rows, 6);
   task_sums_.resize(at(std::max(1, slots_.num_blocks() / kFewestBlocks)));
+}
+
+template <class Scalar>
+void NetworkForces<Scalar>::write(std::size_t place, const Spring& values) {
+  const std::size_t block = kNodeBlock;
+  Scalar* const spring = springs_.data() + place / block * 3 * block + place % block;
+  spring[0] = values.rest_length;
+  spring[block] = values.stiffness;
+  spring[2 * block] = values.compressed;
+  if (has_damping_) damping_[place] = values.damping;
+  if (has_stabiliser_) stabilisers_[place] = values.stabiliser;
+}
+
+template <class Scalar>
+void NetworkForces<Scalar>::replace(const SpringNetwork& springs,
+                                    const std::vector<char>& is_changed, int num_nodes) {
+  has_damping_ = has_damping_ || (springs.damping.array() != 0).any();
+  has_stabiliser_ = has_stabiliser_ || (springs.stabiliser.array() != 0).any();
+  const std::vector<char> blocks = blocks_to_change(springs, is_changed);
+  std::vector<std::vector<Spring>> of_block(blocks.size());
+  for (int block = 0; block < slots_.num_blocks(); ++block) {
+    if (blocks[at(block)] != 0) keep_springs(block, is_changed, of_block[at(block)]);
+  }
+  for (int e = 0; e < static_cast<int>(springs.edges.cols()); ++e) {
+    Spring spring{0,
+                  {},
+                  static_cast<Scalar>(springs.rest_lengths[e]),
+                  static_cast<Scalar>(springs.stiffness[e]),
+                  static_cast<Scalar>(springs.compressed_stiffness[e] - springs.stiffness[e]),
+                  static_cast<Scalar>(springs.damping[e]),
+                  static_cast<Scalar>(springs.stabiliser[e])};
+    for (int end = 0; end < 2; ++end) {
+      spring.lane = {springs.edges(end, e), springs.edges(1 - end, e), 0};
+      spring.place = place_of(spring.lane);
+      const int block = spring.lane.node / kNodeBlock;
+      if (blocks[at(block)] != 0) of_block[at(block)].push_back(spring);
+    }
+  }
+  slots_.num_nodes = num_nodes;
+  slots_.blocks.resize(blocks.size(), SlotRange{slots_.num_slots(), 0, 0});
+  room_.resize(blocks.size(), 0);
+  for (int block = 0; block < static_cast<int>(blocks.size()); ++block) {
+    if (blocks[at(block)] != 0) lay_out(block, of_block[at(block)]);
+  }
+  resize_arrays();
+}
+
+/// Flags, of the new number of blocks.
+template <class Scalar>
+std::vector<char> NetworkForces<Scalar>::blocks_to_change(
+    const SpringNetwork& springs, const std::vector<char>& is_changed) const {
+  std::vector<char> blocks((is_changed.size() + kNodeBlock - 1) / kNodeBlock, 0);
+  for (std::size_t node = 0; node < is_changed.size(); ++node) {
+    if (is_changed[node] != 0) blocks[node / kNodeBlock] = 1;
+  }
+  if (!has_stabiliser_) return blocks;
+  const std::vector<char> changed = blocks;
+  for (const int node : springs.edges.reshaped()) blocks[at(node / kNodeBlock)] = 1;
+  for (int block = 0; block < slots_.num_blocks();
+       ++block) {  // neighbours that may be none any more
+    if (changed[at(block)] == 0) continue;
+    const SlotRange& range = slots_.blocks[at(block)];
+    for (int place = range.begin * kNodeBlock; place < range.end * kNodeBlock; ++place) {
+      const int node = block * kNodeBlock + place % kNodeBlock;
+      if (node >= num_nodes() || is_changed[at(node)] == 0) continue;
+      blocks[at(slots_.others[at(place)] / kNodeBlock)] = 1;
+    }
+  }
+  return blocks;
+}
+
+/// Those of a block's nodes of which no end is changed.
+template <class Scalar>
+void NetworkForces<Scalar>::keep_springs(int block, const std::vector<char>& is_changed,
+                                         std::vector<Spring>& result) const {
+  const SlotRange& range = slots_.blocks[at(block)];
+  result.reserve(at((range.end - range.begin) * kNodeBlock));
+  for (int slot = range.begin; slot < range.end; ++slot) {
+    for (int lane = 0; lane < kNodeBlock; ++lane) {
+      const int node = block * kNodeBlock + lane;
+      const std::size_t place = at(slot * kNodeBlock + lane);
+      const int other = slots_.others[place];
+      if (node >= num_nodes() || slots_.edges[place] < 0) continue;
+      if (is_changed[at(node)] != 0 || is_changed[at(other)] != 0) continue;
+      const Scalar* const spring = springs_.data() + at(slot * 3 * kNodeBlock + lane);
+      result.push_back({place_of({node, other, 0}),
+                        {node, other, 0},
+                        spring[0],
+                        spring[kNodeBlock],
+                        spring[2 * kNodeBlock],
+                        damping_.empty() ? Scalar(0) : damping_[place],
+                        stabilisers_.empty() ? Scalar(0) : stabilisers_[place]});
+    }
+  }
+}
+
+/// In the order of a network's edges, so that sums are those of a network made anew.
+template <class Scalar>
+void NetworkForces<Scalar>::lay_out(int block, std::vector<Spring>& springs) {
+  std::sort(springs.begin(), springs.end(),
+            [](const Spring& a, const Spring& b) { return a.place < b.place; });
+  std::vector<EdgeLane> lanes;
+  lanes.reserve(springs.size());
+  for (const Spring& spring : springs) {
+    lanes.push_back({spring.lane.node, spring.lane.other, static_cast<int>(lanes.size())});
+  }
+  EdgeSlots laid_out;
+  laid_out.num_nodes = num_nodes();
+  maker_.append(block, lanes, laid_out);
+  SlotRange& range = slots_.blocks[at(block)];
+  const int num_slots = laid_out.num_slots();
+  if (num_slots > room_[at(block)]) {  // to the end, with room to grow
+    range.begin = slots_.num_slots();
+    room_[at(block)] = num_slots + kSpareSlots;
+    slots_.slots.resize(at(range.begin + room_[at(block)]), EdgeSlot{0, true});
+    slots_.others.resize(slots_.slots.size() * kNodeBlock, 0);
+    slots_.edges.resize(slots_.slots.size() * kNodeBlock, -1);
+    resize_arrays();
+  }
+  range.rows_end = range.begin + laid_out.blocks[0].rows_end;
+  range.end = range.begin + num_slots;
+  const std::size_t first = at(range.begin) * kNodeBlock;
+  std::copy(laid_out.slots.begin(), laid_out.slots.end(), slots_.slots.begin() + range.begin);
+  for (std::size_t lane = 0; lane < laid_out.edges.size(); ++lane) {
+    const int e = laid_out.edges[lane];
+    slots_.others[first + lane] = laid_out.others[lane];
+    slots_.edges[first + lane] = e < 0 ? -1 : 0;
+    write(first + lane, e < 0 ? Spring{0, {}, 1, 0, 0, 0, 0} : springs[at(e)]);
+  }
+}
+
+template <class Scalar>
+double NetworkForces<Scalar>::unused_share() const {
+  int used = 0;
+  for (const SlotRange& range : slots_.blocks) used += range.end - range.begin;
+  return slots_.num_slots() > 0 ? 1.0 - static_cast<double>(used) / slots_.num_slots() : 0.0;
 }
 
 template <class Scalar>
@@ -82,14 +258,16 @@ void NetworkForces<Scalar>::for_each_task(const Run& run) const {
 template <class Scalar>
 void NetworkForces<Scalar>::begin_step(ConstMatrix3XRef<Scalar> starts, Scalar time_step) {
   to_arrays<Scalar>(starts, starts_);
-  if (damping_.empty()) return;
+  if (!has_damping_) return;
   const std::size_t block = kNodeBlock;
-  for (std::size_t place = 0; place < damping_.size(); ++place) {
-    const int e = slots_.edges[place];
-    if (e < 0) continue;
-    Scalar* const damper = dampers_.data() + place / block * 2 * block + place % block;
-    damper[0] = damping_[place] / time_step;
-    damper[block] = (starts.col(edges_(1, e)) - starts.col(edges_(0, e))).norm();
+  for (int b = 0; b < slots_.num_blocks(); ++b) {
+    const SlotRange& range = slots_.blocks[at(b)];
+    for (std::size_t place = at(range.begin) * block; place < at(range.end) * block; ++place) {
+      const int node = std::min(b * kNodeBlock + static_cast<int>(place % block), num_nodes() - 1);
+      Scalar* const damper = dampers_.data() + place / block * 2 * block + place % block;
+      damper[0] = damping_[place] / time_step;
+      damper[block] = (starts.col(slots_.others[place]) - starts.col(node)).norm();
+    }
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <weft/fast_solver/edge_slots.hpp>
@@ -24,6 +25,15 @@ class NetworkForces {
 
   [[nodiscard]] int num_nodes() const { return slots_.num_nodes; }
 
+  /// Puts springs in the place of all that have an end among the nodes that are changed (flags of
+  /// num_nodes nodes; there may be more nodes than before, and all new ones are changed). springs: each
+  /// has such an end; without stabilisers, those with one such end only are taken to be as they were.
+  /// Takes time for what changes only: blocks that grow are laid out anew behind the others. Results are
+  /// those of a network made anew, but for the order in which the springs of some nodes are summed.
+  void replace(const SpringNetwork& springs, const std::vector<char>& is_changed, int num_nodes);
+  /// Share of the slots that no block uses any more [-].
+  [[nodiscard]] double unused_share() const;
+
   /// Lengths at the start of a step of time_step [s], > 0; starts: q, 3 x n [m].
   void begin_step(ConstMatrix3XRef<Scalar> starts, Scalar time_step);
 
@@ -47,14 +57,35 @@ class NetworkForces {
   [[nodiscard]] const BlockArrays& diagonal_blocks() const { return diagonal_; }
 
  private:
+  /// A spring as one of its ends sees it.
+  struct Spring {
+    std::uint64_t place;  ///< in the order of a network's edges
+    EdgeLane lane;
+    Scalar rest_length;
+    Scalar stiffness;
+    Scalar compressed;  ///< what compression adds to the stiffness
+    Scalar damping;
+    Scalar stabiliser;
+  };
   [[nodiscard]] NetworkView<Scalar> view() const;
+  void reserve(std::size_t num_slots);
+  void resize_arrays();
+  [[nodiscard]] std::vector<char> blocks_to_change(const SpringNetwork& springs,
+                                                   const std::vector<char>& is_changed) const;
+  void keep_springs(int block, const std::vector<char>& is_changed,
+                    std::vector<Spring>& result) const;
+  void lay_out(int block, std::vector<Spring>& springs);
+  void write(std::size_t place, const Spring& spring);
   template <class Run>
   void for_each_task(const Run& run) const;
 
   EdgeSlots slots_;
-  Edges edges_;
+  std::vector<int> room_;  ///< of each block: slots from its first one on
+  SlotMaker maker_;
   std::vector<Scalar> springs_;
-  std::vector<Scalar> damping_;  ///< of each lane [N s/m]; empty: none
+  bool has_damping_ = false;  ///< without: no array
+  bool has_stabiliser_ = false;
+  std::vector<Scalar> damping_;  ///< of each lane [N s/m]
   std::vector<Scalar> dampers_;
   std::vector<Scalar> stabilisers_;
   Scalar least_across_ = 0;

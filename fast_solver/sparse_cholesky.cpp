@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 #include <Eigen/Cholesky>
@@ -31,7 +32,11 @@ using Dense = Eigen::MatrixXf;
 
 SparseCholesky::SparseCholesky(const SymmetricMatrix& matrix, const std::vector<int>& order,
                                const std::vector<int>& names)
-    : elimination_(eliminate(matrix, order)) {
+    : SparseCholesky(matrix, eliminate(matrix, order), names) {}
+
+SparseCholesky::SparseCholesky(const SymmetricMatrix& matrix, Elimination elimination,
+                               const std::vector<int>& names)
+    : elimination_(std::move(elimination)) {
   lay_out();
   divide_work();
   factorize(matrix);

@@ -26,6 +26,10 @@ class SparseCholesky {
   SparseCholesky(const SymmetricMatrix& matrix, const std::vector<int>& order,
                  const std::vector<int>& names = {});
 
+  /// The same, in two parts that take about as long.
+  SparseCholesky(const SymmetricMatrix& matrix, Elimination elimination,
+                 const std::vector<int>& names = {});
+
   [[nodiscard]] int size() const { return static_cast<int>(elimination_.order.size()); }
   /// Entries of the factor, of which stored zeros are counted too.
   [[nodiscard]] std::size_t num_entries() const { return num_entries_; }

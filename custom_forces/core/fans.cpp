@@ -9,13 +9,6 @@
 namespace weft {
 namespace {
 
-struct Side {
-  int first;
-  int second;
-  int triangle;
-  auto operator<=>(const Side&) const = default;  // NOLINT(modernize-use-nullptr): of its own text
-};
-
 /// Sets of corners that grow together; a set goes by its lowest corner.
 class CornerSets {
  public:
@@ -47,41 +40,70 @@ int corner_of(const Triangles& triangles, int triangle, int node) {
 
 }  // namespace
 
-Neighbourhood::Neighbourhood(const Triangles& triangles, int num_nodes)
-    : triangles_of_(static_cast<std::size_t>(num_nodes)),
-      inner_edges_of_(static_cast<std::size_t>(triangles.cols())) {
-  std::vector<Side> sides;
-  for (int t = 0; t < static_cast<int>(triangles.cols()); ++t) {
-    for (int corner = 0; corner < 3; ++corner) {
-      const auto [a, b] = std::minmax({triangles(corner, t), triangles((corner + 1) % 3, t)});
-      sides.push_back({a, b, t});
-      triangles_of_[static_cast<std::size_t>(triangles(corner, t))].push_back(t);
+// Numbers, not a map or a sort of all sides: cloth that tears is looked through in every frame.
+Neighbourhood::Neighbourhood(const Triangles& triangles, int num_nodes) {
+  sort_triangles(triangles, num_nodes);
+  find_inner_edges(triangles, num_nodes);
+}
+
+void Neighbourhood::sort_triangles(const Triangles& triangles, int num_nodes) {
+  first_triangle_.assign(static_cast<std::size_t>(num_nodes) + 1, 0);
+  for (const int node : triangles.reshaped()) ++first_triangle_[static_cast<std::size_t>(node) + 1];
+  std::partial_sum(first_triangle_.begin(), first_triangle_.end(), first_triangle_.begin());
+  std::vector<std::size_t> next(first_triangle_.begin(), first_triangle_.end() - 1);
+  triangles_.resize(static_cast<std::size_t>(triangles.size()));
+  for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
+    for (const int node : triangles.col(t)) {
+      triangles_[next[static_cast<std::size_t>(node)]++] = static_cast<int>(t);
     }
   }
-  std::sort(sides.begin(), sides.end());
-  const auto same_edge = [&](std::size_t i, std::size_t k) {
-    return k < sides.size() && sides[i].first == sides[k].first &&
-           sides[i].second == sides[k].second;
+}
+
+void Neighbourhood::find_inner_edges(const Triangles& triangles, int num_nodes) {
+  struct Side {
+    int second;
+    int triangle;
+    bool operator<(const Side& other) const {
+      return second != other.second ? second < other.second : triangle < other.triangle;
+    }
   };
-  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
-    if (!same_edge(i, i + 1)) continue;
-    if (same_edge(i, i + 2)) {
-      throw InvalidArgument("tear: the edge between nodes " + std::to_string(sides[i].first) +
-                            " and " + std::to_string(sides[i].second) +
-                            " belongs to more than two triangles, expected at most 2");
+  const auto num_triangles = static_cast<std::size_t>(triangles.cols());
+  inner_edges_.reserve(3 * num_triangles / 2);
+  inner_edges_of_.resize(num_triangles);
+  num_inner_edges_of_.assign(num_triangles, 0);
+  std::vector<Side> sides;  // that have the node as their lower end
+  for (int node = 0; node < num_nodes; ++node) {
+    sides.clear();
+    for (const int t : triangles_of(node)) {
+      for (const int other : triangles.col(t)) {
+        if (other > node) sides.push_back({other, t});
+      }
     }
-    for (const std::size_t k : {i, i + 1}) {
-      inner_edges_of_[static_cast<std::size_t>(sides[k].triangle)].push_back(
-          static_cast<int>(inner_edges_.size()));
+    std::sort(sides.begin(), sides.end());
+    for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+      const auto is_same = [&](std::size_t k) {
+        return k < sides.size() && sides[i].second == sides[k].second;
+      };
+      if (!is_same(i + 1)) continue;
+      if (is_same(i + 2)) {
+        throw InvalidArgument("tear: the edge between nodes " + std::to_string(node) + " and " +
+                              std::to_string(sides[i].second) +
+                              " belongs to more than two triangles, expected at most 2");
+      }
+      for (const std::size_t k : {i, i + 1}) {
+        const auto t = static_cast<std::size_t>(sides[k].triangle);
+        inner_edges_of_[t][num_inner_edges_of_[t]++] = static_cast<int>(inner_edges_.size());
+      }
+      inner_edges_.push_back({node, sides[i].second, {sides[i].triangle, sides[i + 1].triangle}});
+      ++i;
     }
-    inner_edges_.push_back(
-        {sides[i].first, sides[i].second, {sides[i].triangle, sides[i + 1].triangle}});
-    ++i;
   }
 }
 
 Fans::Fans(const ClothMesh& mesh, const Neighbourhood& near, const std::vector<bool>& is_cut)
-    : mesh_(&mesh), triangles_(mesh.triangles) {
+    : mesh_(&mesh),
+      triangles_(mesh.triangles),
+      is_split_(static_cast<std::size_t>(mesh.num_nodes()), 0) {
   CornerSets sets(static_cast<std::size_t>(mesh.triangles.size()));
   for (std::size_t e = 0; e < is_cut.size(); ++e) {
     if (is_cut[e]) continue;
@@ -92,9 +114,11 @@ Fans::Fans(const ClothMesh& mesh, const Neighbourhood& near, const std::vector<b
     }
   }
   int num_nodes = mesh.num_nodes();
+  std::vector<int> roots;
+  std::vector<int> copies;
   for (int node = 0; node < mesh.num_nodes(); ++node) {
-    copies_.push_back({node});
-    std::vector<int> roots;
+    roots.clear();
+    copies.assign(1, node);
     for (const int t : near.triangles_of(node)) {
       const int corner = corner_of(mesh.triangles, t, node);
       const int root = sets.find(corner);
@@ -102,12 +126,15 @@ Fans::Fans(const ClothMesh& mesh, const Neighbourhood& near, const std::vector<b
       if (place == std::ssize(roots)) {
         roots.push_back(root);
         if (place > 0) {
-          copies_.back().push_back(num_nodes++);
+          copies.push_back(num_nodes++);
           origins_.push_back(node);
         }
       }
-      triangles_(corner % 3, t) = copies_.back()[static_cast<std::size_t>(place)];
+      triangles_(corner % 3, t) = copies[static_cast<std::size_t>(place)];
     }
+    if (copies.size() == 1) continue;
+    is_split_[static_cast<std::size_t>(node)] = 1;
+    split_nodes_.push_back({node, copies});
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include <weft/custom_forces/core/cloth_mesh.hpp>
@@ -25,18 +26,27 @@ class Neighbourhood {
 
   /// By lower node, then by higher node.
   [[nodiscard]] const std::vector<InnerEdge>& inner_edges() const { return inner_edges_; }
-  [[nodiscard]] const std::vector<int>& triangles_of(int node) const {
-    return triangles_of_[static_cast<std::size_t>(node)];
+  /// Ascending.
+  [[nodiscard]] std::span<const int> triangles_of(int node) const {
+    const auto begin = first_triangle_[static_cast<std::size_t>(node)];
+    return std::span(triangles_)
+        .subspan(begin, first_triangle_[static_cast<std::size_t>(node) + 1] - begin);
   }
-  /// Places in inner_edges() of a triangle's edges.
-  [[nodiscard]] const std::vector<int>& inner_edges_of(int triangle) const {
-    return inner_edges_of_[static_cast<std::size_t>(triangle)];
+  /// Places in inner_edges() of a triangle's edges, ascending.
+  [[nodiscard]] std::span<const int> inner_edges_of(int triangle) const {
+    const auto t = static_cast<std::size_t>(triangle);
+    return std::span(inner_edges_of_[t]).first(num_inner_edges_of_[t]);
   }
 
  private:
+  void sort_triangles(const Triangles& triangles, int num_nodes);
+  void find_inner_edges(const Triangles& triangles, int num_nodes);
+
   std::vector<InnerEdge> inner_edges_;
-  std::vector<std::vector<int>> triangles_of_;
-  std::vector<std::vector<int>> inner_edges_of_;
+  std::vector<std::size_t> first_triangle_;  ///< of each node, in triangles_; and the end
+  std::vector<int> triangles_;
+  std::vector<std::array<int, 3>> inner_edges_of_;
+  std::vector<unsigned char> num_inner_edges_of_;
 };
 
 /// Which corners of the triangles stay one node when edges are cut: the nodes of a cut mesh.
@@ -48,11 +58,15 @@ class Fans {
   /// New node numbers of every triangle, 3 x t.
   [[nodiscard]] const Triangles& triangles() const { return triangles_; }
   [[nodiscard]] const std::vector<int>& origins() const { return origins_; }
-  /// All new nodes of an old one; itself first.
-  [[nodiscard]] const std::vector<int>& copies(int node) const {
-    return copies_[static_cast<std::size_t>(node)];
+  /// The old nodes that fall apart, ascending, with all their new nodes; itself first.
+  struct SplitNode {
+    int node;
+    std::vector<int> copies;
+  };
+  [[nodiscard]] const std::vector<SplitNode>& split_nodes() const { return split_nodes_; }
+  [[nodiscard]] bool is_split(int node) const {
+    return is_split_[static_cast<std::size_t>(node)] != 0;
   }
-  [[nodiscard]] bool is_split(int node) const { return copies(node).size() > 1; }
   /// The new node at the corner of a triangle where the old node was.
   [[nodiscard]] int copy_at(int triangle, int node) const;
   /// Whether the two sides of an inner edge have a different node at one of its ends.
@@ -62,7 +76,8 @@ class Fans {
   const ClothMesh* mesh_;
   Triangles triangles_;
   std::vector<int> origins_;
-  std::vector<std::vector<int>> copies_;
+  std::vector<SplitNode> split_nodes_;
+  std::vector<char> is_split_;
 };
 
 }  // namespace weft

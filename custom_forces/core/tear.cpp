@@ -28,6 +28,7 @@ std::vector<bool> cut_flags(const ClothMesh& mesh, const Neighbourhood& near, co
   }
   std::sort(wanted.begin(), wanted.end());
   std::vector<bool> flags;
+  flags.reserve(near.inner_edges().size());
   for (const InnerEdge& edge : near.inner_edges()) {
     flags.push_back(
         std::binary_search(wanted.begin(), wanted.end(), std::pair(edge.first, edge.second)));
@@ -79,9 +80,7 @@ void add_nodes(const ClothMesh& mesh, const Neighbourhood& near, const Fans& fan
     torn.rest_positions.col(old + k) = mesh.rest_positions.col(origin);
     if (has_texture) torn.texture_coordinates.col(old + k) = mesh.texture_coordinates.col(origin);
   }
-  for (int node = 0; node < mesh.num_nodes(); ++node) {
-    if (!fans.is_split(node)) continue;
-    const std::vector<int>& copies = fans.copies(node);
+  for (const auto& [node, copies] : fans.split_nodes()) {
     std::vector<double> areas(copies.size(), 0.0);
     for (const int t : near.triangles_of(node)) {
       const auto copy = std::find(copies.begin(), copies.end(), fans.copy_at(t, node));
@@ -126,26 +125,110 @@ Eigen::Matrix<int, kNodes, Eigen::Dynamic> columns(const std::vector<int>& nodes
   return Eigen::Map<const Elements>(nodes.data(), kNodes, std::ssize(nodes) / kNodes);
 }
 
-Edges torn_edges(const Edges& edges, const TornSprings& springs) {
-  std::vector<int> nodes;
-  for (Eigen::Index e = 0; e < edges.cols(); ++e) {
-    for (const auto& [i, j] : springs.pairs(edges(0, e), edges(1, e))) {
-      nodes.insert(nodes.end(), {std::min(i, j), std::max(i, j)});
-    }
+/// Flags of nodes that belong to an element that is another one after the cut.
+class ChangedNodes {
+ public:
+  explicit ChangedNodes(int num_nodes) : flags_(static_cast<std::size_t>(num_nodes), 0) {}
+  template <class Nodes>
+  void mark(const Nodes& nodes) {
+    for (const int node : nodes) flags_[static_cast<std::size_t>(node)] = 1;
   }
-  return columns<2>(nodes);
+  void mark_all() { std::fill(flags_.begin(), flags_.end(), char{1}); }
+  [[nodiscard]] std::vector<int> nodes() const {
+    std::vector<int> result;
+    for (std::size_t node = 0; node < flags_.size(); ++node) {
+      if (flags_[node] != 0) result.push_back(static_cast<int>(node));
+    }
+    return result;
+  }
+
+ private:
+  std::vector<char> flags_;
+};
+
+void mark_triangles(const Triangles& before, const Triangles& after, ChangedNodes& changed) {
+  for (Eigen::Index t = 0; t < before.cols(); ++t) {
+    if ((before.col(t).array() == after.col(t).array()).all()) continue;
+    changed.mark(before.col(t));
+    changed.mark(after.col(t));
+  }
 }
 
-Triples torn_lines(const Triples& triples, const TornSprings& springs) {
-  std::vector<int> nodes;
+/// Elements some of which are replaced by others, in their places. Few are, and the rest is copied as it is: the
+/// springs of a large cloth are not to be gone through one by one more often than needed.
+template <int kNodes>
+class Replacement {
+ public:
+  using Elements = Eigen::Matrix<int, kNodes, Eigen::Dynamic>;
+  /// In ascending order of elements.
+  void replace(Eigen::Index element, const Elements& before, const std::vector<int>& by,
+               ChangedNodes& changed) {
+    if (std::equal(by.begin(), by.end(), before.col(element).begin(), before.col(element).end())) {
+      return;
+    }
+    changed.mark(before.col(element));
+    changed.mark(by);
+    elements_.push_back(element);
+    nodes_.insert(nodes_.end(), by.begin(), by.end());
+    ends_.push_back(std::ssize(nodes_) / kNodes);
+  }
+  [[nodiscard]] Elements in(const Elements& before) const {
+    const auto num_new = std::ssize(nodes_) / kNodes;
+    Elements result(kNodes, before.cols() - std::ssize(elements_) + num_new);
+    const Elements by = columns<kNodes>(nodes_);
+    Eigen::Index from = 0;
+    Eigen::Index to = 0;
+    Eigen::Index begin = 0;
+    for (std::size_t k = 0; k <= elements_.size(); ++k) {
+      const Eigen::Index kept = (k < elements_.size() ? elements_[k] : before.cols()) - from;
+      result.middleCols(to, kept) = before.middleCols(from, kept);
+      from += kept + 1;
+      to += kept;
+      if (k == elements_.size()) break;
+      result.middleCols(to, ends_[k] - begin) = by.middleCols(begin, ends_[k] - begin);
+      to += ends_[k] - begin;
+      begin = ends_[k];
+    }
+    return result;
+  }
+
+ private:
+  std::vector<Eigen::Index> elements_;
+  std::vector<std::ptrdiff_t> ends_;  ///< of what replaces each of them, in columns
+  std::vector<int> nodes_;
+};
+
+Edges torn_edges(const Edges& edges, const TornSprings& springs, ChangedNodes& changed) {
+  Replacement<2> replacement;
+  std::vector<int> by;
+  for (Eigen::Index e = 0; e < edges.cols(); ++e) {
+    if (!springs.is_touched(edges(0, e), edges(1, e))) continue;
+    by.clear();
+    for (const auto& [i, j] : springs.pairs(edges(0, e), edges(1, e))) {
+      by.insert(by.end(), {std::min(i, j), std::max(i, j)});
+    }
+    replacement.replace(e, edges, by, changed);
+  }
+  return replacement.in(edges);
+}
+
+Triples torn_lines(const Triples& triples, const TornSprings& springs, ChangedNodes& changed) {
+  Replacement<3> replacement;
+  std::vector<int> by;
   for (Eigen::Index l = 0; l < triples.cols(); ++l) {
+    if (!springs.is_touched(triples(0, l), triples(1, l)) &&
+        !springs.is_touched(triples(1, l), triples(2, l))) {
+      continue;
+    }
+    by.clear();
     for (const auto& [a, centre] : springs.pairs(triples(0, l), triples(1, l))) {
       for (const auto& [same, b] : springs.pairs(triples(1, l), triples(2, l))) {
-        if (same == centre) nodes.insert(nodes.end(), {a, centre, b});
+        if (same == centre) by.insert(by.end(), {a, centre, b});
       }
     }
+    replacement.replace(l, triples, by, changed);
   }
-  return columns<3>(nodes);
+  return replacement.in(triples);
 }
 
 /// The triangle of the fan around a node in which the next node is to.
@@ -158,12 +241,29 @@ int triangle_along(const ClothMesh& mesh, const Neighbourhood& near, int from, i
   return -1;
 }
 
+/// Of each node: whether it has a triangle in common with one that falls apart.
+std::vector<bool> near_splits(const ClothMesh& mesh, const Neighbourhood& near, const Fans& fans) {
+  std::vector<bool> is_near(static_cast<std::size_t>(mesh.num_nodes()), false);
+  for (const auto& [node, copies] : fans.split_nodes()) {
+    for (const int t : near.triangles_of(node)) {
+      for (const int other : mesh.triangles.col(t)) is_near[static_cast<std::size_t>(other)] = true;
+    }
+  }
+  return is_near;
+}
+
 /// A crossed triangle runs along two sides of its cell, and so along one side of each of the cell's
 /// own triangles; their common edge is the cell's diagonal.
-Triangles torn_crossed(const ClothMesh& mesh, const Neighbourhood& near, const Fans& fans) {
-  std::vector<int> nodes;
+Triangles torn_crossed(const ClothMesh& mesh, const Neighbourhood& near, const Fans& fans,
+                       ChangedNodes& changed) {
+  Replacement<3> replacement;
+  const std::vector<bool> is_near = near_splits(mesh, near, fans);
   for (Eigen::Index c = 0; c < mesh.crossed_triangles.cols(); ++c) {
     const Eigen::Vector3i crossed = mesh.crossed_triangles.col(c);
+    const bool is_touched = std::any_of(crossed.begin(), crossed.end(), [&](int node) {
+      return is_near[static_cast<std::size_t>(node)];
+    });
+    if (!is_touched) continue;
     Eigen::Vector3i copies = crossed;
     std::vector<int> under;
     for (int corner = 0; corner < 3; ++corner) {
@@ -182,9 +282,14 @@ Triangles torn_crossed(const ClothMesh& mesh, const Neighbourhood& near, const F
         if (diagonal.other(under[0]) == under[1]) is_whole = !fans.is_open(diagonal);
       }
     }
-    if (is_whole) nodes.insert(nodes.end(), copies.begin(), copies.end());
+    std::vector<int> kept;
+    if (is_whole) kept.assign(copies.begin(), copies.end());
+    replacement.replace(c, mesh.crossed_triangles, kept, changed);
   }
-  return columns<3>(nodes);
+  Triangles after = replacement.in(mesh.crossed_triangles);
+  // Bending is another one where there are none (hinge_torsion.hpp).
+  if (after.cols() == 0 && mesh.crossed_triangles.cols() > 0) changed.mark_all();
+  return after;
 }
 
 /// The lowest node of the piece that each node of the mesh belongs to.
@@ -231,20 +336,26 @@ void drop_parted_connections(ClothMesh& torn) {
 }  // namespace
 
 Tear cut_along(const ClothMesh& mesh, const Edges& cut) {
-  const Neighbourhood near(mesh.triangles, mesh.num_nodes());
+  return cut_along(mesh, Neighbourhood(mesh.triangles, mesh.num_nodes()), cut);
+}
+
+Tear cut_along(const ClothMesh& mesh, const Neighbourhood& near, const Edges& cut) {
   const Fans fans(mesh, near, cut_flags(mesh, near, cut));
   Tear tear{mesh, fans.origins()};
   if (!tear.any()) return tear;
   ClothMesh& torn = tear.mesh;
+  ChangedNodes changed(mesh.num_nodes() + static_cast<int>(fans.origins().size()));
   torn.triangles = fans.triangles();
-  torn.crossed_triangles = torn_crossed(mesh, near, fans);
+  mark_triangles(mesh.triangles, torn.triangles, changed);
+  torn.crossed_triangles = torn_crossed(mesh, near, fans, changed);
   add_nodes(mesh, near, fans, torn);
   add_pins(mesh, fans, torn);
   add_to_node_sets(mesh, fans, torn);
   const TornSprings springs(mesh, near, fans);
-  for (EdgeSet& set : torn.edge_sets) set.edges = torn_edges(set.edges, springs);
-  for (LineSet& set : torn.line_sets) set.triples = torn_lines(set.triples, springs);
+  for (EdgeSet& set : torn.edge_sets) set.edges = torn_edges(set.edges, springs, changed);
+  for (LineSet& set : torn.line_sets) set.triples = torn_lines(set.triples, springs, changed);
   drop_parted_connections(torn);
+  tear.changed = changed.nodes();
   return tear;
 }
 

@@ -6,12 +6,17 @@
 
 namespace weft {
 
+class Neighbourhood;
+
 /// A mesh after a cut, and where its new nodes come from.
 struct Tear {
   ClothMesh mesh;
   /// Of each node that was added, in order: the node before the cut whose place and velocity it has.
   /// Nodes that were there keep their numbers. Empty: nothing has come apart.
   std::vector<int> origins;
+  /// The nodes, ascending, of every triangle, crossed triangle, edge and line that has come, has gone or
+  /// has another node than before: what depends on elements of other nodes only is as it was.
+  std::vector<int> changed = {};
 
   [[nodiscard]] bool any() const { return !origins.empty(); }
 };
@@ -38,5 +43,7 @@ struct Tear {
 /// Throws InvalidArgument for a node that the mesh does not have and for an edge of more than two
 /// triangles. Edges that no two triangles share are no cuts.
 [[nodiscard]] Tear cut_along(const ClothMesh& mesh, const Edges& cut);
+/// The same for who knows what is next to what already: near is of this mesh.
+[[nodiscard]] Tear cut_along(const ClothMesh& mesh, const Neighbourhood& near, const Edges& cut);
 
 }  // namespace weft

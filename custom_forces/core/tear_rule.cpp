@@ -55,6 +55,8 @@ class Tearing {
  public:
   Tearing(const ClothMesh& mesh, ConstMatrix3XRef<double> positions, const TearRule& rule);
   [[nodiscard]] Edges cut();
+  /// Empty if no thread is beyond its limit.
+  [[nodiscard]] const Neighbourhood& near() const { return near_; }
 
  private:
   void find_threads(ConstMatrix3XRef<double> positions, const TearRule& rule);
@@ -157,7 +159,7 @@ bool Tearing::is_rim(int node) const {
 
 /// Whether a triangle around the node belongs to one that gives way already.
 bool Tearing::is_near_a_split(int node) const {
-  const std::vector<int>& around = near_.triangles_of(node);
+  const std::span<const int> around = near_.triangles_of(node);
   return std::any_of(around.begin(), around.end(),
                      [&](int t) { return is_taken_[static_cast<std::size_t>(t)]; });
 }
@@ -221,6 +223,16 @@ Edges edges_to_tear(const ClothMesh& mesh, ConstMatrix3XRef<double> positions,
   require_positions(mesh, positions.cols());
   if (!positions.allFinite()) return {2, 0};
   return Tearing(mesh, positions, rule).cut();
+}
+
+Tear tear_now(const ClothMesh& mesh, ConstMatrix3XRef<double> positions, const TearRule& rule) {
+  check(rule, mesh);
+  require_positions(mesh, positions.cols());
+  if (!positions.allFinite()) return {mesh, {}};
+  Tearing tearing(mesh, positions, rule);
+  const Edges cut = tearing.cut();
+  if (cut.cols() == 0) return {mesh, {}};
+  return cut_along(mesh, tearing.near(), cut);
 }
 
 Edges edges_under(const Blade& blade, const ClothMesh& mesh, ConstMatrix3XRef<double> positions) {

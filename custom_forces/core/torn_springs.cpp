@@ -53,8 +53,53 @@ bool contains(const std::vector<int>& sorted, int value) {
 TornSprings::TornSprings(const ClothMesh& mesh, const Neighbourhood& near, const Fans& fans)
     : mesh_(&mesh), near_(&near), fans_(&fans) {
   for (const InnerEdge& edge : near.inner_edges()) {
-    if (fans.is_open(edge)) open_.push_back(edge);
+    const bool may_open = fans.is_split(edge.first) || fans.is_split(edge.second);
+    if (may_open && fans.is_open(edge)) open_.push_back(edge);
   }
+  sort_into_slices();
+}
+
+TornSprings::Box TornSprings::box_of(int i, int j) const {
+  const auto& x = mesh_->rest_positions;
+  return {x.col(i).cwiseMin(x.col(j)), x.col(i).cwiseMax(x.col(j))};
+}
+
+void TornSprings::sort_into_slices() {
+  if (open_.empty()) return;
+  const auto& x = mesh_->rest_positions;
+  whole_ = {x.rowwise().minCoeff(), x.rowwise().maxCoeff()};
+  for (const InnerEdge& edge : open_) open_boxes_.push_back(box_of(edge.first, edge.second));
+  // More than any spring's limit: springs are no longer than all of the mesh.
+  const double reach = 3 * kTouch * (whole_.high - whole_.low).norm();
+  for (int axis = 0; axis < 3; ++axis) {
+    auto& slices = slice_of_[static_cast<std::size_t>(axis)];
+    slices.resize(static_cast<std::size_t>(x.cols()));
+    for (std::size_t i = 0; i < slices.size(); ++i) {
+      const unsigned slice = slice_of(axis, x(axis, static_cast<Eigen::Index>(i)));
+      slices[i] = static_cast<unsigned char>(slice);
+    }
+    for (const Box& box : open_boxes_) {
+      const unsigned last = slice_of(axis, box.high[axis] + reach);
+      for (unsigned s = slice_of(axis, box.low[axis] - reach); s <= last; ++s) {
+        open_slices_[static_cast<std::size_t>(axis)] |= std::uint64_t{1} << s;
+      }
+    }
+  }
+}
+
+unsigned TornSprings::slice_of(int axis, double coordinate) const {
+  const double size = whole_.high[axis] - whole_.low[axis];
+  const double share = size > 0 ? (coordinate - whole_.low[axis]) / size : 0.0;
+  return static_cast<unsigned>(std::clamp(share, 0.0, 1.0) * (kSlices - 1));
+}
+
+inline bool TornSprings::meets_slices(int axis, int i, int j) const {
+  const auto& slices = slice_of_[static_cast<std::size_t>(axis)];
+  const unsigned a = slices[static_cast<std::size_t>(i)];
+  const unsigned b = slices[static_cast<std::size_t>(j)];
+  const std::uint64_t from = ~std::uint64_t{0} << std::min(a, b);
+  const std::uint64_t to = ~std::uint64_t{0} >> (kSlices - 1 - std::max(a, b));
+  return (open_slices_[static_cast<std::size_t>(axis)] & from & to) != 0;
 }
 
 bool TornSprings::holds(int triangle, int node) const {
@@ -62,13 +107,25 @@ bool TornSprings::holds(int triangle, int node) const {
 }
 
 bool TornSprings::is_touched(int i, int j) const {
-  if (fans_->is_split(i) || fans_->is_split(j)) return true;
+  return fans_->is_split(i) || fans_->is_split(j) || meets_open_edge(i, j);
+}
+
+bool TornSprings::meets_open_edge(int i, int j) const {
+  if (open_.empty()) return false;
+  if (!meets_slices(0, i, j) || !meets_slices(1, i, j) || !meets_slices(2, i, j)) return false;
   const auto& x = mesh_->rest_positions;
+  const Box box = box_of(i, j);
   const double limit = kTouch * (x.col(j) - x.col(i)).norm();
-  return std::any_of(open_.begin(), open_.end(), [&](const InnerEdge& edge) {
-    return squared_distance(x.col(i), x.col(j), x.col(edge.first), x.col(edge.second)) <=
-           limit * limit;
-  });
+  for (std::size_t e = 0; e < open_.size(); ++e) {
+    const Box& other = open_boxes_[e];
+    if (((box.low - other.high).array() > limit).any()) continue;
+    if (((other.low - box.high).array() > limit).any()) continue;
+    if (squared_distance(x.col(i), x.col(j), x.col(open_[e].first), x.col(open_[e].second)) <=
+        limit * limit) {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool TornSprings::touches(int triangle, int i, int j) const {
@@ -85,7 +142,8 @@ bool TornSprings::touches(int triangle, int i, int j) const {
 /// The triangles under the straight line at rest, as far as they hang together before the cut.
 /// Sorted.
 std::vector<int> TornSprings::strip(int i, int j) const {
-  std::vector<int> found = near_->triangles_of(i);
+  const std::span<const int> around = near_->triangles_of(i);
+  std::vector<int> found(around.begin(), around.end());
   std::set<int> known(found.begin(), found.end());
   for (std::size_t k = 0; k < found.size(); ++k) {
     for (const int e : near_->inner_edges_of(found[k])) {
@@ -113,9 +171,11 @@ std::vector<int> TornSprings::surroundings(int i, int j) const {
   std::set<int> region;
   for (const int node : neighbours(j)) {
     if (!of_i.contains(node) && node != i && node != j) continue;
-    region.insert(near_->triangles_of(node).begin(), near_->triangles_of(node).end());
+    const std::span<const int> around = near_->triangles_of(node);
+    region.insert(around.begin(), around.end());
   }
-  region.insert(near_->triangles_of(i).begin(), near_->triangles_of(i).end());
+  const std::span<const int> around = near_->triangles_of(i);
+  region.insert(around.begin(), around.end());
   return {region.begin(), region.end()};
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -13,12 +15,24 @@ class TornSprings {
   /// The arguments must outlive this object.
   TornSprings(const ClothMesh& mesh, const Neighbourhood& near, const Fans& fans);
 
+  /// Whether the cut may change a spring from i to j: false says that it stays as it is.
+  [[nodiscard]] bool is_touched(int i, int j) const;
   /// The pairs of new nodes, as (copy of i, copy of j), that a spring from i to j becomes; none if
   /// the cut crosses it.
   [[nodiscard]] std::vector<std::pair<int, int>> pairs(int i, int j) const;
 
  private:
-  [[nodiscard]] bool is_touched(int i, int j) const;
+  /// A box with sides along the axes [m].
+  struct Box {
+    Vector3<double> low;
+    Vector3<double> high;
+  };
+  void sort_into_slices();
+  [[nodiscard]] unsigned slice_of(int axis, double coordinate) const;
+  /// Whether any open edge reaches into a slice of that axis that a spring from i to j meets.
+  [[nodiscard]] bool meets_slices(int axis, int i, int j) const;
+  [[nodiscard]] Box box_of(int i, int j) const;
+  [[nodiscard]] bool meets_open_edge(int i, int j) const;
   [[nodiscard]] bool touches(int triangle, int i, int j) const;
   [[nodiscard]] std::vector<int> strip(int i, int j) const;
   [[nodiscard]] std::vector<int> surroundings(int i, int j) const;
@@ -30,6 +44,12 @@ class TornSprings {
   const Neighbourhood* near_;
   const Fans* fans_;
   std::vector<InnerEdge> open_;
+  std::vector<Box> open_boxes_;  ///< at rest
+  // Space is cut into slices across each axis, so that most springs are told to be far from all open edges.
+  static constexpr unsigned kSlices = 64;
+  Box whole_;                                           ///< of all nodes
+  std::array<std::vector<unsigned char>, 3> slice_of_;  ///< of each node
+  std::array<std::uint64_t, 3> open_slices_ = {};       ///< one bit each
 };
 
 }  // namespace weft

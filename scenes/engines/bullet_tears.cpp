@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include <weft/bridge/law_attachment.hpp>
 #include <weft/bridge/tearing.hpp>
 
 namespace weft::scenes {
@@ -15,14 +14,7 @@ void BulletTears::add(std::size_t cloth, const ClothTear& tear, const ClothMesh&
 void BulletTears::apply(const Tear& tear, Entry& entry, bridge::SoftBodySolver& solver,
                         BulletBodies& bodies) {
   btSoftBody& body = *bodies.cloths()[entry.cloth];
-  forces::LawSet<btScalar> laws = bridge::make_laws(tear.mesh, entry.laws);
-  bridge::apply_tear(tear, entry.settings, body);
-  solver.add_copies(body, tear.origins);
-  if (solver.is_fast(body)) {
-    solver.replace_laws(body, tear.mesh, entry.laws);
-  } else {
-    solver.replace_laws(body, std::move(laws), tear.mesh.masses.cast<btScalar>());
-  }
+  bridge::apply_tear(tear, entry.settings, entry.laws, solver, body);
   entry.torn.adopt(tear);
   bodies.set_torn(entry.cloth, entry.torn.mesh(), entry.torn.topology());
 }

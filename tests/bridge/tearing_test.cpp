@@ -255,6 +255,54 @@ TEST_P(Tearing, TearsToShredsWithoutACrash) {
   EXPECT_GT(num_splits, 1500);
 }
 
+// What a tear leaves of the solver's network, and makes of its factor over the following steps, shows in how the body
+// moves against one with a solver of its own for the torn mesh.
+TEST(TearingFast, ATornBodyMovesLikeOneThatStartsTorn) {
+  Banner torn(false);
+  torn.world.solver().detach(*torn.body);
+  ASSERT_FALSE(torn.world.solver().attach_fast(*torn.body, torn.mesh, torn.laws));
+  Banner fresh(false);
+  fresh.world.solver().detach(*fresh.body);
+  torn.step();  // has a factor now
+  const Blade blade{{-0.3, 0.01, 0}, {0.3, 0.01, 0}, {0, 0, 0.3}};
+  ASSERT_GT(torn.cut(blade), 5);
+  ASSERT_GT(fresh.cut(blade), 5);
+  for (int i = 0; i < torn.body->m_nodes.size(); ++i) {
+    fresh.body->m_nodes[i].m_x = torn.body->m_nodes[i].m_x;
+    fresh.body->m_nodes[i].m_v = torn.body->m_nodes[i].m_v;
+  }
+  ASSERT_FALSE(fresh.world.solver().attach_fast(*fresh.body, fresh.mesh, fresh.laws));
+  expect_consistent(torn);
+  double apart = 0;
+  double moved = 0;
+  for (int step = 0; step < 40; ++step) {
+    torn.step();
+    fresh.step();
+    for (int i = 0; i < torn.body->m_nodes.size(); ++i) {
+      const auto distance = (torn.body->m_nodes[i].m_x - fresh.body->m_nodes[i].m_x).length();
+      apart = std::max(apart, static_cast<double>(distance));
+      moved = std::max(moved, static_cast<double>(torn.body->m_nodes[i].m_v.length()) * kTimeStep);
+    }
+  }
+  EXPECT_GT(moved, 1e-3);
+  // Both solve to a residual of a hundredth or so, each in its way.
+  EXPECT_LT(apart, 0.05 * moved);
+}
+
+TEST(TearingFast, TearsToShredsWithoutACrash) {
+  Banner banner(false);
+  banner.world.solver().detach(*banner.body);
+  ASSERT_FALSE(banner.world.solver().attach_fast(*banner.body, banner.mesh, banner.laws));
+  int num_splits = 0;
+  for (int step = 0; step < 300; ++step) {
+    banner.step();
+    num_splits += banner.tear({.strain = 1e-4, .max_splits = 8});
+  }
+  expect_consistent(banner);
+  EXPECT_FALSE(banner.world.solver().blow_up(*banner.body));
+  EXPECT_GT(num_splits, 100);
+}
+
 TEST(TearingBody, AnAnchorStaysWithTheOldNode) {
   Banner banner(false, false);
   auto shape = std::make_unique<btBoxShape>(btVector3(btScalar(0.1), btScalar(0.1), btScalar(0.1)));

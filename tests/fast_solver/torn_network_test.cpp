@@ -1,0 +1,254 @@
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <weft/custom_forces/core/cloth_grid.hpp>
+#include <weft/custom_forces/core/mesh_part.hpp>
+#include <weft/custom_forces/core/tear.hpp>
+#include <weft/fast_solver/implicit_solver.hpp>
+
+namespace weft::fast {
+namespace {
+
+const std::vector<forces::LawSpecification> kLaws = {
+    {"tension", {}, {{"stiffness", {50.0}}, {"compression_ratio", {0.5}}}},
+    {"spring_damping", {"stretch"}, {{"damping", {0.1}}}},
+    {"hinge_torsion", {}, {{"rigidity", {1e-3}}}}};
+
+ClothMesh cloth(int n) {
+  ClothGrid grid;
+  grid.nodes = {n, n};
+  grid.total_mass = 0.2;
+  ClothMesh mesh = make_cloth_grid(grid);
+  for (int i = 0; i < n; ++i) mesh.pinned.push_back(i);
+  return mesh;
+}
+
+/// A cut of three edges along a row of a grid of n x n, or of four along a column.
+Edges cut_at(int n, int k) {
+  Edges cut(2, k % 2 == 0 ? 3 : 4);
+  for (int e = 0; e < static_cast<int>(cut.cols()); ++e) {
+    const int first = k % 2 == 0 ? (3 + 2 * k) * n + 4 + k + e : (2 + e) * n + 6 + k;
+    cut.col(e) << first, first + (k % 2 == 0 ? 1 : n);
+  }
+  return cut;
+}
+
+std::vector<char> flags_of(const Tear& tear) {
+  std::vector<char> flags(static_cast<std::size_t>(tear.mesh.num_nodes()), 0);
+  for (const int node : tear.changed) flags[static_cast<std::size_t>(node)] = 1;
+  return flags;
+}
+
+std::vector<bool> free_flags(const ClothMesh& mesh) {
+  std::vector<bool> is_free(static_cast<std::size_t>(mesh.num_nodes()), true);
+  for (const int node : mesh.pinned) is_free[static_cast<std::size_t>(node)] = false;
+  return is_free;
+}
+
+void expect_same_network(const SpringNetwork& a, const SpringNetwork& b) {
+  ASSERT_EQ(a.edges.cols(), b.edges.cols());
+  EXPECT_EQ(a.edges, b.edges);
+  EXPECT_EQ(a.rest_lengths, b.rest_lengths);
+  EXPECT_EQ(a.stiffness, b.stiffness);
+  EXPECT_EQ(a.compressed_stiffness, b.compressed_stiffness);
+  EXPECT_EQ(a.damping, b.damping);
+  // Sums over hinges in another order.
+  EXPECT_LT((a.stabiliser - b.stabiliser).lpNorm<Eigen::Infinity>(),
+            1e-13 * b.stabiliser.lpNorm<Eigen::Infinity>());
+}
+
+void expect_same_forces(NetworkForces<double>& a, NetworkForces<double>& b, int num_nodes) {
+  std::srand(5);  // Eigen's Random
+  const Matrix3X<double> q = Matrix3X<double>::Random(3, num_nodes);
+  const Matrix3X<double> x = q + 0.1 * Matrix3X<double>::Random(3, num_nodes);
+  Matrix3X<double> of_a = Matrix3X<double>::Zero(3, num_nodes);
+  Matrix3X<double> of_b = of_a;
+  a.begin_step(q, 0.01);
+  b.begin_step(q, 0.01);
+  a.add_forces(x, of_a);
+  b.add_forces(x, of_b);
+  // Sums of some fifty springs in another order.
+  EXPECT_LT((of_a - of_b).norm(), 1e-14 * of_b.norm());
+  EXPECT_NEAR(a.potential(x), b.potential(x), 1e-14 * b.potential(x));
+  const int rows = fill_up(num_nodes);
+  NodeArrays<float> d = NodeArrays<float>::Random(rows, 3);
+  d.bottomRows(rows - num_nodes).setZero();
+  NodeArrays<float> product_a(rows, 3);
+  NodeArrays<float> product_b(rows, 3);
+  const VectorX<float> inertia = VectorX<float>::Ones(rows);
+  a.multiply(inertia, d, product_a);
+  b.multiply(inertia, d, product_b);
+  EXPECT_LT((product_a - product_b).norm(), 1e-6F * product_b.norm());
+}
+
+TEST(TornNetwork, IsTheOneOfTheTornMeshAfterManyTears) {
+  ClothMesh mesh = cloth(24);
+  SpringNetwork network = make_network(mesh, kLaws);
+  NetworkForces<double> forces(network, mesh.num_nodes());
+  for (int k = 0; k < 6; ++k) {
+    const Tear tear = cut_along(mesh, cut_at(24, k));
+    ASSERT_TRUE(tear.any());
+    const std::vector<char> is_changed = flags_of(tear);
+    EXPECT_LT(tear.changed.size(), 120U);  // what is far away is not looked at
+    const SpringNetwork springs = make_network_at(is_changed, tear.mesh, kLaws);
+    replace_springs(is_changed, springs, network);
+    mesh = tear.mesh;
+    const SpringNetwork fresh = make_network(mesh, kLaws);
+    expect_same_network(network, fresh);
+    forces.replace(springs, is_changed, mesh.num_nodes());
+    NetworkForces<double> fresh_forces(fresh, mesh.num_nodes());
+    expect_same_forces(forces, fresh_forces, mesh.num_nodes());
+  }
+}
+
+// Springs that cross the cut between nodes that stay whole.
+TEST(TornNetwork, ForgettingNodesThatDidNotSplitShows) {
+  const ClothMesh mesh = cloth(24);
+  const Tear tear = cut_along(mesh, cut_at(24, 0));
+  std::vector<char> is_split(static_cast<std::size_t>(tear.mesh.num_nodes()), 0);
+  for (const int origin : tear.origins) is_split[static_cast<std::size_t>(origin)] = 1;
+  for (int node = mesh.num_nodes(); node < tear.mesh.num_nodes(); ++node) {
+    is_split[static_cast<std::size_t>(node)] = 1;
+  }
+  SpringNetwork network = make_network(mesh, kLaws);
+  replace_springs(is_split, make_network_at(is_split, tear.mesh, kLaws), network);
+  EXPECT_GT(network.edges.cols(), make_network(tear.mesh, kLaws).edges.cols());
+}
+
+TEST(TornNetwork, AMatrixOfTheChangesIsThatOfTheNetwork) {
+  const ClothMesh mesh = cloth(20);
+  const Tear tear = cut_along(mesh, cut_at(20, 1));
+  const std::vector<char> is_changed = flags_of(tear);
+  SpringNetwork network = make_network(mesh, kLaws);
+  const SpringNetwork springs = make_network_at(is_changed, tear.mesh, kLaws);
+  std::vector<int> names;
+  for (int node = 20; node < tear.mesh.num_nodes(); ++node) names.push_back(node);
+  const SymmetricMatrix changed =
+      isotropic_matrix({&network, &is_changed, &springs}, tear.mesh.masses, names, 0.01);
+  replace_springs(is_changed, springs, network);
+  const SpringNetwork none;
+  const std::vector<char> nowhere;
+  const SymmetricMatrix whole =
+      isotropic_matrix({&network, &nowhere, &none}, tear.mesh.masses, names, 0.01);
+  EXPECT_EQ(changed.starts, whole.starts);
+  EXPECT_EQ(changed.columns, whole.columns);
+  EXPECT_EQ(changed.values, whole.values);
+  EXPECT_EQ(changed.diagonal, whole.diagonal);
+}
+
+/// A sheet that hangs from one side, falls for a step of 1/60 s, and what its solver leaves over.
+struct Step {
+  explicit Step(const ClothMesh& mesh) {
+    std::srand(3);
+    starts = mesh.rest_positions + 1e-3 * Matrix3X<double>::Random(3, mesh.num_nodes());
+    targets = starts;
+    for (int i = 0; i < mesh.num_nodes(); ++i) targets(1, i) -= 9.81 * h * h;
+    for (const int node : mesh.pinned) targets.col(node) = starts.col(node);
+  }
+  double residual(ImplicitSolver<double>& solver) {
+    places = starts;
+    solver.solve({targets, starts, h, h}, {2, 4}, places);
+    return solver.residual();
+  }
+  double h = 1.0 / 60;
+  Matrix3X<double> starts, targets, places;
+};
+
+TEST(TornSolver, ConvergesRightAfterATearAndIsRenewedToTheBit) {
+  const int n = 40;
+  const ClothMesh mesh = cloth(n);
+  const SpringNetwork network = make_network(mesh, kLaws);
+  ImplicitSolver<double> solver(network, mesh.masses, free_flags(mesh), 1.0 / 60);
+  const Tear tear = cut_along(mesh, cut_at(n, 3));
+  const std::vector<char> is_changed = flags_of(tear);
+  const SpringNetwork springs = make_network_at(is_changed, tear.mesh, kLaws);
+  solver.tear(springs, is_changed, tear.mesh.masses, tear.origins);
+  SpringNetwork torn = network;
+  replace_springs(is_changed, springs, torn);
+  ImplicitSolver<double> fresh(torn, tear.mesh.masses, free_flags(tear.mesh), 1.0 / 60);
+  Step after(tear.mesh);
+  Step expected(tear.mesh);
+  const double residual = after.residual(solver);
+  const double of_fresh = expected.residual(fresh);
+  // The old correction ties both sides of the cut together: allowed to leave twice as much, and less than a
+  // hundredth of what the step began with.
+  EXPECT_LT(residual, 2 * of_fresh);
+  EXPECT_LT(residual, 0.01);
+  EXPECT_FALSE(solver.is_renewed());
+  int num_parts = 0;
+  while (!solver.is_renewed()) {
+    solver.renew({&network, &is_changed, &springs}, tear.mesh.masses);
+    ASSERT_LT(++num_parts, 20);
+  }
+  EXPECT_GT(num_parts, 8);  // so that none is long
+  // What is left to differ is the order of some sums.
+  EXPECT_NEAR(after.residual(solver), of_fresh, 1e-3 * of_fresh);
+  EXPECT_LT((after.places - expected.places).norm(),
+            1e-6 * (expected.places - expected.starts).norm());
+}
+
+TEST(TornSolver, TearsWhileItIsRenewed) {
+  const int n = 30;
+  ClothMesh mesh = cloth(n);
+  SpringNetwork network = make_network(mesh, kLaws);
+  ImplicitSolver<double> solver(network, mesh.masses, free_flags(mesh), 1.0 / 60);
+  for (int k = 0; k < 5; ++k) {
+    const Tear tear = cut_along(mesh, cut_at(n, k));
+    const std::vector<char> is_changed = flags_of(tear);
+    const SpringNetwork springs = make_network_at(is_changed, tear.mesh, kLaws);
+    solver.tear(springs, is_changed, tear.mesh.masses, tear.origins);
+    replace_springs(is_changed, springs, network);
+    mesh = tear.mesh;
+    const SpringNetwork none;
+    const std::vector<char> nowhere;
+    for (int part = 0; part < 5; ++part) solver.renew({&network, &nowhere, &none}, mesh.masses);
+    EXPECT_LT(Step(mesh).residual(solver), 0.02) << k;
+  }
+  EXPECT_FALSE(solver.is_renewed());
+}
+
+TEST(TornSolver, GivesTheSameBitsForAnyNumberOfThreads) {
+  const int n = 60;
+  const ClothMesh mesh = cloth(n);
+  const SpringNetwork network = make_network(mesh, {kLaws[0]});
+  const Tear tear = cut_along(mesh, cut_at(n, 2));
+  const std::vector<char> is_changed = flags_of(tear);
+  const SpringNetwork springs = make_network_at(is_changed, tear.mesh, {kLaws[0]});
+  std::vector<Matrix3X<double>> places;
+  for (const int threads : {1, 4}) {
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+      ImplicitSolver<double> solver(network, mesh.masses, free_flags(mesh), 1.0 / 60);
+      solver.tear(springs, is_changed, tear.mesh.masses, tear.origins);
+      Step step(tear.mesh);
+      for (int part = 0; part < 20; ++part) {
+        solver.renew({&network, &is_changed, &springs}, tear.mesh.masses);
+        (void)step.residual(solver);
+      }
+      places.push_back(step.places);
+    });
+  }
+  EXPECT_EQ(places[0], places[1]);
+}
+
+TEST(MeshPart, HasEveryElementOfAWantedNode) {
+  const ClothMesh mesh = cloth(12);
+  std::vector<char> is_wanted(static_cast<std::size_t>(mesh.num_nodes()), 0);
+  is_wanted[65] = 1;
+  const MeshPart part = part_around(mesh, is_wanted);
+  EXPECT_TRUE(std::is_sorted(part.nodes.begin(), part.nodes.end()));
+  for (std::size_t s = 0; s < mesh.edge_sets.size(); ++s) {
+    int expected = 0;
+    for (const auto edge : mesh.edge_sets[s].edges.colwise()) {
+      expected += edge[0] == 65 || edge[1] == 65 ? 1 : 0;
+    }
+    EXPECT_EQ(part.mesh.edge_sets[s].name, mesh.edge_sets[s].name);
+    EXPECT_EQ(part.mesh.edge_sets[s].edges.cols(), expected);
+  }
+  EXPECT_EQ(part.mesh.rest_positions, mesh.rest_positions(Eigen::all, part.nodes));
+  EXPECT_LT(part.mesh.triangles.cols(), 60);
+  EXPECT_GT(part.mesh.crossed_triangles.cols(), 0);
+}
+
+}  // namespace
+}  // namespace weft::fast
