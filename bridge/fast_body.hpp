@@ -86,7 +86,7 @@ class FastBody {
   /// kClothContactSweeps says, for what one body does to another would be lost otherwise.
   void place(btSoftBody& body, btScalar time_step);
   void project_cloth_contacts(btSoftBody& body);
-  static constexpr int kClothContactSweeps = 8;
+  static constexpr int kClothContactSweeps = 16;
   /// Velocities from m_x.
   void end_solve(btSoftBody& body, btScalar time_step);
   /// [s] What the end of this step's velocity counts of a rate: BDF2 takes two thirds of the step, and the rest from the steps before.
