@@ -177,7 +177,6 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
                                           -1, -1);
     add_rigid_contacts(body, object, time_step, found_);
   }
-  deep_.clear();
   const btScalar depth = kDepthShare * body.getCollisionShape()->getMargin();
   std::erase_if(found_, [&](const RigidContact& found) {
     const btScalar gap = btDot(found.normal, body.m_nodes[found.node].m_x) - found.offset;
