@@ -52,6 +52,7 @@ struct SoftBodySolver::Attachments {
   std::vector<Attachment*> stepped;  ///< fast bodies of the present step
   std::vector<Attachment*> asked;    ///< of those, that contacts are still looked for
   std::vector<std::unique_ptr<ContactEntry>> contacts;
+  HullTable hulls;  ///< of rigid objects that bodies have met
 };
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -11,13 +11,6 @@ inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
 constexpr btScalar kFar = std::numeric_limits<btScalar>::max();
-bool meet(const MotionBox& a, const MotionBox& b) {
-  int apart = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    apart |= static_cast<int>(a.low[k] > b.high[k]) | static_cast<int>(b.low[k] > a.high[k]);
-  }
-  return apart == 0;
-}
 
 /// Things into parts of about equal size: halves by the place of their centres along the longest
 /// extent of these, as often as it takes. parts gets the end of each.
@@ -60,6 +53,14 @@ std::vector<std::size_t> divide(const std::vector<btVector3>& centers, std::size
 }
 
 }  // namespace
+
+bool meet(const MotionBox& a, const MotionBox& b) {
+  int apart = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    apart |= static_cast<int>(a.low[k] > b.high[k]) | static_cast<int>(b.low[k] > a.high[k]);
+  }
+  return apart == 0;
+}
 
 MotionBox MotionBox::of(const btSoftBody::Node& node, const btVector3& shift) {
   const btVector3 start = node.m_q + shift;

@@ -24,6 +24,9 @@ struct MotionBox {
   [[nodiscard]] MotionBox grown(btScalar distance) const;
 };
 
+/// Whether two boxes have a place in common.
+[[nodiscard]] bool meet(const MotionBox& a, const MotionBox& b);
+
 /// Nodes of a body in groups of neighbours, decided once from where they are at first.
 class NodeGroups {
  public:

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 
 #include <weft/bridge/energy_limit.hpp>
 #include <weft/bridge/node_state.hpp>
@@ -98,6 +99,7 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
   }
   contacts_.clear();
   obstacles_.clear();
+  are_ways_known_ = false;
   excess_ = 0;
   wake();
 }
@@ -135,6 +137,7 @@ void FastBody::predict(btSoftBody& body, btScalar time_step) {
   starts_.colwise() -= origin_;
   contacts_.clear();
   obstacles_.clear();
+  are_ways_known_ = false;
   if (num_steps_++ % kCoveredSteps == 0) {
     cover_motion(body, start_velocities_, last_velocities_, time_step);
   }
@@ -158,11 +161,13 @@ void FastBody::publish_bounds(btSoftBody& body) const {
 }
 
 void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& object,
-                       btScalar time_step) {
+                       HullTable& hulls, btScalar time_step) {
   if ((body.m_cfg.collisions & btSoftBody::fCollision::SDF_RS) == 0) return;
-  obstacles_.push_back(
-      {object.getCollisionObject(), object.getCollisionShape(), object.getWorldTransform()});
-  add_rigid_contacts(body, object, time_step, contacts_);
+  obstacles_.push_back({object.getCollisionObject(), object.getCollisionShape(),
+                        object.getWorldTransform(), hulls.find(*object.getCollisionShape())});
+  if (!are_ways_known_) ways_.update(body);
+  are_ways_known_ = true;
+  add_rigid_contacts(body, ways_, obstacles_.back(), time_step, contacts_);
 }
 
 // Those that are known again, and those that the solution keeps to anyway, are left out.
@@ -172,10 +177,9 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
   const std::size_t num_known = contacts_.size();
   write_places(body);
   found_.clear();
+  ways_.update(body);
   for (const Obstacle& obstacle : obstacles_) {
-    const btCollisionObjectWrapper object(nullptr, obstacle.shape, obstacle.object, obstacle.place,
-                                          -1, -1);
-    add_rigid_contacts(body, object, time_step, found_);
+    add_rigid_contacts(body, ways_, obstacle, time_step, found_);
   }
   const btScalar depth = kDepthShare * body.getCollisionShape()->getMargin();
   std::erase_if(found_, [&](const RigidContact& found) {
@@ -460,7 +464,7 @@ void FastBody::look_again(btSoftBody& body, btScalar time_step) {
 
 bool FastBody::looks_alone() const {
   return std::none_of(obstacles_.begin(), obstacles_.end(), [](const Obstacle& obstacle) {
-    return needs_distance_field(*obstacle.shape);
+    return needs_distance_field(*obstacle.shape, obstacle.facets);
   });
 }
 

@@ -72,7 +72,8 @@ class FastBody {
   /// After predict(): bounds that hold the whole way of each node, for the broadphase too.
   void publish_bounds(btSoftBody& body) const;
   /// In place of btSoftBody::defaultCollisionHandler.
-  void collide(const btSoftBody& body, const btCollisionObjectWrapper& object, btScalar time_step);
+  void collide(const btSoftBody& body, const btCollisionObjectWrapper& object, HullTable& hulls,
+               btScalar time_step);
   /// In place of btSoftBody::solveConstraints, in parts. begin_solve() and solve_again() touch only the body, so that
   /// those of several bodies may run at the same time; the others look things up in the world and push rigid bodies.
   void begin_solve(btSoftBody& body, btScalar time_step);
@@ -145,13 +146,9 @@ class FastBody {
   int num_steps_ = 0;
   double excess_ = 0;                ///< energy in springs that nothing has put in [J]
   bool is_contact_missing_ = false;  ///< in the present solution, for all that is known
-  /// What the body's bounds have met in this step.
-  struct Obstacle {
-    const btCollisionObject* object;
-    const btCollisionShape* shape;
-    btTransform place;
-  };
-  std::vector<Obstacle> obstacles_;
+  std::vector<Obstacle> obstacles_;  ///< of this step
+  NodeWays ways_;
+  bool are_ways_known_ = false;  ///< from m_q to m_x as they are
   std::vector<RigidContact> contacts_;
   std::vector<RigidContact> found_;  ///< of a second look
   std::vector<RigidContact>

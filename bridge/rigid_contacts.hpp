@@ -1,11 +1,13 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletSoftBody/btSoftBody.h>
 
+#include <weft/bridge/face_tree.hpp>
 #include <weft/bridge/precision.hpp>
+#include <weft/bridge/surface_distance.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -20,18 +22,38 @@ struct RigidContact {
   const btCollisionShape* shape = nullptr;  ///< the part of the object that it is with
 };
 
-/// False for balls and boxes: contacts with these may be looked for from several threads at the same time. Bullet's
-/// distance field of other shapes is filled as it is asked.
-[[nodiscard]] bool needs_distance_field(const btCollisionShape& shape);
+/// What a body's bounds meet: a whole object, or a part of it.
+struct Obstacle {
+  const btCollisionObject* object;
+  const btCollisionShape* shape;
+  btTransform place;
+  const HullFacets* facets;  ///< of a hull, or nullptr
+};
 
-/// Appends the contacts of a body's nodes with an object, between btSoftBody::predictMotion and
-/// solveConstraints of a step of time_step [s].
+/// A body's nodes by where their ways lead.
+class NodeWays {
+ public:
+  /// From m_q to m_x. Takes new memory only if the number of nodes is another.
+  void update(const btSoftBody& body);
+  /// Boxes of groups of nodes, as NodeGroups has them.
+  [[nodiscard]] const std::vector<MotionBox>& boxes() const { return boxes_; }
+  [[nodiscard]] std::span<const int> group(std::size_t g) const { return groups_[g]; }
+  [[nodiscard]] const MotionBox& all() const { return all_; }
+
+ private:
+  NodeGroups groups_;
+  std::vector<MotionBox> boxes_;
+  MotionBox all_ = MotionBox::nowhere();
+};
+
+/// Appends the contacts of a body's nodes with an obstacle, between btSoftBody::predictMotion and
+/// solveConstraints of a step of time_step [s]. ways: of the body as it is.
 ///
-/// Nodes are looked up at the predicted place, up to twice the collision margin: in Bullet's distance field of the
-/// shape, as Bullet does, or exactly. A node that travels farther than the margin is followed along
+/// Nodes are looked up at the predicted place, up to twice the collision margin: exactly (surface_distance()), or in
+/// Bullet's distance field of the shape, as Bullet does. A node that travels farther than the margin is followed along
 /// its way, relative to the object, and stopped at the surface that it meets first: however thin the
 /// object, it is not shot through. Pinned and anchored nodes are left out.
-void add_rigid_contacts(const btSoftBody& body, const btCollisionObjectWrapper& object,
+void add_rigid_contacts(const btSoftBody& body, const NodeWays& ways, const Obstacle& obstacle,
                         btScalar time_step, std::vector<RigidContact>& contacts);
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -6,6 +6,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/attachment.hpp>
@@ -281,6 +282,7 @@ void SoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool fo
 void SoftBodySolver::predictMotion(btScalar time_step) {
   const TraceScope trace("predict motion");
   time_step_ = time_step;
+  attachments_->hulls.begin_step();
   for (const auto& entry : attachments_->contacts) entry->contact.begin_step();
   for (const auto& attachment : attachments_->list) {
     if (attachment->fast && attachment->was_in_world)
@@ -408,7 +410,7 @@ void SoftBodySolver::processCollision(btSoftBody* body, const btCollisionObjectW
   }
   if (is_still(*body)) return;
   if (attachment && attachment->fast) {
-    attachment->fast->collide(*body, *object, time_step_);
+    attachment->fast->collide(*body, *object, attachments_->hulls, time_step_);
   } else {
     btDefaultSoftBodySolver::processCollision(body, object);
   }
