@@ -7,6 +7,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/fast_body.hpp>
+#include <weft/bridge/rigid_response.hpp>
 #include <weft/bridge/solver.hpp>
 #include <weft/custom_forces/deferred_forces.hpp>
 
@@ -28,10 +29,15 @@ struct SoftBodySolver::Attachment {
   std::optional<BodyBlowUp> blow_up;
   PositionLimits limits;
   std::unique_ptr<FastBody> fast;  // none: Bullet's own constraints
+  ContactResponse contact_response = ContactResponse::kCoulomb;
+  RigidResponse rigid_response;
   bool was_in_world = false;
   bool is_suspended = false;
   double time = 0.0;  // [s] of the steps since the body was attached
 
+  [[nodiscard]] bool has_coulomb_contacts() const {
+    return !fast && contact_response == ContactResponse::kCoulomb && body->m_links.size() == 0;
+  }
   [[nodiscard]] bool acts_after_projection(forces::LawTraits::Level level) const;
   void add_forces(btScalar time_step);
   void begin_forces();

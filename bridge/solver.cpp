@@ -256,6 +256,17 @@ long SoftBodySolver::num_recomputed(const btSoftBody& body) const {
   return attachment ? attachment->deferred.num_recomputed() : 0;
 }
 
+void SoftBodySolver::set_contact_response(btSoftBody& body, ContactResponse response) {
+  Attachment* attachment = find(body);
+  if (!attachment || attachment->fast) {
+    throw InvalidArgument(
+        "the body has no attached laws, or implicit springs, which have contacts of their own; "
+        "expected attach() before "
+        "set_contact_response()");
+  }
+  attachment->contact_response = response;
+}
+
 bool SoftBodySolver::has_laws(const btSoftBody& body) const {
   return find(body) != nullptr;
 }
@@ -291,6 +302,7 @@ void SoftBodySolver::predictMotion(btScalar time_step) {
   for_bodies([&](btSoftBody& body, Attachment* attachment) {
     if (!attachment) return;
     attachment->add_forces(time_step);
+    attachment->rigid_response.begin_step();
     if (attachment->fast && !attachment->blow_up) attachment->fast->predict(body, time_step);
   });
   for (int i = 0; i < m_softBodySet.size(); ++i) {
@@ -362,7 +374,12 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
     btSoftBody& body = *m_softBodySet[i];
     if (!body.isActive() || is_still(body) || is_fast(body)) continue;
     if (ClothContact* contact = find_contact(body)) contact->add_self_contacts(body, time_step_);
-    body.solveConstraints();
+    Attachment* const attachment = find(body);
+    if (attachment && attachment->has_coulomb_contacts()) {
+      attachment->rigid_response.solve(body);
+    } else {
+      body.solveConstraints();
+    }
   }
   settle_contact_velocities();
   for_bodies([&](btSoftBody& body, Attachment* attachment) {
@@ -411,6 +428,8 @@ void SoftBodySolver::processCollision(btSoftBody* body, const btCollisionObjectW
   if (is_still(*body)) return;
   if (attachment && attachment->fast) {
     attachment->fast->collide(*body, *object, attachments_->hulls, time_step_);
+  } else if (attachment && attachment->has_coulomb_contacts()) {
+    attachment->rigid_response.collide(*body, *object, attachments_->hulls, time_step_);
   } else {
     btDefaultSoftBodySolver::processCollision(body, object);
   }

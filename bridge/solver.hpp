@@ -45,6 +45,12 @@ enum class DampingPlace {
   kAfterProjection,
 };
 
+/// How a body with laws and without links meets rigid objects.
+enum class ContactResponse {
+  kCoulomb,  ///< pushed to the surface and no farther, friction by Coulomb: RigidResponse
+  kBullet,   ///< contacts from Bullet's distance fields, and Bullet's visits to them
+};
+
 /// Weft's forces in Bullet's classic soft-body world, through Bullet's own extension point.
 ///
 ///   SoftBodySolver solver;
@@ -57,6 +63,7 @@ enum class DampingPlace {
 /// * velocity-level and inertia-level laws act where DampingPlace says; by default velocity-level
 ///   laws act on m_v after btSoftBody::solveConstraints, for Bullet derives velocities from
 ///   positions there and would lose one that was written before,
+/// * contacts with rigid objects are ContactResponse::kCoulomb, unless Bullet's links hold the body,
 /// * a state that is not finite, or faster than kMaxSpeed, freezes the body and is reported; Bullet
 ///   would go on to look up contacts at that place and crash.
 ///
@@ -132,6 +139,9 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   /// and contacts, and before damping (position_limits.hpp). Throws InvalidArgument for limits that do
   /// not fit the body and for a body without attached laws.
   void set_position_limits(btSoftBody& body, PositionLimits limits);
+
+  /// Throws InvalidArgument for a body without attach().
+  void set_contact_response(btSoftBody& body, ContactResponse response);
 
   /// Whether the body is stepped: suspended, it has no laws, links and contacts, and stays where it is
   /// or is put (place_body()); other bodies do not meet it. Going on, its first step starts from there;
