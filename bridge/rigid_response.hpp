@@ -14,8 +14,9 @@ inline namespace WEFT_BULLET_PRECISION {
 /// Contacts of a body with rigid objects by the laws of Signorini and Coulomb, in the place of Bullet's visits: a node
 /// is pushed as far as the surface and no farther, and sideways held by kDF * friction times that push at most.
 ///
-/// Bullet takes away a node's approach and its depth: on average a node that lands leaves with half its speed. And it
-/// takes the share kDF * friction of the sideways motion per visit, however lightly the node is pressed.
+/// Bullet takes away a node's approach and kKHR or kCHR of its depth: a node stops where it was before the step and leaves with
+/// up to that share of its speed. And it takes the share kDF * friction of the sideways motion per visit, however
+/// lightly the node is pressed.
 class RigidResponse {
  public:
   void begin_step() { are_ways_known_ = false; }

@@ -33,7 +33,7 @@ std::string SweepEngine::id(const std::string& run) const {
 }
 
 bool SweepEngine::has_coulomb_friction() const {
-  return choice.engine == "bullet_deformable" || choice.engine == "bullet_weft";
+  return choice.engine != "bullet_soft";
 }
 
 std::vector<SweepEngine> sweep_engines(const CollisionScene& scene, bool with_bullet) {

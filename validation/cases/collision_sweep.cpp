@@ -64,7 +64,7 @@ Tolerance gap_of(const EngineChoice& engine, bool at_rest) {
             "motion; at rest, where damping has no say, 0.2 %, and 0.8 % after sliding"};
   }
   return {kSweepGap, Basis::kModelGap,
-          "same forces, but contact with a sampled distance field, one visit after the other; "
+          "same forces, but planes of contact that are held to the end of a step; "
           "measured up to 0.6 % in motion, 0.4 % at rest"};
 }
 

@@ -85,7 +85,7 @@ constexpr KnownDeparture kDepartures[] = {
     {"", "bullet_soft", "final shape",
      "Bullet's links are projected one after the other: their stiffness follows the map of N/m "
      "exactly for a link on its own, and depends on order, iterations and time step in a mesh"},
-    {"drop_ground", "bullet_forces", "where a sliding cloth stops",
+    {"drop_ground", "bullet_soft", "where a sliding cloth stops",
      "Bullet's friction is not Coulomb's while a node slides: each contact visit takes away a "
      "fixed "
      "share of the sideways motion, so that the cloth stops almost at once; the reference slides "

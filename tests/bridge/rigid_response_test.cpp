@@ -1,0 +1,172 @@
+// Contacts of cloth with force laws: Signorini's and Coulomb's laws, and that Bullet's own visits do not follow them.
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+
+#include <weft/bridge/cloth_body.hpp>
+#include <weft/bridge/node_state.hpp>
+#include <weft/bridge/soft_world.hpp>
+#include <weft/custom_forces/core/error.hpp>
+
+namespace weft::bridge {
+namespace {
+
+constexpr double kTimeStep = 1.0 / 1000;  // [s]
+constexpr double kMargin = 0.01;          // [m]
+constexpr double kGravity = 9.81;         // [m/s^2]
+
+/// A flat cloth along a slope through the origin, lifted [m] over where it would touch, in Bullet's world with laws.
+class Slope {
+ public:
+  Slope(double angle, double friction, double lift, ContactResponse response) {
+    down_ = {std::cos(angle), -std::sin(angle), 0};
+    normal_ = {std::sin(angle), std::cos(angle), 0};
+    ClothGrid grid;
+    grid.nodes = {6, 6};
+    grid.size = {0.5, 0.5};
+    grid.u_axis = down_;
+    grid.center = normal_ * (kMargin + lift);
+    grid.total_mass = 0.1;
+    const ClothMesh mesh = make_cloth_grid(grid);
+    masses_ = mesh.masses;
+    body_ = &world_.add(
+        make_cloth_body(world_.info(), mesh, {.collision_margin = kMargin, .friction = friction}));
+    world_.solver().attach(*body_, mesh,
+                           {{"gravity", {}, {{"acceleration", {0.0, -kGravity, 0.0}}}},
+                            {"tension", {}, {{"stiffness", {20.0}}}}});
+    world_.solver().set_contact_response(*body_, response);
+    btTransform place(btQuaternion(btVector3(0, 0, 1), static_cast<btScalar>(-angle)));
+    place.setOrigin(place.getBasis() * btVector3(0, -1, 0));
+    add(std::make_shared<btBoxShape>(btVector3(10, 1, 10)), 0, place);
+  }
+  btRigidBody& add(std::shared_ptr<btCollisionShape> shape, double mass, const btTransform& place) {
+    btVector3 inertia(0, 0, 0);
+    if (mass > 0) shape->calculateLocalInertia(static_cast<btScalar>(mass), inertia);
+    btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(mass), nullptr, shape.get(),
+                                                  inertia);
+    info.m_startWorldTransform = place;
+    info.m_friction = 1;
+    return world_.add(std::make_unique<btRigidBody>(info), std::move(shape));
+  }
+  void push(double speed) {
+    for (int i = 0; i < body_->m_nodes.size(); ++i) {
+      const Vector3<btScalar> v = (speed * down_).cast<btScalar>();
+      body_->m_nodes[i].m_v = btVector3(v[0], v[1], v[2]);
+    }
+  }
+  void step(int num_steps) {
+    for (int i = 0; i < num_steps; ++i) world_.step(kTimeStep);
+  }
+  /// Of the middle, [m] and [m/s].
+  [[nodiscard]] double way() const { return down_.dot(mean(0)); }
+  [[nodiscard]] double speed() const { return down_.dot(mean(1)); }
+  /// Largest speed of a node away from the slope [m/s].
+  [[nodiscard]] double leaving_speed() const { return (normal_.transpose() * read(1)).maxCoeff(); }
+  [[nodiscard]] double largest_speed() const { return read(1).colwise().norm().maxCoeff(); }
+  /// Smallest distance of a node from where it touches [m].
+  [[nodiscard]] double depth() const {
+    return kMargin - (normal_.transpose() * read(0)).minCoeff();
+  }
+  [[nodiscard]] Vector3<double> momentum() const { return read(1) * masses_; }
+  [[nodiscard]] SoftWorld& world() { return world_; }
+  [[nodiscard]] btSoftBody& body() { return *body_; }
+
+ private:
+  [[nodiscard]] Matrix3X<double> read(int what) const {
+    Matrix3X<btScalar> x;
+    Matrix3X<btScalar> v;
+    read_nodes(*body_, x, v);
+    return (what == 0 ? x : v).cast<double>();
+  }
+  [[nodiscard]] Vector3<double> mean(int what) const {
+    return read(what) * masses_ / masses_.sum();
+  }
+
+  SoftWorld world_{SoftWorldSettings{}};
+  Vector3<double> down_;
+  Vector3<double> normal_;
+  VectorX<double> masses_;
+  btSoftBody* body_;
+};
+
+double radians(double degrees) {
+  return degrees * std::numbers::pi / 180;
+}
+
+// tan(16.7 deg) = 0.3. What is left of the weight there is a hundredth of what single precision resolves per step.
+TEST(RigidResponse, SticksBelowTheThresholdAndSlidesAboveItAsCoulombSays) {
+  for (const double angle : {5.0, 15.0, 18.5, 30.0}) {
+    Slope slope(radians(angle), 0.3, 0, ContactResponse::kCoulomb);
+    slope.step(500);
+    const double pull = std::sin(radians(angle)) - 0.3 * std::cos(radians(angle));
+    if (pull < 0) {
+      EXPECT_LT(slope.largest_speed(), 1e-3) << angle;
+    } else {
+      EXPECT_NEAR(slope.speed(), 0.5 * kGravity * pull, 0.03 * 0.5 * kGravity * pull) << angle;
+    }
+  }
+}
+
+TEST(RigidResponse, StopsASlidingClothAfterItsWay) {
+  const auto error = [](ContactResponse response) {
+    Slope slope(0, 0.4, 0, response);
+    slope.push(1);
+    slope.step(500);
+    EXPECT_LT(slope.largest_speed(), 1e-3);
+    return std::abs(slope.way() - 1 / (2 * 0.4 * kGravity));
+  };
+  EXPECT_LT(error(ContactResponse::kCoulomb), 1 * kTimeStep);  // v h of a sum over steps
+  EXPECT_GT(error(ContactResponse::kBullet), 0.1);
+}
+
+// It falls 2 cm and arrives with 0.63 m/s, all nodes in the same step; how deep that step would lead depends on the height.
+TEST(RigidResponse, LandsWithoutABounce) {
+  const auto leaving_speed = [](ContactResponse response) {
+    double most = 0;
+    for (int k = 0; k < 10; ++k) {
+      const double lift = 0.02 + k * 0.63e-4;  // a step's way is 0.63 mm
+      Slope slope(0, 0.4, lift, response);
+      for (int i = 0; i < 100; ++i) {
+        slope.step(1);
+        most = std::max(most, slope.leaving_speed());
+        EXPECT_LT(slope.depth(), 1e-6);
+      }
+    }
+    return most;
+  };
+  EXPECT_LT(leaving_speed(ContactResponse::kCoulomb), 1e-3);
+  EXPECT_GT(leaving_speed(ContactResponse::kBullet), 0.03);  // hardness 0.1 times 0.63 m/s at most
+}
+
+TEST(RigidResponse, GivesABallTheMomentumThatTheClothLoses) {
+  Slope scene(0, 0.4, 1.0, ContactResponse::kCoulomb);
+  btTransform place = btTransform::getIdentity();
+  place.setOrigin(btVector3(btScalar(0.03), btScalar(0.85), btScalar(0.02)));
+  btRigidBody& ball = scene.add(std::make_shared<btSphereShape>(btScalar(0.1)), 0.5, place);
+  ball.setActivationState(DISABLE_DEACTIVATION);
+  ball.setGravity(btVector3(0, 0, 0));
+  ball.setLinearVelocity(btVector3(btScalar(0.3), 2, 0));
+  const double ball_before = 0.5 * static_cast<double>(ball.getLinearVelocity().y());
+  const double cloth_before = scene.momentum()[1];
+  scene.step(60);
+  const double lost = ball_before - 0.5 * static_cast<double>(ball.getLinearVelocity().y());
+  const double won = scene.momentum()[1] - cloth_before + 0.1 * kGravity * 0.06;
+  EXPECT_GT(lost, 0.02);  // they have met
+  // Single precision: velocities are differences of places of 1 m, each off by eps x / h = 6e-5 m/s; 2e-3 of 0.1 kg times the
+  // root of 60 steps of them.
+  EXPECT_NEAR(won, lost, sizeof(btScalar) == sizeof(float) ? 5e-3 * lost : 1e-6 * lost);
+}
+
+TEST(RigidResponse, IsOfBodiesWithLawsOnly) {
+  Slope slope(0, 0.4, 0, ContactResponse::kCoulomb);
+  slope.world().solver().detach(slope.body());
+  EXPECT_THROW(slope.world().solver().set_contact_response(slope.body(), ContactResponse::kBullet),
+               InvalidArgument);
+}
+
+}  // namespace
+}  // namespace weft::bridge
