@@ -44,8 +44,8 @@ void RigidResponse::collide(btSoftBody& body, const btCollisionObjectWrapper& ob
     contact.m_cti.m_colObj = &collision_object;
     contact.m_cti.m_normal = found.normal;
     contact.m_cti.m_offset = -found.offset;
-    if (!collision_object
-             .isStaticOrKinematicObject()) {  // where the object begins, as Bullet has it
+    // Where the object begins, as Bullet has it.
+    if (!collision_object.isStaticOrKinematicObject()) {
       contact.m_cti.m_offset += btDot(found.normal, found.motion);
     }
     contact.m_node = &body.m_nodes[found.node];
@@ -56,7 +56,6 @@ void RigidResponse::collide(btSoftBody& body, const btCollisionObjectWrapper& ob
     contact.m_c3 = 0;  // Bullet's shares of friction and depth: not used
     contact.m_c4 = 0;
     body.m_rcontacts.push_back(contact);
-    if (rigid != nullptr) rigid->activate();
   }
 }
 
@@ -86,25 +85,38 @@ btScalar RigidResponse::visit(const btSoftBody& body, const btSoftBody::RContact
   given = {push, hold};
   const btVector3 impulse = contact.m_c0 * change;
   node.m_x += impulse * contact.m_c2;
-  if (rigid != nullptr) rigid->applyImpulse(-impulse, contact.m_c1);
+  if (rigid != nullptr && !change.isZero()) {
+    rigid->activate();
+    rigid->applyImpulse(-impulse, contact.m_c1);
+  }
   return change.length();
 }
 
-void RigidResponse::solve(btSoftBody& body) {
-  const int num_contacts = body.m_rcontacts.size();
-  given_.assign(static_cast<std::size_t>(num_contacts), Given{});
+void RigidResponse::visit_all(btSoftBody& body) {
   const btScalar rest = kRest * body.getCollisionShape()->getMargin();
   for (int round = 0; round < body.m_cfg.piterations; ++round) {
     btScalar most = 0;
-    for (int i = 0; i < num_contacts; ++i) {
-      most = std::max(most, visit(body, body.m_rcontacts[i], given_[static_cast<std::size_t>(i)]));
+    for (std::size_t i = 0; i < given_.size(); ++i) {
+      most = std::max(most, visit(body, body.m_rcontacts[static_cast<int>(i)], given_[i]));
     }
     if (most <= rest) break;
   }
+}
+
+void RigidResponse::solve(btSoftBody& body) {
+  given_.assign(static_cast<std::size_t>(body.m_rcontacts.size()), Given{});
+  visit_all(body);
   contacts_.copyFromArray(body.m_rcontacts);
   body.m_rcontacts.resizeNoInitialize(0);
   body.solveConstraints();
   body.m_rcontacts.copyFromArray(contacts_);
+  if (body.m_scontacts.size() == 0) return;
+  // A layer above may have pushed nodes in again.
+  visit_all(body);
+  for (int i = 0; i < body.m_rcontacts.size(); ++i) {
+    btSoftBody::Node& node = *body.m_rcontacts[i].m_node;
+    node.m_v = (node.m_x - node.m_q) * body.m_sst.isdt;
+  }
 }
 
 }  // namespace WEFT_BULLET_PRECISION

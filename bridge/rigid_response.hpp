@@ -36,6 +36,8 @@ class RigidResponse {
   /// How far the node had to be moved [m].
   btScalar visit(const btSoftBody& body, const btSoftBody::RContact& contact, Given& given) const;
 
+  void visit_all(btSoftBody& body);
+
   NodeWays ways_;
   bool are_ways_known_ = false;  ///< of this step
   std::vector<RigidContact> found_;
