@@ -36,7 +36,7 @@ struct SoftBodySolver::Attachment {
   double time = 0.0;  // [s] of the steps since the body was attached
 
   [[nodiscard]] bool has_coulomb_contacts() const {
-    return !fast && contact_response == ContactResponse::kCoulomb && body->m_links.size() == 0;
+    return !fast && contact_response == ContactResponse::kCoulomb && RigidResponse::fits(*body);
   }
   [[nodiscard]] bool acts_after_projection(forces::LawTraits::Level level) const;
   void add_forces(btScalar time_step);

@@ -27,7 +27,7 @@ struct ClothSettings {
   /// kKHR, kCHR [-], 0 to 1: how much of the predicted depth one contact visit takes back, on top
   /// of the whole approach. 1 looks natural and is wrong: Bullet takes the approach back and then
   /// the depth as well, so that a node leaves the surface with up to the speed it came with.
-  /// Bullet's default for fixed bodies is 0.1.
+  /// Bullet's default for fixed bodies is 0.1. Only for ContactResponse::kBullet.
   double contact_hardness = 0.1;
   std::vector<LinkSet> links = {};  ///< none: all tension comes from attached laws
   double time_step =

@@ -167,7 +167,7 @@ void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& o
                         object.getWorldTransform(), hulls.find(*object.getCollisionShape())});
   if (!are_ways_known_) ways_.update(body);
   are_ways_known_ = true;
-  add_rigid_contacts(body, ways_, obstacles_.back(), time_step, contacts_);
+  add_rigid_contacts(body, ways_, obstacles_.back(), time_step, PinnedNodes::kLeftOut, contacts_);
 }
 
 // Those that are known again, and those that the solution keeps to anyway, are left out.
@@ -179,7 +179,7 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
   found_.clear();
   ways_.update(body);
   for (const Obstacle& obstacle : obstacles_) {
-    add_rigid_contacts(body, ways_, obstacle, time_step, found_);
+    add_rigid_contacts(body, ways_, obstacle, time_step, PinnedNodes::kLeftOut, found_);
   }
   const btScalar depth = kDepthShare * body.getCollisionShape()->getMargin();
   std::erase_if(found_, [&](const RigidContact& found) {

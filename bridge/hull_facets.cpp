@@ -104,6 +104,7 @@ SurfaceDistance HullFacets::distance(const Vector3<double>& place, double reach)
       nearest = &facet;
     }
   }
+  if (nearest == nullptr) return {reach, {0, 1, 0}};  // a place that is not finite is nowhere
   if (highest <= 0 || highest >= reach) return {highest, nearest->normal};
   // Outside, what is nearest lies in a facet that faces the place: over the place's foot, or on an edge.
   double least = std::numeric_limits<double>::max();

@@ -106,7 +106,8 @@ void NodeWays::update(const btSoftBody& body) {
 }
 
 void add_rigid_contacts(const btSoftBody& body, const NodeWays& ways, const Obstacle& obstacle,
-                        btScalar time_step, std::vector<RigidContact>& contacts) {
+                        btScalar time_step, PinnedNodes pinned,
+                        std::vector<RigidContact>& contacts) {
   if (!obstacle.object->hasContactResponse()) return;
   const btRigidBody* rigid = btRigidBody::upcast(obstacle.object);
   if (rigid != nullptr && rigid->getLinearVelocity().isZero() &&
@@ -124,10 +125,12 @@ void add_rigid_contacts(const btSoftBody& body, const NodeWays& ways, const Obst
   const MotionBox reached =
       rigid == nullptr ? box : box.grown(largest_motion(*rigid, ways.all(), time_step));
   if (!meet(reached, ways.all())) return;
+  const bool looks_at_pinned =
+      pinned == PinnedNodes::kWithDynamicObjects && !obstacle.object->isStaticOrKinematicObject();
   const bool needs_field = needs_distance_field(*obstacle.shape, obstacle.facets);
   const auto look_at = [&](int i) {
     const btSoftBody::Node& node = body.m_nodes[i];
-    if (node.m_im <= 0 || node.m_battach != 0) return;
+    if ((node.m_im <= 0 && !looks_at_pinned) || node.m_battach != 0) return;
     btVector3 motion(0, 0, 0);
     if (rigid != nullptr) {
       motion =

@@ -46,15 +46,18 @@ class NodeWays {
   MotionBox all_ = MotionBox::nowhere();
 };
 
+enum class PinnedNodes { kLeftOut, kWithDynamicObjects };
+
 /// Appends the contacts of a body's nodes with an obstacle, between btSoftBody::predictMotion and
 /// solveConstraints of a step of time_step [s]. ways: of the body as it is.
 ///
 /// Nodes are looked up at the predicted place, up to twice the collision margin: exactly (surface_distance()), or in
 /// Bullet's distance field of the shape, as Bullet does. A node that travels farther than the margin is followed along
 /// its way, relative to the object, and stopped at the surface that it meets first: however thin the
-/// object, it is not shot through. Pinned and anchored nodes are left out.
+/// object, it is not shot through. Anchored nodes are left out, and pinned ones if asked for.
 void add_rigid_contacts(const btSoftBody& body, const NodeWays& ways, const Obstacle& obstacle,
-                        btScalar time_step, std::vector<RigidContact>& contacts);
+                        btScalar time_step, PinnedNodes pinned,
+                        std::vector<RigidContact>& contacts);
 
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

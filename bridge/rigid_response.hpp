@@ -12,38 +12,53 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
 /// Contacts of a body with rigid objects by the laws of Signorini and Coulomb, in the place of Bullet's visits: a node
-/// is pushed as far as the surface and no farther, and sideways held by kDF * friction times that push at most.
+/// is pushed as far as the surface and no farther, and held sideways by kDF * friction times that impulse at most.
+/// kKHR and kCHR have no say. A node that is inside already when the step begins is put outside without getting a speed.
 ///
 /// Bullet takes away a node's approach and kKHR or kCHR of its depth: a node stops where it was before the step and leaves with
 /// up to that share of its speed. And it takes the share kDF * friction of the sideways motion per visit, however
 /// lightly the node is pressed.
 class RigidResponse {
  public:
-  void begin_step() { are_ways_known_ = false; }
-  /// In the place of btSoftBody::defaultCollisionHandler: contacts as add_rigid_contacts() finds them, into m_rcontacts.
-  void collide(btSoftBody& body, const btCollisionObjectWrapper& object, HullTable& hulls,
+  /// Whether a body's contacts can be solved so: without links, which would move the nodes afterwards, without clusters,
+  /// and with Bullet's positions solved alone.
+  [[nodiscard]] static bool fits(const btSoftBody& body);
+  /// False for links of a btMultiBody: Bullet's visits know how these give way.
+  [[nodiscard]] static bool knows(const btCollisionObject& object);
+
+  void begin_step();
+  /// In the place of btSoftBody::defaultCollisionHandler: contacts as add_rigid_contacts() finds them.
+  void collide(const btSoftBody& body, const btCollisionObjectWrapper& object, HullTable& hulls,
                btScalar time_step);
-  /// In the place of btSoftBody::solveConstraints. Contacts go first; then Bullet solves the rest: anchors and contacts
-  /// with cloth. For bodies without links, which would move the nodes afterwards. Dynamic objects get the impulses.
+  /// In the place of btSoftBody::solveConstraints. Contacts go first; then Bullet solves the rest: anchors, contacts
+  /// with cloth and with links of a btMultiBody. Dynamic objects get the impulses.
   void solve(btSoftBody& body);
+  [[nodiscard]] int num_contacts() const { return static_cast<int>(contacts_.size()); }
 
  private:
-  struct Given {
-    btScalar push = 0;        ///< along the normal, so far in this step [m]
-    btVector3 hold{0, 0, 0};  ///< sideways [m]
+  struct Contact {
+    btSoftBody::Node* node;
+    btVector3 normal;  ///< out of the object
+    btScalar
+        offset;  ///< of the plane where the object ends the step as it moves before it is pushed [m]
+    btVector3 surface;  ///< how far the object moves there in the step, before it is pushed [m]
+    btScalar friction;
+    btRigidBody* moving;   ///< or nullptr
+    btRigidBody* dynamic;  ///< the same, if impulses move it
+    btVector3 lever;       ///< from its centre of mass [m]
+    btMatrix3x3 impulses;  ///< from changes of the relative motion [m] to impulses [N s]
+    btVector3 impulse;     ///< on the node, so far in this step [N s]
   };
 
+  void leave_depths(const btSoftBody& body);
   /// How far the node had to be moved [m].
-  btScalar visit(const btSoftBody& body, const btSoftBody::RContact& contact, Given& given) const;
-
-  void visit_all(btSoftBody& body);
+  static btScalar visit(const btSoftBody& body, Contact& contact);
+  void visit_all(const btSoftBody& body);
 
   NodeWays ways_;
   bool are_ways_known_ = false;  ///< of this step
   std::vector<RigidContact> found_;
-  std::vector<Given> given_;  ///< of each contact
-  btAlignedObjectArray<btSoftBody::RContact>
-      contacts_;  ///< the body's, while Bullet solves the rest
+  std::vector<Contact> contacts_;
 };
 
 }  // namespace WEFT_BULLET_PRECISION

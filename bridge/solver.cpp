@@ -94,6 +94,7 @@ void SoftBodySolver::replace_laws(btSoftBody& body, LawSet laws, VectorX<btScala
   attachment->laws = std::move(laws);
   attachment->masses = std::move(masses);
   attachment->damping = old->damping;
+  attachment->contact_response = old->contact_response;
   attachment->blow_up = old->blow_up;
   attachment->was_in_world = old->was_in_world;
   attachment->is_suspended = old->is_suspended;
@@ -144,9 +145,10 @@ bool SoftBodySolver::is_fast(const btSoftBody& body) const {
 
 int SoftBodySolver::num_contacts(const btSoftBody& body) const {
   const Attachment* attachment = find(body);
-  const bool is_fast = attachment && attachment->fast;
-  return body.m_scontacts.size() +
-         (is_fast ? attachment->fast->num_contacts() : body.m_rcontacts.size());
+  const int num_with_cloth = body.m_scontacts.size();
+  if (attachment && attachment->fast) return num_with_cloth + attachment->fast->num_contacts();
+  const int num_own = attachment ? attachment->rigid_response.num_contacts() : 0;
+  return num_with_cloth + num_own + body.m_rcontacts.size();
 }
 
 void SoftBodySolver::replace_laws(btSoftBody& body, const ClothMesh& mesh,
@@ -428,7 +430,8 @@ void SoftBodySolver::processCollision(btSoftBody* body, const btCollisionObjectW
   if (is_still(*body)) return;
   if (attachment && attachment->fast) {
     attachment->fast->collide(*body, *object, attachments_->hulls, time_step_);
-  } else if (attachment && attachment->has_coulomb_contacts()) {
+  } else if (attachment && attachment->has_coulomb_contacts() &&
+             RigidResponse::knows(*object->getCollisionObject())) {
     attachment->rigid_response.collide(*body, *object, attachments_->hulls, time_step_);
   } else {
     btDefaultSoftBodySolver::processCollision(body, object);

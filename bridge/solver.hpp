@@ -63,7 +63,7 @@ enum class ContactResponse {
 /// * velocity-level and inertia-level laws act where DampingPlace says; by default velocity-level
 ///   laws act on m_v after btSoftBody::solveConstraints, for Bullet derives velocities from
 ///   positions there and would lose one that was written before,
-/// * contacts with rigid objects are ContactResponse::kCoulomb, unless Bullet's links hold the body,
+/// * contacts with rigid objects are ContactResponse::kCoulomb, unless the body has links or clusters,
 /// * a state that is not finite, or faster than kMaxSpeed, freezes the body and is reported; Bullet
 ///   would go on to look up contacts at that place and crash.
 ///
