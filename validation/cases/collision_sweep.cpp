@@ -65,7 +65,7 @@ Tolerance gap_of(const EngineChoice& engine, bool at_rest) {
   }
   return {kSweepGap, Basis::kModelGap,
           "same forces, but planes of contact that are held to the end of a step; "
-          "measured up to 0.6 % in motion, 0.4 % at rest"};
+          "measured up to 0.3 %"};
 }
 
 void add_pair(const CaseInfo& info, const Comparison& of, std::size_t e, bool at_rest,
