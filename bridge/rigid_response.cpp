@@ -75,13 +75,13 @@ void RigidResponse::collide(const btSoftBody& body, const btCollisionObjectWrapp
   }
 }
 
-// A place where the node is put says nothing of how it moves: start and end are shifted alike.
+// A place where the node is put says nothing of how it moves: start and end are shifted alike. Not for objects that move: where
+// the surface of one was is known to first order in its turn only, and every step would lift nodes by that.
 void RigidResponse::leave_depths(const btSoftBody& body) {
   for (const Contact& contact : contacts_) {
     btSoftBody::Node& node = *contact.node;
-    if (node.m_im <= 0) continue;
-    const btScalar begin = contact.offset - btDot(contact.normal, contact.surface);
-    const btScalar gap = btDot(contact.normal, node.m_q) - begin;
+    if (node.m_im <= 0 || !contact.surface.isZero()) continue;
+    const btScalar gap = btDot(contact.normal, node.m_q) - contact.offset;
     if (gap >= -kRest * body.getCollisionShape()->getMargin()) continue;
     node.m_q -= gap * contact.normal;
     node.m_x -= gap * contact.normal;

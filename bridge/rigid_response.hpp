@@ -13,7 +13,7 @@ inline namespace WEFT_BULLET_PRECISION {
 
 /// Contacts of a body with rigid objects by the laws of Signorini and Coulomb, in the place of Bullet's visits: a node
 /// is pushed as far as the surface and no farther, and held sideways by kDF * friction times that impulse at most.
-/// kKHR and kCHR have no say. A node that is inside already when the step begins is put outside without getting a speed.
+/// kKHR and kCHR have no say. A node that is inside an object at rest already when the step begins is put outside without getting a speed.
 ///
 /// Bullet takes away a node's approach and kKHR or kCHR of its depth: a node stops where it was before the step and leaves with
 /// up to that share of its speed. And it takes the share kDF * friction of the sideways motion per visit, however
