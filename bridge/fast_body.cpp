@@ -7,6 +7,7 @@
 #include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 
+#include <weft/bridge/bullet_vector.hpp>
 #include <weft/bridge/energy_limit.hpp>
 #include <weft/bridge/node_state.hpp>
 #include <weft/bridge/node_tree.hpp>
@@ -29,14 +30,6 @@ constexpr btScalar kOriginGrid = btScalar(0.25);
 constexpr btScalar kFarFromOrigin = 2;  // [m] from which on another one is chosen
 /// Of the margin: how far below its plane a node may end a step.
 constexpr btScalar kDepthShare = btScalar(0.5);
-
-Vector3<btScalar> from_bullet(const btVector3& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-btVector3 to_bullet(const Vector3<btScalar>& v) {
-  return {v[0], v[1], v[2]};
-}
 
 void check(const FastSettings& settings) {
   const auto require = [](int value, const char* name) {
@@ -99,7 +92,7 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
   }
   contacts_.clear();
   obstacles_.clear();
-  are_ways_known_ = false;
+  ways_.outdate();
   excess_ = 0;
   wake();
 }
@@ -120,7 +113,7 @@ btVector3 FastBody::in_world(int node) const {
 // least: what is near the world's origin stays as it is.
 void FastBody::choose_origin(const btSoftBody& body) {
   if (body.m_nodes.size() == 0) return;
-  const Vector3<btScalar> near = from_bullet(body.m_nodes[0].m_x);
+  const Vector3<btScalar> near = from_bullet<btScalar>(body.m_nodes[0].m_x);
   const bool is_far = (near - origin_).norm() > kFarFromOrigin;
   if ((num_steps_ > 0 && !is_far) || !near.allFinite()) return;
   const Vector3<btScalar> origin = (near / kOriginGrid).array().round() * kOriginGrid;
@@ -137,7 +130,7 @@ void FastBody::predict(btSoftBody& body, btScalar time_step) {
   starts_.colwise() -= origin_;
   contacts_.clear();
   obstacles_.clear();
-  are_ways_known_ = false;
+  ways_.outdate();
   if (num_steps_++ % kCoveredSteps == 0) {
     cover_motion(body, start_velocities_, last_velocities_, time_step);
   }
@@ -165,8 +158,7 @@ void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& o
   if ((body.m_cfg.collisions & btSoftBody::fCollision::SDF_RS) == 0) return;
   obstacles_.push_back({object.getCollisionObject(), object.getCollisionShape(),
                         object.getWorldTransform(), hulls.find(*object.getCollisionShape())});
-  if (!are_ways_known_) ways_.update(body);
-  are_ways_known_ = true;
+  ways_.update(body);
   add_rigid_contacts(body, ways_, obstacles_.back(), time_step, PinnedNodes::kLeftOut, contacts_);
 }
 
@@ -177,6 +169,7 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
   const std::size_t num_known = contacts_.size();
   write_places(body);
   found_.clear();
+  ways_.outdate();
   ways_.update(body);
   for (const Obstacle& obstacle : obstacles_) {
     add_rigid_contacts(body, ways_, obstacle, time_step, PinnedNodes::kLeftOut, found_);
@@ -245,9 +238,9 @@ void FastBody::read_constraints(const btSoftBody& body) {
   for (const RigidContact& contact : contacts_) {
     fast::PlaneContact<btScalar> plane;
     plane.node = contact.node;
-    plane.normal = from_bullet(contact.normal);
+    plane.normal = from_bullet<btScalar>(contact.normal);
     plane.offset = contact.offset - plane.normal.dot(origin_);
-    plane.motion = from_bullet(contact.motion);
+    plane.motion = from_bullet<btScalar>(contact.motion);
     plane.friction = body.m_cfg.kDF * contact.object->getFriction();
     if (const btRigidBody* const rigid = movable(contact.object)) {
       const auto shares = std::count_if(contacts_.begin(), contacts_.end(), [&](const auto& other) {
@@ -265,7 +258,7 @@ void FastBody::read_constraints(const btSoftBody& body) {
     const btVector3 place = anchor.m_body->getWorldTransform() * anchor.m_local;
     fast::LedNode<btScalar> led;
     led.node = node;
-    led.place = from_bullet(place) - origin_;
+    led.place = from_bullet<btScalar>(place) - origin_;
     if (const btRigidBody* const rigid = movable(anchor.m_body)) {
       int shares = 0;
       for (int b = 0; b < body.m_anchors.size(); ++b) {
@@ -342,10 +335,11 @@ void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
   for (int look = 0; look <= kMostLooks && find_missed_contacts(body, time_step); ++look) {
     for (const RigidContact& contact : contacts_) {
       if (look == kMostLooks && &contact >= &contacts_[num_solved]) {  // between two facets
-        places_.col(contact.node) = starts_.col(contact.node) + from_bullet(contact.motion);
+        places_.col(contact.node) =
+            starts_.col(contact.node) + from_bullet<btScalar>(contact.motion);
         continue;
       }
-      const Vector3<btScalar> normal = from_bullet(contact.normal);
+      const Vector3<btScalar> normal = from_bullet<btScalar>(contact.normal);
       const btScalar gap = normal.dot(places_.col(contact.node) + origin_) - contact.offset;
       if (gap < 0 && movable(contact.object) == nullptr) places_.col(contact.node) -= gap * normal;
     }
@@ -357,8 +351,9 @@ void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
 // began it was outside.
 void FastBody::leave_depths() {
   for (const RigidContact& contact : deep_) {
-    const Vector3<btScalar> normal = from_bullet(contact.normal);
-    const Vector3<btScalar> start = starts_.col(contact.node) + from_bullet(contact.motion);
+    const Vector3<btScalar> normal = from_bullet<btScalar>(contact.normal);
+    const Vector3<btScalar> start =
+        starts_.col(contact.node) + from_bullet<btScalar>(contact.motion);
     if (normal.dot(start) > normal.dot(places_.col(contact.node)))
       places_.col(contact.node) = start;
   }
@@ -401,7 +396,7 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
     const btSoftBody::Node& node = body.m_nodes[i];
     if (node.m_im <= 0 || node.m_x == in_world(i)) continue;
     meets_cloth = true;  // another body's contact has moved it
-    places_.col(i) = from_bullet(node.m_x) - origin_;
+    places_.col(i) = from_bullet<btScalar>(node.m_x) - origin_;
   }
   velocities_ = (places_ - origins_ + solver_->remainders()) / inertia_step_;
   if (meets_cloth) excess_ = 0;
@@ -411,7 +406,7 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
     node.m_f.setZero();
     if (node.m_im > 0) {
       node.m_v = (1 - body.m_cfg.kDP) * to_bullet(velocities_.col(i));
-      places_.col(i) = from_bullet(node.m_x) - origin_;  // with Bullet's rounding
+      places_.col(i) = from_bullet<btScalar>(node.m_x) - origin_;  // with Bullet's rounding
     } else {
       node.m_v = (node.m_x - node.m_q) / time_step;
     }
@@ -442,11 +437,11 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step) {
   for (int i = 0; i < body.m_nodes.size(); ++i) {
     const btSoftBody::Node& node = body.m_nodes[i];
     if (node.m_im <= 0) {
-      targets_.col(i) = from_bullet(node.m_x) - origin_;
+      targets_.col(i) = from_bullet<btScalar>(node.m_x) - origin_;
       continue;
     }
     const Vector3<btScalar> start = start_velocities_.col(i);
-    Vector3<btScalar> velocity = from_bullet(node.m_v);
+    Vector3<btScalar> velocity = from_bullet<btScalar>(node.m_v);
     if (uses_history) {
       const Vector3<btScalar> last = last_velocities_.col(i);
       velocity = (4 * start - last) / 3 + (velocity - start) * btScalar(2) / 3;

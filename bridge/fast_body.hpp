@@ -148,7 +148,6 @@ class FastBody {
   bool is_contact_missing_ = false;  ///< in the present solution, for all that is known
   std::vector<Obstacle> obstacles_;  ///< of this step
   NodeWays ways_;
-  bool are_ways_known_ = false;  ///< from m_q to m_x as they are
   std::vector<RigidContact> contacts_;
   std::vector<RigidContact> found_;  ///< of a second look
   std::vector<RigidContact>

@@ -8,16 +8,14 @@
 
 #include <LinearMath/btConvexHullComputer.h>
 
+#include <weft/bridge/bullet_vector.hpp>
+
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
 /// Nearer than this share of the hull's size, a direction between two places is mostly rounding [-].
 constexpr double kTouch = 1e-9;
-
-Vector3<double> in_double(const btVector3& v) {
-  return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
-}
 
 Vector3<double> nearest_on_segment(const Vector3<double>& place, const Vector3<double>& a,
                                    const Vector3<double>& b) {
@@ -41,7 +39,7 @@ HullFacets::HullFacets(const btConvexHullShape& shape) {
   for (int i = 0; i < computer.vertices.size(); ++i) {
     // Not computer.vertices: these are rounded to a ten thousandth of the hull.
     vertices.push_back(
-        in_double(points_[static_cast<std::size_t>(computer.original_vertex_index[i])]));
+        from_bullet(points_[static_cast<std::size_t>(computer.original_vertex_index[i])]));
     center += vertices.back() / computer.vertices.size();
   }
   for (const Vector3<double>& vertex : vertices) {

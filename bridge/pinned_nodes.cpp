@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include <weft/bridge/bullet_vector.hpp>
 #include <weft/custom_forces/core/error.hpp>
 
 namespace weft::bridge {
@@ -25,15 +26,6 @@ void check(const std::vector<int>& nodes, ConstMatrix3XRef<double> targets,
                             " has a mass and can move, expected a pinned one");
     }
   }
-}
-
-btVector3 to_bullet(const Vector3<double>& v) {
-  const Vector3<btScalar> s = v.cast<btScalar>();
-  return {s[0], s[1], s[2]};
-}
-
-Vector3<double> from_bullet(const btVector3& v) {
-  return Vector3<btScalar>(v.x(), v.y(), v.z()).cast<double>();
 }
 
 }  // namespace

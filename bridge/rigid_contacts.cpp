@@ -11,7 +11,7 @@
 #include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
-#include <weft/custom_forces/core/types.hpp>
+#include <weft/bridge/bullet_vector.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -41,27 +41,22 @@ std::optional<RigidContact> stop_on_the_way(const Obstacle& obstacle, const btVe
 
 using Place = Vector3<double>;
 
-Place in_double(const btVector3& v) {
-  return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
-}
-
 /// In double precision: the ground may be a box of many metres, of which a place is a millionth.
 std::optional<RigidContact> near_exactly(const Obstacle& obstacle, const btVector3& place,
                                          btScalar margin) {
   Matrix3<double> turn;
-  for (int k = 0; k < 3; ++k) turn.row(k) = in_double(obstacle.place.getBasis().getRow(k));
-  const Place world = in_double(place);
-  const Place local = turn.transpose() * (world - in_double(obstacle.place.getOrigin()));
+  for (int k = 0; k < 3; ++k) turn.row(k) = from_bullet(obstacle.place.getBasis().getRow(k));
+  const Place world = from_bullet(place);
+  const Place local = turn.transpose() * (world - from_bullet(obstacle.place.getOrigin()));
   const double reach = 2 * static_cast<double>(margin);
   const auto surface = surface_distance(*obstacle.shape, obstacle.facets, local, reach);
   if (!surface || surface->distance >= reach) return std::nullopt;
   const Place out = turn * surface->out;
   RigidContact contact;
-  contact.normal.setValue(static_cast<btScalar>(out.x()), static_cast<btScalar>(out.y()),
-                          static_cast<btScalar>(out.z()));
+  contact.normal = to_bullet(out);
   // Of the normal as it is rounded, so that the plane is where it should be for this place.
-  contact.offset = static_cast<btScalar>(in_double(contact.normal).dot(world) - surface->distance +
-                                         static_cast<double>(margin));
+  contact.offset = static_cast<btScalar>(from_bullet(contact.normal).dot(world) -
+                                         surface->distance + static_cast<double>(margin));
   return contact;
 }
 
@@ -93,6 +88,8 @@ btScalar largest_motion(const btRigidBody& rigid, const MotionBox& nodes, btScal
 }  // namespace
 
 void NodeWays::update(const btSoftBody& body) {
+  if (is_of_now_) return;
+  is_of_now_ = true;
   if (groups_.num_nodes() != body.m_nodes.size()) groups_.arrange(body);
   boxes_.resize(groups_.size());
   all_ = MotionBox::nowhere();

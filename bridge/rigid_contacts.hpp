@@ -30,10 +30,12 @@ struct Obstacle {
   const HullFacets* facets;  ///< of a hull, or nullptr
 };
 
-/// A body's nodes by where their ways lead.
+/// A body's nodes by where their ways lead, from m_q to m_x.
 class NodeWays {
  public:
-  /// From m_q to m_x. Takes new memory only if the number of nodes is another.
+  /// The ways are others than at the last update().
+  void outdate() { is_of_now_ = false; }
+  /// Does nothing unless outdate() was called. Takes new memory only if the number of nodes is another.
   void update(const btSoftBody& body);
   /// Boxes of groups of nodes, as NodeGroups has them.
   [[nodiscard]] const std::vector<MotionBox>& boxes() const { return boxes_; }
@@ -44,9 +46,14 @@ class NodeWays {
   NodeGroups groups_;
   std::vector<MotionBox> boxes_;
   MotionBox all_ = MotionBox::nowhere();
+  bool is_of_now_ = false;
 };
 
-enum class PinnedNodes { kLeftOut, kWithDynamicObjects };
+/// Which pinned nodes (without a mass of their own) have contacts.
+enum class PinnedNodes {
+  kLeftOut,            ///< none
+  kWithDynamicObjects  ///< those in front of objects that they can push
+};
 
 /// Appends the contacts of a body's nodes with an obstacle, between btSoftBody::predictMotion and
 /// solveConstraints of a step of time_step [s]. ways: of the body as it is.
@@ -54,7 +61,7 @@ enum class PinnedNodes { kLeftOut, kWithDynamicObjects };
 /// Nodes are looked up at the predicted place, up to twice the collision margin: exactly (surface_distance()), or in
 /// Bullet's distance field of the shape, as Bullet does. A node that travels farther than the margin is followed along
 /// its way, relative to the object, and stopped at the surface that it meets first: however thin the
-/// object, it is not shot through. Anchored nodes are left out, and pinned ones if asked for.
+/// object, it is not shot through. Anchored nodes are left out.
 void add_rigid_contacts(const btSoftBody& body, const NodeWays& ways, const Obstacle& obstacle,
                         btScalar time_step, PinnedNodes pinned,
                         std::vector<RigidContact>& contacts);

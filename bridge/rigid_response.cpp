@@ -39,17 +39,16 @@ bool RigidResponse::knows(const btCollisionObject& object) {
 }
 
 void RigidResponse::begin_step() {
-  are_ways_known_ = false;
+  ways_.outdate();
   contacts_.clear();
 }
 
-void RigidResponse::collide(const btSoftBody& body, const btCollisionObjectWrapper& object,
+void RigidResponse::collide(btSoftBody& body, const btCollisionObjectWrapper& object,
                             HullTable& hulls, btScalar time_step) {
   auto& collision_object = *const_cast<btCollisionObject*>(object.getCollisionObject());
   btRigidBody* const moving = btRigidBody::upcast(&collision_object);
   btRigidBody* const dynamic = collision_object.isStaticOrKinematicObject() ? nullptr : moving;
-  if (!are_ways_known_) ways_.update(body);
-  are_ways_known_ = true;
+  ways_.update(body);
   found_.clear();
   // At once what a cloth that lies with all its nodes needs, and nothing later on.
   found_.reserve(static_cast<std::size_t>(body.m_nodes.size()));
@@ -60,7 +59,7 @@ void RigidResponse::collide(const btSoftBody& body, const btCollisionObjectWrapp
                      time_step, PinnedNodes::kWithDynamicObjects, found_);
   for (const RigidContact& found : found_) {
     Contact contact;
-    contact.node = const_cast<btSoftBody::Node*>(&body.m_nodes[found.node]);
+    contact.node = &body.m_nodes[found.node];
     contact.normal = found.normal;
     contact.offset = found.offset;
     contact.surface = found.motion;

@@ -28,7 +28,7 @@ class RigidResponse {
 
   void begin_step();
   /// In the place of btSoftBody::defaultCollisionHandler: contacts as add_rigid_contacts() finds them.
-  void collide(const btSoftBody& body, const btCollisionObjectWrapper& object, HullTable& hulls,
+  void collide(btSoftBody& body, const btCollisionObjectWrapper& object, HullTable& hulls,
                btScalar time_step);
   /// In the place of btSoftBody::solveConstraints. Contacts go first; then Bullet solves the rest: anchors, contacts
   /// with cloth and with links of a btMultiBody. Dynamic objects get the impulses.
@@ -56,7 +56,6 @@ class RigidResponse {
   void visit_all(const btSoftBody& body);
 
   NodeWays ways_;
-  bool are_ways_known_ = false;  ///< of this step
   std::vector<RigidContact> found_;
   std::vector<Contact> contacts_;
 };

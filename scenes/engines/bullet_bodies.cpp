@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include <weft/bridge/bullet_vector.hpp>
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/node_state.hpp>
 #include <weft/bridge/pinned_nodes.hpp>
@@ -12,14 +13,8 @@
 namespace weft::scenes {
 namespace {
 
-Vector3<double> from_bullet(const btVector3& v) {
-  return Vector3<btScalar>(v.x(), v.y(), v.z()).cast<double>();
-}
-
-btVector3 to_bullet(const Vector3<double>& v) {
-  const Vector3<btScalar> s = v.cast<btScalar>();
-  return {s[0], s[1], s[2]};
-}
+using bridge::from_bullet;
+using bridge::to_bullet;
 
 void lead_collider(const Pose& pose, const Vector3<double>& offset, btRigidBody& body) {
   if (!body.isKinematicObject()) {
@@ -27,10 +22,9 @@ void lead_collider(const Pose& pose, const Vector3<double>& offset, btRigidBody&
         "steering: a collider that is led has a mass or stands still, expected one with a path");
   }
   const Eigen::Quaternion<btScalar> q = pose.orientation.cast<btScalar>();
-  const Vector3<btScalar> place = (pose.position + pose.orientation * offset).cast<btScalar>();
+  const btVector3 place = to_bullet(pose.position + pose.orientation * offset);
   // Bullet derives the velocity that friction needs from the last two of these.
-  body.setWorldTransform(btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()),
-                                     btVector3(place[0], place[1], place[2])));
+  body.setWorldTransform(btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()), place));
 }
 
 void push_collider(const Push& push, const Vector3<double>& offset, btRigidBody& body) {

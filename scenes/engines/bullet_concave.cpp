@@ -7,10 +7,13 @@
 
 #include <Eigen/Geometry>
 
+#include <weft/bridge/bullet_vector.hpp>
 #include <weft/scenes/shape_surface.hpp>
 
 namespace weft::scenes {
 namespace {
+
+using bridge::to_bullet;
 
 constexpr double kDepthRatio = 0.25;      // of a mesh's smallest extent
 constexpr double kOppositeShare = 0.45;   // of the way to the opposite side
@@ -18,11 +21,6 @@ constexpr double kFieldDepthRatio = 0.5;  // of a height field's shorter side
 /// Bullet's search for the depth of a point needs a little roundness; the surface lies this much
 /// of an edge outside its place.
 constexpr double kPrismMarginRatio = 0.001;
-
-btVector3 to_bullet(const Vector3<double>& v) {
-  const Vector3<btScalar> s = v.cast<btScalar>();
-  return {s[0], s[1], s[2]};
-}
 
 /// A compound and the children that it does not own itself.
 struct OwnedCompound {

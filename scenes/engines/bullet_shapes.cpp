@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <vector>
 
+#include <weft/bridge/bullet_vector.hpp>
 #include <weft/scenes/engines/bullet_concave.hpp>
 #include <weft/scenes/shape_surface.hpp>
 
 namespace weft::scenes {
 namespace {
+
+using bridge::to_bullet;
 
 /// Bullet has no usable plane for soft bodies: btStaticPlaneShape is "concave" to it, which turns
 /// the plane into triangles extruded by 6 cm that a node passes in one step at 6 m/s. A box is met
@@ -37,12 +40,7 @@ constexpr double kMeshVoxelRatio = 0.25;
 constexpr double kFieldVoxelRatio = 0.15;
 constexpr double kLargestVoxel = 0.25;  ///< [m] Bullet's default
 
-btVector3 to_bullet(const Vector3<double>& v) {
-  const Vector3<btScalar> s = v.cast<btScalar>();
-  return {s[0], s[1], s[2]};
-}
-
-btQuaternion to_bullet(const Eigen::Quaterniond& orientation) {
+btQuaternion in_bullet(const Eigen::Quaterniond& orientation) {
   const Eigen::Quaternion<btScalar> q = orientation.cast<btScalar>();
   return {q.x(), q.y(), q.z(), q.w()};
 }
@@ -144,7 +142,7 @@ struct MakeShape {
     auto owned = std::make_shared<OwnedCompound>();
     for (const CompoundPart& part : s.parts) {
       owned->add(std::visit(*this, part.shape),
-                 btTransform(to_bullet(part.orientation), to_bullet(part.position)));
+                 btTransform(in_bullet(part.orientation), to_bullet(part.position)));
     }
     return {owned, &owned->compound};
   }
@@ -182,7 +180,7 @@ BulletCollider make_bullet_collider(const Collider& collider, ConcaveContact con
   btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(collider.mass.value_or(0.0)),
                                                 nullptr, result.shape.get(), inertia);
   info.m_startWorldTransform =
-      btTransform(to_bullet(collider.orientation),
+      btTransform(in_bullet(collider.orientation),
                   to_bullet(collider.position + collider.orientation * offset));
   info.m_friction = static_cast<btScalar>(collider.friction);
   info.m_restitution = 0;

@@ -14,6 +14,8 @@
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/icosphere.hpp>
 
+#include "tests/bridge/rigid_objects.hpp"
+
 namespace weft::bridge {
 namespace {
 
@@ -48,15 +50,7 @@ class Scene {
   }
 
   btRigidBody& add(std::shared_ptr<btCollisionShape> shape, double mass, const btTransform& place) {
-    btVector3 inertia(0, 0, 0);
-    if (mass > 0) shape->calculateLocalInertia(static_cast<btScalar>(mass), inertia);
-    btRigidBody::btRigidBodyConstructionInfo info(static_cast<btScalar>(mass), nullptr, shape.get(),
-                                                  inertia);
-    info.m_startWorldTransform = place;
-    info.m_friction = 1;
-    auto rigid = std::make_unique<btRigidBody>(info);
-    rigid->setActivationState(DISABLE_DEACTIVATION);
-    return world_.add(std::move(rigid), std::move(shape));
+    return add_rigid(world_, std::move(shape), mass, place);
   }
   void step(int num_steps = 1, double time_step = kTimeStep) {
     for (int i = 0; i < num_steps; ++i) world_.step(time_step);
@@ -92,15 +86,8 @@ class Scene {
   btSoftBody* body_;
 };
 
-btTransform at(double x, double y, double z) {
-  return btTransform(
-      btQuaternion::getIdentity(),
-      btVector3(static_cast<btScalar>(x), static_cast<btScalar>(y), static_cast<btScalar>(z)));
-}
-
 std::shared_ptr<btCollisionShape> box(double x, double y, double z) {
-  auto shape = std::make_shared<btBoxShape>(
-      btVector3(static_cast<btScalar>(x), static_cast<btScalar>(y), static_cast<btScalar>(z)));
+  auto shape = std::make_shared<btBoxShape>(vector(x, y, z));
   shape->setMargin(btScalar(0.001));
   return shape;
 }

@@ -17,6 +17,8 @@
 
 #include <weft/bridge/surface_distance.hpp>
 
+#include "tests/bridge/rigid_objects.hpp"
+
 namespace weft::bridge {
 namespace {
 
@@ -34,10 +36,6 @@ std::shared_ptr<btConvexHullShape> hull_of(const std::vector<btVector3>& points,
   hull->setMargin(static_cast<btScalar>(margin));
   hull->recalcLocalAabb();
   return hull;
-}
-
-btVector3 vector(double x, double y, double z) {
-  return {static_cast<btScalar>(x), static_cast<btScalar>(y), static_cast<btScalar>(z)};
 }
 
 std::vector<btVector3> random_points(int count) {
@@ -59,9 +57,9 @@ std::shared_ptr<btConvexShape> with_margin(std::shared_ptr<Shape> shape, double 
   return shape;
 }
 
-std::vector<Solid> solids() {
+std::vector<Solid> named_solids() {
   const auto half = vector(0.3, 0.5, 0.3);
-  std::vector<Solid> all{
+  return {
       {"sphere", std::make_shared<btSphereShape>(btScalar(0.4))},
       {"box", with_margin(std::make_shared<btBoxShape>(vector(0.3, 0.2, 0.5)), kTiny)},
       {"capsule", std::make_shared<btCapsuleShape>(btScalar(0.2), btScalar(0.6))},
@@ -69,13 +67,15 @@ std::vector<Solid> solids() {
       {"cylinder", with_margin(std::make_shared<btCylinderShape>(half), kTiny)},
       {"cylinder_z", with_margin(std::make_shared<btCylinderShapeZ>(vector(0.3, 0.3, 0.5)), kTiny)},
       {"cone", with_margin(std::make_shared<btConeShape>(btScalar(0.3), btScalar(0.7)), 0.01)},
-      {"cone_x", with_margin(std::make_shared<btConeShapeX>(btScalar(0.5), btScalar(0.3)), 0.01)},
-      {"prism", hull_of(prism(), 0.002)},
-      {"hull_40", hull_of(random_points(40), 0.03)}};
+      {"cone_x", with_margin(std::make_shared<btConeShapeX>(btScalar(0.5), btScalar(0.3)), 0.01)}};
+}
+
+std::vector<Solid> hulls() {
   auto scaled = hull_of(random_points(12), 0.01);
   scaled->setLocalScaling(vector(2, 0.5, 1));
-  all.push_back({"hull_scaled", scaled});
-  return all;
+  return {{"prism", hull_of(prism(), 0.002)},
+          {"hull_40", hull_of(random_points(40), 0.03)},
+          {"hull_scaled", scaled}};
 }
 
 class SolidDistance : public testing::TestWithParam<Solid> {
@@ -103,10 +103,12 @@ class SolidDistance : public testing::TestWithParam<Solid> {
   HullTable hulls_;
 };
 
+class NamedSolidDistance : public SolidDistance {};
+class HullDistance : public SolidDistance {};
+
 // Basis of 1e-3 m: GJK ends at a relative 1e-4 of distances up to 2 m; edges of boxes and cylinders are rounded there by their
 // margin, 1e-4 m. Not for hulls: of one of 12 points, scaled, GJK stops as much as 7.6 mm before the nearest point.
-TEST_P(SolidDistance, AgreesWithBulletsSearchOutside) {
-  if (GetParam().shape->getShapeType() == CONVEX_HULL_SHAPE_PROXYTYPE) GTEST_SKIP() << "hull";
+TEST_P(NamedSolidDistance, AgreesWithBulletsSearchOutside) {
   int num_outside = 0;
   for (const Vector3<double>& place : places()) {
     btGjkEpaSolver2::sResults found{};
@@ -157,8 +159,7 @@ Bounds distance_bounds(const std::vector<Vector3<double>>& points, const Vector3
   return bounds;
 }
 
-TEST_P(SolidDistance, OfAHullLiesBetweenItsBounds) {
-  if (GetParam().shape->getShapeType() != CONVEX_HULL_SHAPE_PROXYTYPE) GTEST_SKIP() << "no hull";
+TEST_P(HullDistance, LiesBetweenItsBounds) {
   const auto& hull = static_cast<const btConvexHullShape&>(*GetParam().shape);
   std::vector<Vector3<double>> points;
   for (int i = 0; i < hull.getNumPoints(); ++i) {
@@ -202,8 +203,11 @@ TEST_P(SolidDistance, ChangesNoFasterThanThePlace) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, SolidDistance, testing::ValuesIn(solids()),
-                         [](const auto& solid) { return solid.param.name; });
+constexpr auto name_of = [](const auto& solid) { return solid.param.name; };
+INSTANTIATE_TEST_SUITE_P(Named, SolidDistance, testing::ValuesIn(named_solids()), name_of);
+INSTANTIATE_TEST_SUITE_P(Hulls, SolidDistance, testing::ValuesIn(hulls()), name_of);
+INSTANTIATE_TEST_SUITE_P(Solids, NamedSolidDistance, testing::ValuesIn(named_solids()), name_of);
+INSTANTIATE_TEST_SUITE_P(Solids, HullDistance, testing::ValuesIn(hulls()), name_of);
 
 TEST(HullFacets, OfABoxsCornersHaveTheBoxsDistance) {
   std::vector<btVector3> corners;

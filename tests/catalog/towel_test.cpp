@@ -27,9 +27,9 @@ TEST_P(TowelScene, SlidesOffFoldsAndDoesNotPassThroughItself) {
 }
 
 /// Smallest distance at the end between nodes that were more than 20 cm apart at rest [m].
-double closest_layers(const Scene& scene) {
+double closest_layers(const Scene& scene, const RunNumbers& numbers) {
   const Matrix3X<double> rest = make_mesh(scene.cloths.at(0)).rest_positions;
-  const Matrix3X<double> x = measure_scene(scene).end.at(0);
+  const Matrix3X<double>& x = numbers.end.at(0);
   double closest = 1;
   for (Eigen::Index i = 0; i < x.cols(); ++i) {
     for (Eigen::Index j = 0; j < i; ++j) {
@@ -45,10 +45,14 @@ TEST_P(TowelScene, KeepsItsLayersApartBySelfCollisionAlone) {
   scene.engines = {GetParam()};
   scene.world.frame_interval = 0.1;  // [s]
   const double thickness = *scene.cloths[0].self_thickness;
-  EXPECT_GT(closest_layers(scene), 0.8 * thickness);  // measured 19 and 20 mm of 20
+  EXPECT_GT(closest_layers(scene, measure_scene(scene)),
+            0.8 * thickness);  // measured 19 and 20 mm of 20
   scene.cloths[0].self_collision = false;
   scene.cloths[0].self_thickness.reset();
-  EXPECT_LT(closest_layers(scene), 0.5 * thickness);  // measured 1 and 6 mm
+  const RunNumbers without = measure_scene(scene);
+  EXPECT_LT(closest_layers(scene, without), 0.5 * thickness);  // measured 1 and 6 mm
+  // With bullet_weft the layers come to lie in each other without an edge through a face.
+  if (std::string(GetParam()) == "bullet_soft") EXPECT_GT(without.most_piercings, 20);
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, TowelScene, testing::Values("bullet_soft", "bullet_weft"),

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <LinearMath/btVector3.h>
+
+#include <weft/bridge/precision.hpp>
+#include <weft/custom_forces/core/types.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+/// Bullet's vector as Eigen's, in double precision unless asked otherwise.
+template <class Scalar = double>
+[[nodiscard]] Vector3<Scalar> from_bullet(const btVector3& v) {
+  return {static_cast<Scalar>(v.x()), static_cast<Scalar>(v.y()), static_cast<Scalar>(v.z())};
+}
+
+/// A vector (3, or an expression of that size) as Bullet's, rounded to its precision.
+template <class Derived>
+[[nodiscard]] btVector3 to_bullet(const Eigen::MatrixBase<Derived>& v) {
+  const Vector3<btScalar> rounded = v.template cast<btScalar>();
+  return {rounded[0], rounded[1], rounded[2]};
+}
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge
