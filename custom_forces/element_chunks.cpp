@@ -21,31 +21,42 @@ ElementChunks::ElementChunks(const Eigen::Ref<const Elements>& elements, int num
     : num_nodes_(num_nodes),
       order_(static_cast<std::size_t>(elements.cols())),
       slots_(elements.rows(), elements.cols()) {
-  std::vector<int> lowest(order_.size());
-  for (std::size_t e = 0; e < lowest.size(); ++e) {
-    lowest[e] = elements.col(static_cast<Eigen::Index>(e)).minCoeff();
-  }
-  std::iota(order_.begin(), order_.end(), 0);
-  std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) {
-    return lowest[static_cast<std::size_t>(a)] < lowest[static_cast<std::size_t>(b)];
-  });
+  sort_by_lowest_node(elements);
   cut(elements, grain);
   find_shared_nodes();
+}
+
+// By counting: laws are made anew when a cloth tears, between two frames.
+void ElementChunks::sort_by_lowest_node(const Eigen::Ref<const Elements>& elements) {
+  std::vector<int> lowest(order_.size());
+  std::vector<std::size_t> next(static_cast<std::size_t>(num_nodes_) + 1, 0);
+  for (std::size_t e = 0; e < lowest.size(); ++e) {
+    lowest[e] = elements.col(static_cast<Eigen::Index>(e)).minCoeff();
+    ++next[static_cast<std::size_t>(lowest[e]) + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  for (std::size_t e = 0; e < lowest.size(); ++e) {
+    order_[next[static_cast<std::size_t>(lowest[e])]++] = static_cast<int>(e);
+  }
 }
 
 void ElementChunks::cut(const Eigen::Ref<const Elements>& elements, int grain) {
   const Eigen::Index num_elements = elements.cols();
   const Eigen::Index pieces = num_pieces(num_elements, grain);
-  std::vector<int> slot_of_node(static_cast<std::size_t>(num_nodes_));
+  std::vector<int> slot_of_node(static_cast<std::size_t>(num_nodes_), -1);
+  std::vector<int> nodes;
   for (Eigen::Index c = 0; c < pieces; ++c) {
     Chunk chunk{num_elements * c / pieces, num_elements * (c + 1) / pieces, num_slots(), 0};
-    std::vector<int> nodes;
+    nodes.clear();
     for (Eigen::Index place = chunk.begin; place < chunk.end; ++place) {
-      const auto element = elements.col(order_[static_cast<std::size_t>(place)]);
-      nodes.insert(nodes.end(), element.begin(), element.end());
+      for (const int node : elements.col(order_[static_cast<std::size_t>(place)])) {
+        int& slot = slot_of_node[static_cast<std::size_t>(node)];
+        if (slot >= static_cast<int>(chunk.first_slot)) continue;
+        slot = static_cast<int>(chunk.first_slot);  // seen; its own one follows
+        nodes.push_back(node);
+      }
     }
     std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     for (const int node : nodes) {
       slot_of_node[static_cast<std::size_t>(node)] = static_cast<int>(slot_nodes_.size());
       slot_nodes_.push_back(node);
@@ -62,18 +73,24 @@ void ElementChunks::cut(const Eigen::Ref<const Elements>& elements, int grain) {
 }
 
 void ElementChunks::find_shared_nodes() {
-  std::vector<std::vector<int>> slots_of_node(static_cast<std::size_t>(num_nodes_));
-  for (std::size_t slot = 0; slot < slot_nodes_.size(); ++slot) {
-    slots_of_node[static_cast<std::size_t>(slot_nodes_[slot])].push_back(static_cast<int>(slot));
-  }
-  slot_is_shared_.assign(slot_nodes_.size(), 0);
+  std::vector<int> num_slots_of(static_cast<std::size_t>(num_nodes_), 0);
+  for (const int node : slot_nodes_) ++num_slots_of[static_cast<std::size_t>(node)];
+  std::vector<int> next(num_slots_of.size(), -1);  // in shared_slots_, of each shared node
+  int num_shared = 0;
   for (int node = 0; node < num_nodes_; ++node) {
-    const std::vector<int>& slots = slots_of_node[static_cast<std::size_t>(node)];
-    if (slots.size() < 2) continue;
-    const int first = static_cast<int>(shared_slots_.size());
-    shared_slots_.insert(shared_slots_.end(), slots.begin(), slots.end());
-    shared_nodes_.push_back({node, first, static_cast<int>(shared_slots_.size())});
-    for (const int slot : slots) slot_is_shared_[static_cast<std::size_t>(slot)] = 1;
+    const int count = num_slots_of[static_cast<std::size_t>(node)];
+    if (count < 2) continue;
+    shared_nodes_.push_back({node, num_shared, num_shared + count});
+    next[static_cast<std::size_t>(node)] = num_shared;
+    num_shared += count;
+  }
+  shared_slots_.resize(static_cast<std::size_t>(num_shared));
+  slot_is_shared_.assign(slot_nodes_.size(), 0);
+  for (std::size_t slot = 0; slot < slot_nodes_.size(); ++slot) {
+    int& place = next[static_cast<std::size_t>(slot_nodes_[slot])];
+    if (place < 0) continue;
+    shared_slots_[static_cast<std::size_t>(place++)] = static_cast<int>(slot);
+    slot_is_shared_[slot] = 1;
   }
 }
 

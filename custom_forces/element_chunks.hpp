@@ -63,6 +63,7 @@ class ElementChunks {
   void reorder(const Chunk& chunk, const std::vector<Eigen::Index>& places);
 
  private:
+  void sort_by_lowest_node(const Eigen::Ref<const Elements>& elements);
   void cut(const Eigen::Ref<const Elements>& elements, int grain);
   void find_shared_nodes();
 

@@ -17,7 +17,7 @@ constexpr float kSmoothing = 0.6F;
 
 /// A body that is tied to the cloth gets its forces, and with them what is wrong with them, as impulses:
 /// rounds on top, and the share of the first unbalanced forces that may be left.
-constexpr int kTiedRounds = 4;
+constexpr int kTiedRounds = 2;
 constexpr double kTiedResidual = 0.02;
 
 /// An iteration that gains no more than this share of what the first of its round gained is the last of that round:

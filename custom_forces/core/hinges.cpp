@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -23,24 +25,86 @@ struct Side {
 struct SharedEdge {
   int first;   ///< lower index
   int second;  ///< higher index
-  std::vector<Side> sides;
+  std::span<const Side> sides;
 };
 
-/// The edges in the order in which the triangles name them: an order that any map would lose.
-std::vector<SharedEdge> shared_edges(const Triangles& triangles) {
-  std::vector<SharedEdge> edges;
-  std::map<std::pair<int, int>, std::size_t> index;
-  for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
-    for (int corner = 0; corner < 3; ++corner) {
-      const int from = triangles(corner, t);
-      const int to = triangles((corner + 1) % 3, t);
-      const auto [a, b] = std::minmax(from, to);
-      const auto [found, is_new] = index.emplace(std::pair(a, b), edges.size());
-      if (is_new) edges.push_back({a, b, {}});
-      edges[found->second].sides.push_back({t, from, triangles((corner + 2) % 3, t)});
+/// Every edge of the triangles once, in the order in which they name them.
+class SharedEdges {
+ public:
+  explicit SharedEdges(const Triangles& triangles);
+  [[nodiscard]] std::size_t size() const { return edges_.size(); }
+  [[nodiscard]] SharedEdge operator[](std::size_t e) const {
+    const Edge& edge = edges_[e];
+    return {edge.first, edge.second,
+            std::span(sides_).subspan(edge.first_side, edge.last_side - edge.first_side)};
+  }
+
+ private:
+  struct Edge {
+    int first;
+    int second;
+    std::size_t first_side;
+    std::size_t last_side;  ///< one past the last
+  };
+  std::vector<Edge> edges_;
+  std::vector<Side> sides_;
+};
+
+/// A side by its place, 3 t + corner.
+struct NamedSide {
+  int second;  ///< higher node
+  std::size_t place;
+  bool operator<(const NamedSide& other) const {
+    return std::pair(second, place) < std::pair(other.second, other.place);
+  }
+};
+
+// By counting and small sorts, not by a map: a cloth that tears has its hinges found anew between two frames.
+SharedEdges::SharedEdges(const Triangles& triangles) {
+  if (triangles.size() > 0 && triangles.minCoeff() < 0) {
+    throw InvalidArgument("hinges: a triangle names node " + std::to_string(triangles.minCoeff()) +
+                          ", expected >= 0");
+  }
+  const auto num_sides = static_cast<std::size_t>(triangles.size());
+  const int num_nodes = num_sides > 0 ? triangles.maxCoeff() + 1 : 0;
+  const auto ends = [&](std::size_t place) {
+    const auto t = static_cast<Eigen::Index>(place / 3);
+    const auto corner = static_cast<Eigen::Index>(place % 3);
+    return std::pair(triangles(corner, t), triangles((corner + 1) % 3, t));
+  };
+  std::vector<std::size_t> first_of(static_cast<std::size_t>(num_nodes) + 1, 0);
+  for (std::size_t place = 0; place < num_sides; ++place) {
+    const auto [from, to] = ends(place);
+    ++first_of[static_cast<std::size_t>(std::min(from, to)) + 1];
+  }
+  std::partial_sum(first_of.begin(), first_of.end(), first_of.begin());
+  std::vector<NamedSide> named(num_sides);
+  std::vector<std::size_t> next(first_of.begin(), first_of.end());
+  for (std::size_t place = 0; place < num_sides; ++place) {
+    const auto [from, to] = ends(place);
+    named[next[static_cast<std::size_t>(std::min(from, to))]++] = {std::max(from, to), place};
+  }
+  std::vector<Edge> edge_named_at(num_sides, Edge{-1, -1, 0, 0});
+  sides_.reserve(num_sides);
+  for (int node = 0; node < num_nodes; ++node) {
+    const auto at = static_cast<std::size_t>(node);
+    std::sort(named.begin() + static_cast<std::ptrdiff_t>(first_of[at]),
+              named.begin() + static_cast<std::ptrdiff_t>(first_of[at + 1]));
+    for (std::size_t k = first_of[at]; k < first_of[at + 1];) {
+      Edge& edge = edge_named_at[named[k].place];
+      edge = {node, named[k].second, sides_.size(), 0};
+      for (; k < first_of[at + 1] && named[k].second == edge.second; ++k) {
+        const auto t = static_cast<Eigen::Index>(named[k].place / 3);
+        const auto corner = static_cast<Eigen::Index>(named[k].place % 3);
+        sides_.push_back({t, triangles(corner, t), triangles((corner + 2) % 3, t)});
+      }
+      edge.last_side = sides_.size();
     }
   }
-  return edges;
+  edges_.reserve(num_sides / 2);
+  for (const Edge& edge : edge_named_at) {
+    if (edge.first >= 0) edges_.push_back(edge);
+  }
 }
 
 std::string name_of(const SharedEdge& edge) {
@@ -51,7 +115,7 @@ std::string name_of(const SharedEdge& edge) {
 }  // namespace
 
 Edges edges_of_triangles(const Triangles& triangles) {
-  const std::vector<SharedEdge> shared = shared_edges(triangles);
+  const SharedEdges shared(triangles);
   Edges edges(2, static_cast<Eigen::Index>(shared.size()));
   for (std::size_t e = 0; e < shared.size(); ++e) {
     edges.col(static_cast<Eigen::Index>(e)) << shared[e].first, shared[e].second;
@@ -61,7 +125,9 @@ Edges edges_of_triangles(const Triangles& triangles) {
 
 Hinges hinges_of_triangles(const Triangles& triangles) {
   std::vector<Eigen::Vector4i> hinges;
-  for (const SharedEdge& edge : shared_edges(triangles)) {
+  const SharedEdges shared(triangles);
+  for (std::size_t e = 0; e < shared.size(); ++e) {
+    const SharedEdge edge = shared[e];
     if (edge.sides.size() < 2) continue;
     if (edge.sides.size() > 2) {
       throw InvalidArgument("hinges: " + name_of(edge) + " belongs to " +
@@ -87,10 +153,12 @@ Hinges hinges_of_triangles(const Triangles& triangles) {
 }
 
 bool is_closed_surface(const Triangles& triangles) {
-  const std::vector<SharedEdge> edges = shared_edges(triangles);
-  return !edges.empty() && std::all_of(edges.begin(), edges.end(), [](const SharedEdge& edge) {
-    return edge.sides.size() == 2 && edge.sides[0].from != edge.sides[1].from;
-  });
+  const SharedEdges edges(triangles);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const std::span<const Side> sides = edges[e].sides;
+    if (sides.size() != 2 || sides[0].from == sides[1].from) return false;
+  }
+  return edges.size() > 0;
 }
 
 VectorX<double> hinge_angles(ConstMatrix3XRef<double> positions, const Hinges& hinges) {

@@ -18,11 +18,9 @@ template <class Elements>
 std::vector<Eigen::Index> touching(const Elements& elements, const std::vector<char>& flags) {
   std::vector<Eigen::Index> columns;
   for (Eigen::Index e = 0; e < elements.cols(); ++e) {
-    bool any = false;
-    for (Eigen::Index k = 0; k < elements.rows(); ++k) {
-      any = any || is_marked(flags, elements(k, e));
-    }
-    if (any) columns.push_back(e);
+    char any = 0;
+    for (Eigen::Index k = 0; k < elements.rows(); ++k) any |= flags[at(elements(k, e))];
+    if (any != 0) columns.push_back(e);
   }
   return columns;
 }

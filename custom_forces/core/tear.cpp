@@ -71,10 +71,16 @@ void add_nodes(const ClothMesh& mesh, const Neighbourhood& near, const Fans& fan
                ClothMesh& torn) {
   const auto old = static_cast<Eigen::Index>(mesh.num_nodes());
   const auto added = static_cast<Eigen::Index>(fans.origins().size());
-  torn.rest_positions.conservativeResize(3, old + added);
-  torn.masses.conservativeResize(old + added);
+  torn.rest_positions.resize(3, old + added);
+  torn.rest_positions.leftCols(old) = mesh.rest_positions;
+  torn.masses.resize(old + added);
+  torn.masses.head(old) = mesh.masses;
+  torn.corner_texture_coordinates = mesh.corner_texture_coordinates;
   const bool has_texture = mesh.texture_coordinates.cols() > 0;
-  if (has_texture) torn.texture_coordinates.conservativeResize(2, old + added);
+  if (has_texture) {
+    torn.texture_coordinates.resize(2, old + added);
+    torn.texture_coordinates.leftCols(old) = mesh.texture_coordinates;
+  }
   for (Eigen::Index k = 0; k < added; ++k) {
     const int origin = fans.origins()[static_cast<std::size_t>(k)];
     torn.rest_positions.col(old + k) = mesh.rest_positions.col(origin);
@@ -91,6 +97,8 @@ void add_nodes(const ClothMesh& mesh, const Neighbourhood& near, const Fans& fan
 }
 
 void add_pins(const ClothMesh& mesh, const Fans& fans, ClothMesh& torn) {
+  torn.pinned = mesh.pinned;
+  torn.pinned_velocities = mesh.pinned_velocities;
   const bool have_velocities = mesh.pinned_velocities.cols() > 0;
   std::vector<Vector3<double>> velocities;
   for (std::size_t k = 0; k < fans.origins().size(); ++k) {
@@ -109,6 +117,7 @@ void add_pins(const ClothMesh& mesh, const Fans& fans, ClothMesh& torn) {
 }
 
 void add_to_node_sets(const ClothMesh& mesh, const Fans& fans, ClothMesh& torn) {
+  torn.node_sets = mesh.node_sets;
   for (NodeSet& set : torn.node_sets) {
     const std::vector<int> before = set.nodes;
     for (std::size_t k = 0; k < fans.origins().size(); ++k) {
@@ -341,8 +350,8 @@ Tear cut_along(const ClothMesh& mesh, const Edges& cut) {
 
 Tear cut_along(const ClothMesh& mesh, const Neighbourhood& near, const Edges& cut) {
   const Fans fans(mesh, near, cut_flags(mesh, near, cut));
-  Tear tear{mesh, fans.origins()};
-  if (!tear.any()) return tear;
+  if (fans.origins().empty()) return {mesh, {}};
+  Tear tear{{}, fans.origins()};
   ClothMesh& torn = tear.mesh;
   ChangedNodes changed(mesh.num_nodes() + static_cast<int>(fans.origins().size()));
   torn.triangles = fans.triangles();
@@ -352,8 +361,13 @@ Tear cut_along(const ClothMesh& mesh, const Neighbourhood& near, const Edges& cu
   add_pins(mesh, fans, torn);
   add_to_node_sets(mesh, fans, torn);
   const TornSprings springs(mesh, near, fans);
-  for (EdgeSet& set : torn.edge_sets) set.edges = torn_edges(set.edges, springs, changed);
-  for (LineSet& set : torn.line_sets) set.triples = torn_lines(set.triples, springs, changed);
+  for (const EdgeSet& set : mesh.edge_sets) {
+    torn.edge_sets.push_back({set.name, torn_edges(set.edges, springs, changed)});
+  }
+  for (const LineSet& set : mesh.line_sets) {
+    torn.line_sets.push_back({set.name, torn_lines(set.triples, springs, changed)});
+  }
+  torn.connection_sets = mesh.connection_sets;
   drop_parted_connections(torn);
   tear.changed = changed.nodes();
   return tear;

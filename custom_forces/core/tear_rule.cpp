@@ -45,6 +45,13 @@ double spread_at(const Vector3<double>& sum_of_ends) {
   return std::ldexp(static_cast<double>(bits >> 11), -52) - 1.0;
 }
 
+/// The set is one of the mesh's.
+const Edges& edges_of_set(const ClothMesh& mesh, const std::string& name) {
+  return std::find_if(mesh.edge_sets.begin(), mesh.edge_sets.end(),
+                      [&](const EdgeSet& set) { return set.name == name; })
+      ->edges;
+}
+
 struct Thread {
   double load;  ///< strain over limit [-]
   int number;
@@ -60,6 +67,9 @@ class Tearing {
 
  private:
   void find_threads(ConstMatrix3XRef<double> positions, const TearRule& rule);
+  void sum_strains(ConstMatrix3XRef<double> positions, const Edges& edges);
+  /// Of the thread between two nodes [-].
+  [[nodiscard]] double strain_of(ConstMatrix3XRef<double> positions, int i, int j) const;
   /// The inner edges at a node between triangles on different sides of the plane across a thread.
   [[nodiscard]] std::vector<int> parting(const Thread& thread, int end) const;
   [[nodiscard]] bool give_way(int node, const std::vector<int>& edges);
@@ -75,8 +85,8 @@ class Tearing {
   std::vector<Thread> threads_;
   std::vector<bool> is_weak_;
   std::vector<bool> is_pinned_;
-  std::vector<double> strain_sum_;
-  std::vector<bool> is_taken_;  ///< triangles around nodes that give way
+  std::vector<double> strain_sum_;  ///< of the threads at a node that may give way [-]
+  std::vector<bool> is_taken_;      ///< triangles around nodes that give way
   std::vector<int> cut_;
   int max_splits_;
 };
@@ -104,25 +114,55 @@ void Tearing::find_threads(ConstMatrix3XRef<double> positions, const TearRule& r
       }
     }
   }
-  const Edges edges = mesh_.edges_of({rule.edge_set});
-  const VectorX<double> rest = edge_lengths(mesh_.rest_positions, edges);
-  const VectorX<double> lengths = edge_lengths(positions, edges);
+  const Edges& edges = edges_of_set(mesh_, rule.edge_set);
+  const auto& rest = mesh_.rest_positions;
+  double least = rule.strain;
+  for (const WeakRegion& region : rule.weak) least = std::min(least, region.strain);
+  // Most threads are far from any limit: that is seen without a square root. Rounding is left out by far.
+  const double safe_stretch = (1.0 + least * (1.0 - rule.variation)) * (1.0 - 1e-9);
+  const double safe = safe_stretch * safe_stretch;
   for (int e = 0; e < static_cast<int>(edges.cols()); ++e) {
     const int i = edges(0, e);
     const int j = edges(1, e);
-    const double strain = lengths[e] / rest[e] - 1.0;
-    for (const int node : {i, j}) strain_sum_[static_cast<std::size_t>(node)] += strain;
+    if ((positions.col(j) - positions.col(i)).squaredNorm() <
+        safe * (rest.col(j) - rest.col(i)).squaredNorm()) {
+      continue;
+    }
+    const double strain = strain_of(positions, i, j);
     double limit = rule.strain;
     for (const double weak : {limits[i], limits[j]}) {
       if (weak > 0) limit = weak;
     }
-    limit *=
-        1.0 + rule.variation * spread_at(mesh_.rest_positions.col(i) + mesh_.rest_positions.col(j));
+    limit *= 1.0 + rule.variation * spread_at(rest.col(i) + rest.col(j));
     if (strain > limit) threads_.push_back({strain / limit, e, {i, j}});
   }
   std::sort(threads_.begin(), threads_.end(), [](const Thread& a, const Thread& b) {
     return std::tuple(-a.load, a.number) < std::tuple(-b.load, b.number);
   });
+  sum_strains(positions, edges);
+}
+
+double Tearing::strain_of(ConstMatrix3XRef<double> positions, int i, int j) const {
+  return (positions.col(j) - positions.col(i)).norm() /
+             (mesh_.rest_positions.col(j) - mesh_.rest_positions.col(i)).norm() -
+         1.0;
+}
+
+/// Of all threads at the ends of those that may tear.
+void Tearing::sum_strains(ConstMatrix3XRef<double> positions, const Edges& edges) {
+  if (threads_.empty()) return;
+  std::vector<char> is_end(strain_sum_.size(), 0);
+  for (const Thread& thread : threads_) {
+    for (const int node : thread.ends) is_end[static_cast<std::size_t>(node)] = 1;
+  }
+  for (Eigen::Index e = 0; e < edges.cols(); ++e) {
+    const int i = edges(0, e);
+    const int j = edges(1, e);
+    const auto is_wanted = [&](int node) { return is_end[static_cast<std::size_t>(node)] != 0; };
+    if (!is_wanted(i) && !is_wanted(j)) continue;
+    const double strain = strain_of(positions, i, j);
+    for (const int node : {i, j}) strain_sum_[static_cast<std::size_t>(node)] += strain;
+  }
 }
 
 std::vector<int> Tearing::parting(const Thread& thread, int end) const {

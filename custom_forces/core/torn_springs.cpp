@@ -48,6 +48,11 @@ bool contains(const std::vector<int>& sorted, int value) {
   return std::binary_search(sorted.begin(), sorted.end(), value);
 }
 
+/// For the few triangles around a spring this is faster than any set.
+bool is_among(const std::vector<int>& few, int value) {
+  return std::find(few.begin(), few.end(), value) != few.end();
+}
+
 }  // namespace
 
 TornSprings::TornSprings(const ClothMesh& mesh, const Neighbourhood& near, const Fans& fans)
@@ -71,19 +76,27 @@ void TornSprings::sort_into_slices() {
   for (const InnerEdge& edge : open_) open_boxes_.push_back(box_of(edge.first, edge.second));
   // More than any spring's limit: springs are no longer than all of the mesh.
   const double reach = 3 * kTouch * (whole_.high - whole_.low).norm();
-  for (int axis = 0; axis < 3; ++axis) {
-    auto& slices = slice_of_[static_cast<std::size_t>(axis)];
-    slices.resize(static_cast<std::size_t>(x.cols()));
-    for (std::size_t i = 0; i < slices.size(); ++i) {
-      const unsigned slice = slice_of(axis, x(axis, static_cast<Eigen::Index>(i)));
-      slices[i] = static_cast<unsigned char>(slice);
-    }
-    for (const Box& box : open_boxes_) {
-      const unsigned last = slice_of(axis, box.high[axis] + reach);
-      for (unsigned s = slice_of(axis, box.low[axis] - reach); s <= last; ++s) {
-        open_slices_[static_cast<std::size_t>(axis)] |= std::uint64_t{1} << s;
-      }
-    }
+  for (int axis = 0; axis < 3; ++axis) count_slices(axis, reach);
+}
+
+void TornSprings::count_slices(int axis, double reach) {
+  std::array<bool, kSlices> is_open = {};
+  for (const Box& box : open_boxes_) {
+    const unsigned last = slice_of(axis, box.high[axis] + reach);
+    for (unsigned s = slice_of(axis, box.low[axis] - reach); s <= last; ++s) is_open[s] = true;
+  }
+  std::array<OpenSlices, kSlices> until = {};
+  unsigned count = 0;
+  for (unsigned s = 0; s < kSlices; ++s) {
+    until[s].before = static_cast<unsigned char>(count);
+    if (is_open[s]) ++count;
+    until[s].through = static_cast<unsigned char>(count);
+  }
+  const auto& x = mesh_->rest_positions;
+  auto& of_nodes = open_until_[static_cast<std::size_t>(axis)];
+  of_nodes.resize(static_cast<std::size_t>(x.cols()));
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    of_nodes[static_cast<std::size_t>(i)] = until[slice_of(axis, x(axis, i))];
   }
 }
 
@@ -94,12 +107,10 @@ unsigned TornSprings::slice_of(int axis, double coordinate) const {
 }
 
 inline bool TornSprings::meets_slices(int axis, int i, int j) const {
-  const auto& slices = slice_of_[static_cast<std::size_t>(axis)];
-  const unsigned a = slices[static_cast<std::size_t>(i)];
-  const unsigned b = slices[static_cast<std::size_t>(j)];
-  const std::uint64_t from = ~std::uint64_t{0} << std::min(a, b);
-  const std::uint64_t to = ~std::uint64_t{0} >> (kSlices - 1 - std::max(a, b));
-  return (open_slices_[static_cast<std::size_t>(axis)] & from & to) != 0;
+  const auto& of_nodes = open_until_[static_cast<std::size_t>(axis)];
+  const OpenSlices a = of_nodes[static_cast<std::size_t>(i)];
+  const OpenSlices b = of_nodes[static_cast<std::size_t>(j)];
+  return std::max(a.through, b.through) > std::min(a.before, b.before);
 }
 
 bool TornSprings::holds(int triangle, int node) const {
@@ -107,12 +118,13 @@ bool TornSprings::holds(int triangle, int node) const {
 }
 
 bool TornSprings::is_touched(int i, int j) const {
-  return fans_->is_split(i) || fans_->is_split(j) || meets_open_edge(i, j);
+  if (fans_->is_split(i) || fans_->is_split(j)) return true;
+  if (open_.empty()) return false;
+  if (!meets_slices(0, i, j) || !meets_slices(1, i, j) || !meets_slices(2, i, j)) return false;
+  return meets_open_edge(i, j);
 }
 
 bool TornSprings::meets_open_edge(int i, int j) const {
-  if (open_.empty()) return false;
-  if (!meets_slices(0, i, j) || !meets_slices(1, i, j) || !meets_slices(2, i, j)) return false;
   const auto& x = mesh_->rest_positions;
   const Box box = box_of(i, j);
   const double limit = kTouch * (x.col(j) - x.col(i)).norm();
@@ -144,17 +156,14 @@ bool TornSprings::touches(int triangle, int i, int j) const {
 std::vector<int> TornSprings::strip(int i, int j) const {
   const std::span<const int> around = near_->triangles_of(i);
   std::vector<int> found(around.begin(), around.end());
-  std::set<int> known(found.begin(), found.end());
   for (std::size_t k = 0; k < found.size(); ++k) {
     for (const int e : near_->inner_edges_of(found[k])) {
       const int next = near_->inner_edges()[static_cast<std::size_t>(e)].other(found[k]);
-      if (!known.contains(next) && touches(next, i, j)) {
-        known.insert(next);
-        found.push_back(next);
-      }
+      if (!is_among(found, next) && touches(next, i, j)) found.push_back(next);
     }
   }
-  return {known.begin(), known.end()};
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 /// For a line that leaves a curved surface: all triangles around both ends and around the nodes
@@ -182,18 +191,20 @@ std::vector<int> TornSprings::surroundings(int i, int j) const {
 /// Adds every (copy of i, copy of j) that triangles of the region still join.
 void TornSprings::pair_up(const std::vector<int>& region, int i, int j,
                           std::vector<std::pair<int, int>>& found) const {
-  std::set<int> seen;
+  std::vector<int> seen;  // of earlier pieces
+  std::vector<int> piece;
   for (const int start : near_->triangles_of(i)) {
-    if (!contains(region, start) || !seen.insert(start).second) continue;
-    std::vector<int> piece = {start};
+    if (!contains(region, start) || is_among(seen, start)) continue;
+    piece.assign(1, start);
     for (std::size_t k = 0; k < piece.size(); ++k) {
       for (const int e : near_->inner_edges_of(piece[k])) {
         const InnerEdge& edge = near_->inner_edges()[static_cast<std::size_t>(e)];
         const int next = edge.other(piece[k]);
         if (!contains(region, next) || fans_->is_open(edge)) continue;
-        if (seen.insert(next).second) piece.push_back(next);
+        if (!is_among(piece, next)) piece.push_back(next);
       }
     }
+    seen.insert(seen.end(), piece.begin(), piece.end());
     for (const int at_i : piece) {
       if (!holds(at_i, i)) continue;
       for (const int at_j : piece) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -28,6 +27,7 @@ class TornSprings {
     Vector3<double> high;
   };
   void sort_into_slices();
+  void count_slices(int axis, double reach);
   [[nodiscard]] unsigned slice_of(int axis, double coordinate) const;
   /// Whether any open edge reaches into a slice of that axis that a spring from i to j meets.
   [[nodiscard]] bool meets_slices(int axis, int i, int j) const;
@@ -47,9 +47,13 @@ class TornSprings {
   std::vector<Box> open_boxes_;  ///< at rest
   // Space is cut into slices across each axis, so that most springs are told to be far from all open edges.
   static constexpr unsigned kSlices = 64;
-  Box whole_;                                           ///< of all nodes
-  std::array<std::vector<unsigned char>, 3> slice_of_;  ///< of each node
-  std::array<std::uint64_t, 3> open_slices_ = {};       ///< one bit each
+  /// How many slices that an open edge reaches into lie before a node's slice, and up to it.
+  struct OpenSlices {
+    unsigned char before;
+    unsigned char through;
+  };
+  Box whole_;                                          ///< of all nodes
+  std::array<std::vector<OpenSlices>, 3> open_until_;  ///< of each node
 };
 
 }  // namespace weft

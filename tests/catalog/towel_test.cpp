@@ -52,7 +52,9 @@ TEST_P(TowelScene, KeepsItsLayersApartBySelfCollisionAlone) {
   const RunNumbers without = measure_scene(scene);
   EXPECT_LT(closest_layers(scene, without), 0.5 * thickness);  // measured 1 and 6 mm
   // With bullet_weft the layers come to lie in each other without an edge through a face.
-  if (std::string(GetParam()) == "bullet_soft") EXPECT_GT(without.most_piercings, 20);
+  if (std::string(GetParam()) == "bullet_soft") {
+    EXPECT_GT(without.most_piercings, 20);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, TowelScene, testing::Values("bullet_soft", "bullet_weft"),
