@@ -79,5 +79,27 @@ void SoftBodySolver::Attachment::damp_velocities(btScalar time_step) {
   write_node_velocities(velocities, *body);
 }
 
+void ContactEntry::remember_solution() {
+  solved.resize(static_cast<std::size_t>(body->m_nodes.size()));
+  for (int i = 0; i < body->m_nodes.size(); ++i) {
+    solved[static_cast<std::size_t>(i)] = body->m_nodes[i].m_x;
+  }
+}
+
+void ContactEntry::derive_velocities() {
+  for (int i = 0; i < body->m_nodes.size(); ++i) {
+    btSoftBody::Node& node = body->m_nodes[i];
+    node.m_v = (node.m_x - node.m_q) * body->m_sst.isdt;
+  }
+}
+
+void ContactEntry::add_later_motion() {
+  const btScalar share = body->m_sst.isdt * (1 - body->m_cfg.kDP);
+  for (int i = 0; i < body->m_nodes.size(); ++i) {
+    btSoftBody::Node& node = body->m_nodes[i];
+    node.m_v += share * (node.m_x - solved[static_cast<std::size_t>(i)]);
+  }
+}
+
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

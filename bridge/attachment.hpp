@@ -51,6 +51,13 @@ struct ContactEntry {
   btSoftBody* body;
   ClothContact contact;
   bool was_in_world = false;
+  std::vector<btVector3> solved;  ///< [m] places of the nodes when the body itself was solved
+
+  void remember_solution();
+  /// What moved nodes afterwards, the contacts of other bodies, becomes part of their velocities.
+  void add_later_motion();
+  /// The same where velocities are differences of places, as Bullet's own: with Bullet's rounding.
+  void derive_velocities();
 };
 
 struct SoftBodySolver::Attachments {

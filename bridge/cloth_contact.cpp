@@ -193,6 +193,7 @@ void ClothContact::refit(const btSoftBody& body) {
 
 // What was near the whole node at rest is near both of its halves.
 void ClothContact::add_copies(const std::vector<int>& origins) {
+  if (!settings_.with_itself) return;
   for (const int origin : origins) {
     near_at_rest_.push_back(std::vector<int>(near_at_rest_.at(static_cast<std::size_t>(origin))));
   }

@@ -139,6 +139,7 @@ void FastBody::predict(btSoftBody& body, btScalar time_step) {
   body.setBroadphaseHandle(nullptr);
   body.predictMotion(time_step);
   body.setBroadphaseHandle(proxy);
+  is_predicted_ = true;
 }
 
 void FastBody::publish_bounds(btSoftBody& body) const {
@@ -157,7 +158,8 @@ void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& o
                        HullTable& hulls, btScalar time_step) {
   if ((body.m_cfg.collisions & btSoftBody::fCollision::SDF_RS) == 0) return;
   obstacles_.push_back({object.getCollisionObject(), object.getCollisionShape(),
-                        object.getWorldTransform(), hulls.find(*object.getCollisionShape())});
+                        object.getWorldTransform(), hulls.find(*object.getCollisionShape()),
+                        static_cast<int>(obstacles_.size())});
   ways_.update(body);
   add_rigid_contacts(body, ways_, obstacles_.back(), time_step, PinnedNodes::kLeftOut, contacts_);
 }
@@ -192,7 +194,7 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
     for (int c = last_contact_[static_cast<std::size_t>(found.node)]; c >= 0;
          c = contact_before_[static_cast<std::size_t>(c)]) {
       const RigidContact& known = contacts_[static_cast<std::size_t>(c)];
-      if (known.object == found.object && known.shape == found.shape) return true;
+      if (known.obstacle == found.obstacle) return true;
     }
     return false;
   };
@@ -391,6 +393,7 @@ void FastBody::project_cloth_contacts(btSoftBody& body) {
 
 void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
   const TraceScope trace("write back");
+  is_predicted_ = false;
   bool meets_cloth = body.m_scontacts.size() > 0;
   for (int i = 0; i < body.m_nodes.size(); ++i) {
     const btSoftBody::Node& node = body.m_nodes[i];
@@ -449,6 +452,7 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step) {
     targets_.col(i) = origins_.col(i) + inertia_step_ * velocity;
   }
   places_ = starts_ + time_step * start_velocities_;
+  for (RigidContact& contact : contacts_) follow_object(contact);
   solve(body, time_step, settings_.effort);
 }
 

@@ -74,6 +74,8 @@ class FastBody {
   /// In place of btSoftBody::defaultCollisionHandler.
   void collide(const btSoftBody& body, const btCollisionObjectWrapper& object, HullTable& hulls,
                btScalar time_step);
+  /// Whether predict() was called in this step. A body that is woken up in between is to be left alone.
+  [[nodiscard]] bool is_predicted() const { return is_predicted_; }
   /// In place of btSoftBody::solveConstraints, in parts. begin_solve() and solve_again() touch only the body, so that
   /// those of several bodies may run at the same time; the others look things up in the world and push rigid bodies.
   void begin_solve(btSoftBody& body, btScalar time_step);
@@ -144,6 +146,7 @@ class FastBody {
   btScalar inertia_step_ = 0;  ///< [s] of the present step
   btScalar last_step_ = 0;     ///< [s]; 0: no history
   int num_steps_ = 0;
+  bool is_predicted_ = false;
   double excess_ = 0;                ///< energy in springs that nothing has put in [J]
   bool is_contact_missing_ = false;  ///< in the present solution, for all that is known
   std::vector<Obstacle> obstacles_;  ///< of this step

@@ -107,6 +107,7 @@ void add_rigid_contacts(const btSoftBody& body, const NodeWays& ways, const Obst
                         std::vector<RigidContact>& contacts) {
   if (!obstacle.object->hasContactResponse()) return;
   const btRigidBody* rigid = btRigidBody::upcast(obstacle.object);
+  const btRigidBody* const dynamic = obstacle.object->isStaticOrKinematicObject() ? nullptr : rigid;
   if (rigid != nullptr && rigid->getLinearVelocity().isZero() &&
       rigid->getAngularVelocity().isZero()) {
     rigid = nullptr;  // as good as an object that cannot move
@@ -152,7 +153,11 @@ void add_rigid_contacts(const btSoftBody& body, const NodeWays& ways, const Obst
     contact->node = i;
     contact->motion = motion;
     contact->object = obstacle.object;
-    contact->shape = obstacle.shape;
+    contact->obstacle = obstacle.number;
+    if (dynamic != nullptr) {
+      contact->met = node.m_x;
+      contact->met_by_object = dynamic->getWorldTransform().invXform(node.m_x);
+    }
     if (is_still_to_move) contact->offset += btDot(contact->normal, motion);
     contacts.push_back(*contact);
   };
@@ -160,6 +165,14 @@ void add_rigid_contacts(const btSoftBody& body, const NodeWays& ways, const Obst
     if (!meet(ways.boxes()[g], reached)) continue;
     for (const int i : ways.group(g)) look_at(i);
   }
+}
+
+void follow_object(RigidContact& contact) {
+  const btRigidBody* const rigid = btRigidBody::upcast(contact.object);
+  if (rigid == nullptr || rigid->isStaticOrKinematicObject()) return;
+  const btVector3 motion = rigid->getWorldTransform() * contact.met_by_object - contact.met;
+  contact.offset += btDot(contact.normal, motion - contact.motion);
+  contact.motion = motion;
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -19,7 +19,10 @@ struct RigidContact {
   btScalar offset = 0;        ///< [m]
   btVector3 motion{0, 0, 0};  ///< of the surface during the step [m]
   const btCollisionObject* object = nullptr;
-  const btCollisionShape* shape = nullptr;  ///< the part of the object that it is with
+  int obstacle = 0;  ///< Obstacle::number
+  // Of a dynamic object: the node's place when it was met, in the world and as the object sees it [m].
+  btVector3 met{0, 0, 0};
+  btVector3 met_by_object{0, 0, 0};
 };
 
 /// What a body's bounds meet: a whole object, or a part of it.
@@ -28,6 +31,7 @@ struct Obstacle {
   const btCollisionShape* shape;
   btTransform place;
   const HullFacets* facets;  ///< of a hull, or nullptr
+  int number = 0;            ///< to tell the parts of an object from each other
 };
 
 /// A body's nodes by where their ways lead, from m_q to m_x.
@@ -65,6 +69,10 @@ enum class PinnedNodes {
 void add_rigid_contacts(const btSoftBody& body, const NodeWays& ways, const Obstacle& obstacle,
                         btScalar time_step, PinnedNodes pinned,
                         std::vector<RigidContact>& contacts);
+
+/// Once Bullet has moved dynamic objects: they may have come elsewhere than their velocities told when the contact was
+/// found, for they have met each other since. Offset and motion become those of where the object is.
+void follow_object(RigidContact& contact);
 
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

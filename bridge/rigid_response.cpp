@@ -11,6 +11,9 @@ namespace {
 
 /// Of the margin: contacts are visited until none moves its node farther [-].
 constexpr btScalar kRest = btScalar(1e-5);
+/// Of the depth of a pinned node in an object that impulses move: what a step takes away [-], as Bullet's own contacts of
+/// rigid bodies do. All of it would come back as speed.
+constexpr btScalar kDepthShare = btScalar(0.2);
 
 /// [kg/s] From a change of a node's motion relative to an object over a step [m] to the impulse that makes it [N s].
 btMatrix3x3 impulse_matrix(btScalar inverse_mass, const btRigidBody* dynamic,
@@ -55,14 +58,12 @@ void RigidResponse::collide(btSoftBody& body, const btCollisionObjectWrapper& ob
   contacts_.reserve(static_cast<std::size_t>(body.m_nodes.size()));
   add_rigid_contacts(body, ways_,
                      {&collision_object, object.getCollisionShape(), object.getWorldTransform(),
-                      hulls.find(*object.getCollisionShape())},
+                      hulls.find(*object.getCollisionShape()), 0},
                      time_step, PinnedNodes::kWithDynamicObjects, found_);
   for (const RigidContact& found : found_) {
     Contact contact;
+    contact.with = found;
     contact.node = &body.m_nodes[found.node];
-    contact.normal = found.normal;
-    contact.offset = found.offset;
-    contact.surface = found.motion;
     contact.friction = body.m_cfg.kDF * collision_object.getFriction();
     contact.moving = moving;
     contact.dynamic = dynamic;
@@ -74,16 +75,19 @@ void RigidResponse::collide(btSoftBody& body, const btCollisionObjectWrapper& ob
   }
 }
 
-// A place where the node is put says nothing of how it moves: start and end are shifted alike. Not for objects that move: where
+// A place where the node is put says nothing of how it moves: start and end are shifted alike, by what both have in common,
+// for where the surface bends the plane at the end is none at the start. Not for objects that move: where
 // the surface of one was is known to first order in its turn only, and every step would lift nodes by that.
 void RigidResponse::leave_depths(const btSoftBody& body) {
   for (const Contact& contact : contacts_) {
     btSoftBody::Node& node = *contact.node;
-    if (node.m_im <= 0 || !contact.surface.isZero()) continue;
-    const btScalar gap = btDot(contact.normal, node.m_q) - contact.offset;
+    if (node.m_im <= 0 || !contact.with.motion.isZero()) continue;
+    const btVector3& normal = contact.with.normal;
+    const btScalar gap =
+        std::max(btDot(normal, node.m_q), btDot(normal, node.m_x)) - contact.with.offset;
     if (gap >= -kRest * body.getCollisionShape()->getMargin()) continue;
-    node.m_q -= gap * contact.normal;
-    node.m_x -= gap * contact.normal;
+    node.m_q -= gap * normal;
+    node.m_x -= gap * normal;
   }
 }
 
@@ -94,9 +98,10 @@ btScalar RigidResponse::visit(const btSoftBody& body, Contact& contact) {
   if (contact.moving != nullptr) {
     surface = body.m_sst.sdt * contact.moving->getVelocityInLocalPoint(contact.lever);
   }
-  const btVector3& normal = contact.normal;
+  const btVector3& normal = contact.with.normal;
   const btVector3 motion = node.m_x - node.m_q - surface;
-  const btScalar gap = btDot(normal, node.m_x - (surface - contact.surface)) - contact.offset;
+  const btScalar gap =
+      btDot(normal, node.m_x - (surface - contact.with.motion)) - contact.with.offset;
   // What would hold the node where it touches; then the nearest impulse of Coulomb's cone sideways.
   const btVector3 wanted = -gap * normal - (motion - btDot(motion, normal) * normal);
   btVector3 impulse = contact.impulse + contact.impulses * wanted;
@@ -110,11 +115,10 @@ btScalar RigidResponse::visit(const btSoftBody& body, Contact& contact) {
   contact.impulse = impulse;
   const btVector3 moved = change * (node.m_im * body.m_sst.sdt);
   node.m_x += moved;
-  if (contact.dynamic != nullptr && !change.isZero()) {
-    contact.dynamic->activate();
-    contact.dynamic->applyImpulse(-change, contact.lever);
-  }
-  return moved.length();
+  if (contact.dynamic == nullptr || change.isZero()) return moved.length();
+  contact.dynamic->activate();
+  contact.dynamic->applyImpulse(-change, contact.lever);
+  return moved.length() + contact.dynamic->getInvMass() * body.m_sst.sdt * change.length();
 }
 
 void RigidResponse::visit_all(const btSoftBody& body) {
@@ -130,6 +134,13 @@ void RigidResponse::solve(btSoftBody& body) {
   std::erase_if(contacts_, [&](const Contact& contact) {
     return !(contact.node->m_im > 0) && contact.dynamic == nullptr;
   });
+  for (Contact& contact : contacts_) {
+    follow_object(contact.with);
+    if (contact.node->m_im > 0) continue;
+    const btVector3 start = contact.node->m_q + contact.with.motion;
+    const btScalar gap = btDot(contact.with.normal, start) - contact.with.offset;
+    if (gap < 0) contact.with.offset += (1 - kDepthShare) * gap;
+  }
   leave_depths(body);
   visit_all(body);
   body.solveConstraints();
@@ -143,8 +154,8 @@ void RigidResponse::solve(btSoftBody& body) {
   }
   // A dynamic object stands where it came to before it was pushed: a node leaves it in place, not in speed.
   for (const Contact& contact : contacts_) {
-    const btScalar gap = btDot(contact.normal, contact.node->m_x) - contact.offset;
-    if (gap < 0 && contact.node->m_im > 0) contact.node->m_x -= gap * contact.normal;
+    const btScalar gap = btDot(contact.with.normal, contact.node->m_x) - contact.with.offset;
+    if (gap < 0 && contact.node->m_im > 0) contact.node->m_x -= gap * contact.with.normal;
   }
 }
 

@@ -13,7 +13,7 @@ inline namespace WEFT_BULLET_PRECISION {
 
 /// Contacts of a body with rigid objects by the laws of Signorini and Coulomb, in the place of Bullet's visits: a node
 /// is pushed as far as the surface and no farther, and held sideways by kDF * friction times that impulse at most.
-/// kKHR and kCHR have no say. A node that is inside an object at rest already when the step begins is put outside without getting a speed.
+/// kKHR and kCHR have no say. A depth inside an object at rest that was there already when the step began gives no speed.
 ///
 /// Bullet takes away a node's approach and kKHR or kCHR of its depth: a node stops where it was before the step and leaves with
 /// up to that share of its speed. And it takes the share kDF * friction of the sideways motion per visit, however
@@ -37,11 +37,8 @@ class RigidResponse {
 
  private:
   struct Contact {
+    RigidContact with;  ///< where the object ends the step, before it is pushed
     btSoftBody::Node* node;
-    btVector3 normal;  ///< out of the object
-    btScalar
-        offset;  ///< of the plane where the object ends the step as it moves before it is pushed [m]
-    btVector3 surface;  ///< how far the object moves there in the step, before it is pushed [m]
     btScalar friction;
     btRigidBody* moving;   ///< or nullptr
     btRigidBody* dynamic;  ///< the same, if impulses move it
@@ -51,7 +48,7 @@ class RigidResponse {
   };
 
   void leave_depths(const btSoftBody& body);
-  /// How far the node had to be moved [m].
+  /// How far the node had to be moved with respect to the object [m].
   static btScalar visit(const btSoftBody& body, Contact& contact);
   void visit_all(const btSoftBody& body);
 

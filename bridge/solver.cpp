@@ -217,6 +217,7 @@ void SoftBodySolver::set_suspended(btSoftBody& body, bool is_suspended) {
   // Those of the last step with it would be solved once more, and it may be elsewhere now.
   body.m_rcontacts.resizeNoInitialize(0);
   body.m_scontacts.resizeNoInitialize(0);
+  attachment->rigid_response.begin_step();
   if (!is_suspended) body.updateNormals();
   wake(body);
 }
@@ -227,7 +228,8 @@ bool SoftBodySolver::is_suspended(const btSoftBody& body) const {
 }
 
 void SoftBodySolver::set_cloth_contact(btSoftBody& body, const ClothContactSettings& settings) {
-  auto entry = std::make_unique<ContactEntry>(ContactEntry{&body, ClothContact(body, settings)});
+  auto entry =
+      std::make_unique<ContactEntry>(ContactEntry{&body, ClothContact(body, settings), false, {}});
   auto& list = attachments_->contacts;
   std::erase_if(list, [&](const auto& known) { return known->body == &body; });
   list.push_back(std::move(entry));
@@ -236,11 +238,16 @@ void SoftBodySolver::set_cloth_contact(btSoftBody& body, const ClothContactSetti
   body.m_cfg.m_psequence.push_back(btSoftBody::ePSolver::SContacts);
 }
 
-ClothContact* SoftBodySolver::find_contact(const btSoftBody& body) const {
+ContactEntry* SoftBodySolver::find_contact_entry(const btSoftBody& body) const {
   for (const auto& entry : attachments_->contacts) {
-    if (entry->body == &body) return &entry->contact;
+    if (entry->body == &body) return entry.get();
   }
   return nullptr;
+}
+
+ClothContact* SoftBodySolver::find_contact(const btSoftBody& body) const {
+  ContactEntry* const entry = find_contact_entry(body);
+  return entry ? &entry->contact : nullptr;
 }
 
 void SoftBodySolver::add_copies(const btSoftBody& body, const std::vector<int>& origins) {
@@ -332,7 +339,8 @@ void SoftBodySolver::solve_fast_bodies() {
   bodies.clear();
   for (const auto& attachment : attachments_->list) {
     const bool is_stepped = attachment->was_in_world && attachment->body->isActive();
-    if (attachment->fast && is_stepped && !is_still(*attachment->body)) {
+    if (attachment->fast && is_stepped && attachment->fast->is_predicted() &&
+        !is_still(*attachment->body)) {
       bodies.push_back(attachment.get());
     }
   }
@@ -372,16 +380,22 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
   // Velocities decay over the step that predictMotion was given. The argument here is the same time
   // before Bullet rounds it to single precision; to use it would mix two clocks in one step.
   solve_fast_bodies();
+  for (const auto& entry : attachments_->contacts) {
+    const bool may_be_pushed = entry->was_in_world && entry->contact.settings().with_others;
+    if (may_be_pushed && is_fast(*entry->body)) entry->remember_solution();
+  }
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
     if (!body.isActive() || is_still(body) || is_fast(body)) continue;
-    if (ClothContact* contact = find_contact(body)) contact->add_self_contacts(body, time_step_);
+    ContactEntry* const entry = find_contact_entry(body);
+    if (entry) entry->contact.add_self_contacts(body, time_step_);
     Attachment* const attachment = find(body);
     if (attachment && attachment->has_coulomb_contacts()) {
       attachment->rigid_response.solve(body);
     } else {
       body.solveConstraints();
     }
+    if (entry && entry->contact.settings().with_others && attachment) entry->remember_solution();
   }
   settle_contact_velocities();
   for_bodies([&](btSoftBody& body, Attachment* attachment) {
@@ -401,9 +415,11 @@ void SoftBodySolver::settle_contact_velocities() {
     btSoftBody& body = *entry->body;
     if (!entry->was_in_world || !entry->contact.settings().with_others) continue;
     if (!body.isActive() || is_still(body)) continue;
-    for (int i = 0; i < body.m_nodes.size(); ++i) {
-      btSoftBody::Node& node = body.m_nodes[i];
-      node.m_v = (node.m_x - node.m_q) * body.m_sst.isdt;
+    const Attachment* const attachment = find(body);
+    if (attachment && (attachment->fast || attachment->has_coulomb_contacts())) {
+      entry->add_later_motion();
+    } else {
+      entry->derive_velocities();
     }
   }
 }

@@ -23,6 +23,7 @@ struct Tear;
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
+struct ContactEntry;
 struct TornLaws;
 
 /// Where the damping laws of a body act in Bullet's step: velocity-level laws (rotation_damping and
@@ -173,6 +174,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   struct Attachment;
   struct Attachments;
   [[nodiscard]] Attachment* find(const btSoftBody& body) const;
+  [[nodiscard]] ContactEntry* find_contact_entry(const btSoftBody& body) const;
   [[nodiscard]] ClothContact* find_contact(const btSoftBody& body) const;
   void settle_contact_velocities();
   void tell_of_each_other(btSoftBody& body, btSoftBody& other);

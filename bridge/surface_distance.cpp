@@ -102,8 +102,9 @@ SurfaceDistance grown(SurfaceDistance found, btScalar margin) {
 }
 
 SurfaceDistance of(const btCapsuleShape& shape, const Place& place) {
-  const auto radius = static_cast<double>(shape.getRadius());
-  const auto half_height = static_cast<double>(shape.getHalfHeight());
+  // Bullet keeps the signs of a scaling here, and here only.
+  const auto radius = std::abs(static_cast<double>(shape.getRadius()));
+  const auto half_height = std::abs(static_cast<double>(shape.getHalfHeight()));
   return of_revolution(shape.getUpAxis(), place,
                        [&](const Profile& p) { return of_capsule(radius, half_height, p); });
 }

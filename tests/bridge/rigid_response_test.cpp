@@ -43,11 +43,10 @@ class Slope {
     place.setOrigin(place.getBasis() * btVector3(0, -1, 0));
     add_rigid(world_, std::make_shared<btBoxShape>(btVector3(10, 1, 10)), 0, place);
   }
-  /// A ball of 10 cm radius.
   btRigidBody& throw_ball(double mass, const btTransform& place, const btVector3& velocity,
-                          double gravity) {
-    btRigidBody& ball =
-        add_rigid(world_, std::make_shared<btSphereShape>(btScalar(0.1)), mass, place);
+                          double gravity, double radius = 0.1) {
+    btRigidBody& ball = add_rigid(
+        world_, std::make_shared<btSphereShape>(static_cast<btScalar>(radius)), mass, place);
     ball.setGravity(vector(0, -gravity, 0));
     ball.setLinearVelocity(velocity);
     return ball;
@@ -76,6 +75,7 @@ class Slope {
   [[nodiscard]] double depth() const {
     return kMargin - (normal_.transpose() * read(0)).minCoeff();
   }
+  [[nodiscard]] double highest() const { return (normal_.transpose() * read(0)).maxCoeff(); }
   [[nodiscard]] Vector3<double> momentum() const { return read(1) * masses_; }
   [[nodiscard]] SoftWorld& world() { return world_; }
   [[nodiscard]] btSoftBody& body() { return *body_; }
@@ -162,6 +162,31 @@ TEST(RigidResponse, GivesABallTheMomentumThatTheClothLoses) {
   EXPECT_NEAR(won, lost, sizeof(btScalar) == sizeof(float) ? 5e-3 * lost : 1e-6 * lost);
 }
 
+// What moves nodes out of a ball that they push gives them no speed, with other cloth about or not.
+TEST(RigidResponse, MakesNoMomentumWhereOtherClothMayCome) {
+  Slope scene(0, 0.4, 1.0, ContactResponse::kCoulomb);
+  scene.world().solver().set_cloth_contact(scene.body(), {.with_others = true, .margin = kMargin});
+  btRigidBody& ball = scene.throw_ball(0.01, at(0.05, 0.885, 0.05), vector(0, 2, 0), 0);
+  const double before = scene.momentum()[1] + 0.01 * 2;
+  scene.step(20);
+  const double after =
+      scene.momentum()[1] + 0.01 * static_cast<double>(ball.getLinearVelocity().y());
+  EXPECT_LT(ball.getLinearVelocity().y(), 1.9);  // they have met
+  EXPECT_NEAR(after + 0.1 * kGravity * 0.02, before, 0.01 * before);
+}
+
+// A ball at 20 m/s, 2 cm a step, is stopped at once by a pillar beside the cloth.
+TEST(RigidResponse, IsNotPushedByABallThatSomethingElseStops) {
+  Slope scene(0, 0.4, 1.0, ContactResponse::kCoulomb);
+  btRigidBody& ball = scene.throw_ball(1, at(0.4, 1.29, 0.05), vector(0, -20, 0), 0, 0.3);
+  add_rigid(scene.world(), std::make_shared<btBoxShape>(vector(0.1, 0.1, 0.1)), 0,
+            at(0.45, 0.89, 0.05));
+  const double before = scene.depth();
+  scene.step(1);
+  EXPECT_GT(ball.getCenterOfMassPosition().y(), 1.28);
+  EXPECT_NEAR(scene.depth(), before, 0.001);
+}
+
 // Of 0.1 kg of cloth a twentieth meets 10 g: the pair goes on together, and a push that is counted twice would part it.
 TEST(RigidResponse, DoesNotBounceOffALightBall) {
   Slope scene(0, 0.4, 1.0, ContactResponse::kCoulomb);
@@ -221,6 +246,34 @@ TEST(RigidResponse, ADepthThatWasThereGivesNoSpeed) {
   slope.step(1);
   EXPECT_LT(slope.depth(), 1e-6);
   EXPECT_LT(slope.largest_speed(), 1e-3);
+}
+
+// Above a box, at the distance at which it lies there, and off its edge with 2 cm a step: nothing lifts it.
+TEST(RigidResponse, ClothThatLeavesAnEdgeIsNotLifted) {
+  Slope scene(0, 0.4, 1.0, ContactResponse::kCoulomb);
+  add_rigid(scene.world(), std::make_shared<btBoxShape>(vector(1, 0.25, 1)), 0, at(-0.9, 0.75, 0));
+  scene.push(20);
+  double most = 0;
+  for (int i = 0; i < 20; ++i) {
+    scene.step(1);
+    most = std::max(most, scene.highest() - 1.0 - kMargin);
+  }
+  EXPECT_LT(most, 1e-5);
+}
+
+// Friction between them would turn the box, were it left with what the first visit gives it.
+TEST(RigidResponse, ABoxRestsOnPinnedNodes) {
+  Slope scene(0, 0.4, 1.0, ContactResponse::kCoulomb);
+  for (int i = 0; i < scene.body().m_nodes.size(); ++i) {
+    scene.body().setMass(i, 0);
+    scene.body().m_nodes[i].m_v.setZero();
+  }
+  btRigidBody& box = add_rigid(scene.world(), std::make_shared<btBoxShape>(vector(0.2, 0.1, 0.2)),
+                               2, at(0.02, 1.101 + 2 * kMargin, 0.01));
+  box.setGravity(vector(0, -kGravity, 0));
+  scene.step(500);
+  EXPECT_LT(box.getAngularVelocity().length(), 1e-3);
+  EXPECT_NEAR(box.getCenterOfMassPosition().y(), 1.1 + 2 * kMargin, 0.001);
 }
 
 TEST(RigidResponse, IsOfBodiesWithLawsOnly) {

@@ -209,6 +209,19 @@ INSTANTIATE_TEST_SUITE_P(Hulls, SolidDistance, testing::ValuesIn(hulls()), name_
 INSTANTIATE_TEST_SUITE_P(Solids, NamedSolidDistance, testing::ValuesIn(named_solids()), name_of);
 INSTANTIATE_TEST_SUITE_P(Solids, HullDistance, testing::ValuesIn(hulls()), name_of);
 
+TEST(SurfaceDistance, OfAMirroredCapsuleIsThatOfTheCapsule) {
+  const btCapsuleShape capsule(btScalar(0.2), btScalar(0.6));
+  btCapsuleShape mirrored(btScalar(0.2), btScalar(0.6));
+  mirrored.setLocalScaling(vector(-1, -1, -1));
+  for (const auto& place : {Vector3<double>(0.5, 0.1, 0), Vector3<double>(0.1, 0.7, 0.1)}) {
+    const auto one = surface_distance(capsule, nullptr, place, kFar);
+    const auto other = surface_distance(mirrored, nullptr, place, kFar);
+    ASSERT_TRUE(one && other);
+    EXPECT_EQ(one->distance, other->distance);
+    EXPECT_EQ(one->out, other->out);
+  }
+}
+
 TEST(HullFacets, OfABoxsCornersHaveTheBoxsDistance) {
   std::vector<btVector3> corners;
   for (int c = 0; c < 8; ++c) {

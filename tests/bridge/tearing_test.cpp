@@ -349,6 +349,15 @@ TEST(TearingBody, LawsThatNeedAClosedSurfaceRefuseTheTear) {
   EXPECT_EQ(banner.body->m_nodes.size(), 187);
 }
 
+TEST(TearingBody, KeepsItsContactWithOtherCloth) {
+  Banner banner(false);
+  banner.world.solver().set_cloth_contact(*banner.body, {.with_others = true});
+  EXPECT_GT(banner.cut({{0, -1, 0}, {0, 1, 0}, {0, 0, 1}}), 0);
+  EXPECT_EQ(banner.mesh.num_nodes(), banner.body->m_nodes.size());
+  banner.step();
+  EXPECT_FALSE(banner.world.solver().blow_up(*banner.body));
+}
+
 TEST(TearingBody, ABodyThatBlewUpIsLeftAlone) {
   Banner banner(false);
   banner.step();
