@@ -26,6 +26,18 @@ TEST_P(TowelScene, SlidesOffFoldsAndDoesNotPassThroughItself) {
   EXPECT_LT(x.row(2).maxCoeff() - x.row(2).minCoeff(), 0.7);
 }
 
+// Five times the scene's own step: contacts found where springs would not let the nodes go threw layers about at 20 m/s.
+TEST(TowelInLargeSteps, ComesToRest) {
+  Scene scene = load_scene("towel");
+  scene.engines = {"bullet_weft"};
+  scene.world.time_step = 0.01;      // [s]
+  scene.world.frame_interval = 0.1;  // [s]
+  const RunNumbers numbers = measure_scene(scene);
+  EXPECT_EQ(numbers.piercings_end, 0);
+  EXPECT_LT(numbers.fastest_end, 0.2);  // [m/s]; measured 0.06
+  EXPECT_LT(numbers.deepest, 0.002);
+}
+
 /// Smallest distance at the end between nodes that were more than 20 cm apart at rest [m].
 double closest_layers(const Scene& scene, const RunNumbers& numbers) {
   const Matrix3X<double> rest = make_mesh(scene.cloths.at(0)).rest_positions;
