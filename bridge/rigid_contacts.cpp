@@ -167,10 +167,12 @@ void add_rigid_contacts(const btSoftBody& body, const NodeWays& ways, const Obst
   }
 }
 
-void follow_object(RigidContact& contact) {
+void follow_object(RigidContact& contact, btScalar time_step, btScalar least_surprise) {
   const btRigidBody* const rigid = btRigidBody::upcast(contact.object);
   if (rigid == nullptr || rigid->isStaticOrKinematicObject()) return;
   const btVector3 motion = rigid->getWorldTransform() * contact.met_by_object - contact.met;
+  const btVector3 expected = contact.motion + time_step * time_step * rigid->getGravity();
+  if ((motion - expected).length() < least_surprise) return;
   contact.offset += btDot(contact.normal, motion - contact.motion);
   contact.motion = motion;
 }

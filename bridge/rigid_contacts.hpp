@@ -71,8 +71,9 @@ void add_rigid_contacts(const btSoftBody& body, const NodeWays& ways, const Obst
                         std::vector<RigidContact>& contacts);
 
 /// Once Bullet has moved dynamic objects: they may have come elsewhere than their velocities told when the contact was
-/// found, for they have met each other since. Offset and motion become those of where the object is.
-void follow_object(RigidContact& contact);
+/// found, for they have met each other since. Offset and motion become those of where the object is, if that is farther from where
+/// it would be by its velocity and its gravity than least_surprise [m].
+void follow_object(RigidContact& contact, btScalar time_step, btScalar least_surprise);
 
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

@@ -135,7 +135,7 @@ void RigidResponse::solve(btSoftBody& body) {
     return !(contact.node->m_im > 0) && contact.dynamic == nullptr;
   });
   for (Contact& contact : contacts_) {
-    follow_object(contact.with);
+    follow_object(contact.with, body.m_sst.sdt, 0);
     if (contact.node->m_im > 0) continue;
     const btVector3 start = contact.node->m_q + contact.with.motion;
     const btScalar gap = btDot(contact.with.normal, start) - contact.with.offset;
