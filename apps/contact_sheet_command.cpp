@@ -60,7 +60,8 @@ std::string first_engine(const scenes::Scene& scene) {
   return scene.engines.empty() ? kUsualEngine : scene.engines.front();
 }
 
-Exhibit simulate(const scenes::Scene& scene, const std::string& name) {
+Exhibit simulate(const scenes::Scene& for_all, const std::string& name) {
+  const scenes::Scene scene = scenes::with_step_of(for_all, name);
   const std::unique_ptr<scenes::Simulator> simulator = find_any_precision(name).make();
   simulator->load(scene);
   const double end = poster_time(scene);

@@ -81,6 +81,7 @@ scenes::Scene requested_scene(const RunOptions& options) {
   }
   if (!options.time_step.empty()) {
     scene.world.time_step = time_option("--time-step", options.time_step);
+    scene.world.implicit_time_step.reset();
   }
   const auto word = std::find(scenes::kIntegratorWords.begin(), scenes::kIntegratorWords.end(),
                               options.integrator);
@@ -91,7 +92,6 @@ scenes::Scene requested_scene(const RunOptions& options) {
   // The edited scene must hold to the same rules as a file.
   scene =
       scenes::read_scene_text(scenes::write_scene(scene), options.scene, scenes::files_of(scene));
-  if (options.bullet_time_step) scene = scenes::with_bullets_time_step(std::move(scene));
   return scene;
 }
 
@@ -190,8 +190,10 @@ int report(const Recorded& recorded, const std::string& output) {
 }
 
 int run(RunOptions options, const CommandLine& command_line) {
-  const scenes::Scene scene = requested_scene(options);
+  scenes::Scene scene = requested_scene(options);
   options.engine = requested_engine(options, scene);
+  scene = scenes::with_step_of(std::move(scene), options.engine);
+  if (options.bullet_time_step) scene = scenes::with_bullets_time_step(std::move(scene));
   const scenes::StoredPrecision precision = requested_precision(options);
   if (!options.integrator.empty() && options.engine != "reference") {
     throw InvalidArgument("--integrator " + options.integrator + ": " + options.engine +
@@ -252,7 +254,7 @@ Action add_run_command(CLI::App& parser, const CommandLine& command_line) {
   command->add_flag("-f,--force", options->force, "Replace an existing recording");
   command->add_option("--duration", options->duration, "Instead of the scene's, e.g. \"2 s\"");
   command->add_option("--time-step", options->time_step,
-                      "Instead of the scene's, e.g. \"1/200 s\"");
+                      "Instead of the scene's for the engine, e.g. \"1/200 s\"");
   command
       ->add_option("--integrator", options->integrator, "Of the reference, instead of the scene's")
       ->check(CLI::IsMember(std::vector<std::string>(scenes::kIntegratorWords.begin(),

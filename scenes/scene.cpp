@@ -184,6 +184,14 @@ bool is_for_engine(const Scene& scene, std::string_view engine) {
          std::find(scene.engines.begin(), scene.engines.end(), engine) != scene.engines.end();
 }
 
+Scene with_step_of(Scene scene, std::string_view engine) {
+  World& world = scene.world;
+  if (engine == "bullet_weft" && world.implicit_time_step)
+    world.time_step = *world.implicit_time_step;
+  world.implicit_time_step.reset();
+  return scene;
+}
+
 Scene with_bullets_time_step(Scene scene) {
   World& world = scene.world;
   const double num_steps = std::round(world.duration / world.time_step);

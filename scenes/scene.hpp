@@ -30,6 +30,9 @@ struct World {
   double time_step = 0.01;               ///< [s]
   double duration = 1.0;                 ///< [s]
   double frame_interval = 0.02;  ///< [s] between recorded frames; a whole number of time steps
+  /// [s] of engines that solve springs implicitly, for which a step is short enough if contacts and pictures are right; none:
+  /// time_step.
+  std::optional<double> implicit_time_step = {};
 };
 
 /// Which nodes a pin holds. Corners and edges are those of a grid.
@@ -178,6 +181,10 @@ struct Scene {
 [[nodiscard]] std::vector<int> nodes_of(const Pin& pin, const Cloth& cloth, const ClothMesh& mesh);
 /// Whether the scene is made for the engine of this name.
 [[nodiscard]] bool is_for_engine(const Scene& scene, std::string_view engine);
+
+/// The scene with the time step that it has for the engine of this name: World::implicit_time_step for bullet_weft. Engines that are
+/// to be compared take time_step instead.
+[[nodiscard]] Scene with_step_of(Scene scene, std::string_view engine);
 
 /// The scene with the time step that Bullet takes, which it rounds to single precision in both
 /// builds; duration and frame interval keep their numbers of steps. Engines that are to be compared

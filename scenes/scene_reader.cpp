@@ -24,8 +24,8 @@ constexpr double kWholeStepTolerance = 1e-9;
 constexpr std::array<std::string_view, 12> kRootKeys = {
     "character", "schema",   "name",       "summary", "engines",   "world",
     "cloth",     "collider", "controller", "bullet",  "reference", "camera"};
-constexpr std::array<std::string_view, 4> kWorldKeys = {"gravity", "time_step", "duration",
-                                                        "frame_interval"};
+constexpr std::array<std::string_view, 5> kWorldKeys = {"gravity", "time_step", "duration",
+                                                        "frame_interval", "implicit_time_step"};
 constexpr std::array<std::string_view, 2> kBulletKeys = {"position_iterations", "concave"};
 constexpr std::array<std::string_view, 6> kReferenceKeys = {
     "integrator", "tolerance", "spectral_radius", "contact", "contact_points", "step_guard"};
@@ -64,23 +64,23 @@ std::vector<std::string> read_engines(const TomlValue& value) {
   return engines;
 }
 
-void check_steps(const World& world, const TomlTable& table) {
+void check_steps(const World& world, double time_step, const TomlTable& table) {
   const TomlValue duration = table.require("duration", "");
-  if (world.duration < world.time_step) {
+  if (world.duration < time_step) {
     duration.fail(
-        fmt::format("expected at least one time step, {}", format_quantity(world.time_step, "s")));
+        fmt::format("expected at least one time step, {}", format_quantity(time_step, "s")));
   }
-  const double num_steps = world.duration / world.time_step;
+  const double num_steps = world.duration / time_step;
   if (num_steps > kMaxSteps) {
     duration.fail(fmt::format("makes {:.3g} time steps of {}, expected at most {}", num_steps,
-                              format_quantity(world.time_step, "s"), kMaxSteps));
+                              format_quantity(time_step, "s"), kMaxSteps));
   }
-  const double ratio = world.frame_interval / world.time_step;
+  const double ratio = world.frame_interval / time_step;
   const double whole = std::round(ratio);
   if (whole >= 1 && std::abs(ratio - whole) <= kWholeStepTolerance * whole) return;
   const std::string message =
       fmt::format("is {:.6g} time steps, expected a whole number of them, {} each", ratio,
-                  format_quantity(world.time_step, "s"));
+                  format_quantity(time_step, "s"));
   if (const std::optional<TomlValue> interval = table.find("frame_interval")) {
     interval->fail(message);
   }
@@ -206,7 +206,11 @@ World read_world(const TomlTable& table) {
   world.time_step = table.require("time_step", expected_quantity("s", "1/100")).positive("s");
   world.duration = table.require("duration", expected_quantity("s")).positive("s");
   if (const auto value = table.find("frame_interval")) world.frame_interval = value->positive("s");
-  check_steps(world, table);
+  check_steps(world, world.time_step, table);
+  if (const auto value = table.find("implicit_time_step")) {
+    world.implicit_time_step = value->positive("s");
+    check_steps(world, *world.implicit_time_step, table);
+  }
   return world;
 }
 

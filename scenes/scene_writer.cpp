@@ -297,6 +297,9 @@ std::string write_scene(const Scene& scene) {
   line(out, "time_step", value_text(scene.world.time_step, "s"));
   line(out, "duration", value_text(scene.world.duration, "s"));
   line(out, "frame_interval", value_text(scene.world.frame_interval, "s"));
+  if (scene.world.implicit_time_step) {
+    line(out, "implicit_time_step", value_text(*scene.world.implicit_time_step, "s"));
+  }
   for (const Cloth& cloth : scene.cloths) {
     if (!std::holds_alternative<SkinSource>(cloth.source)) write_cloth(out, cloth);
   }

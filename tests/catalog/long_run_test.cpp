@@ -44,8 +44,9 @@ double run_time() {
 class LongRun : public testing::TestWithParam<const CatalogEntry*> {};
 
 TEST_P(LongRun, StaysFiniteAndNeedsNoMoreMemory) {
-  const Scene scene = load_scene(std::string(GetParam()->name));
+  Scene scene = load_scene(std::string(GetParam()->name));
   const std::string engine = scene.engines.empty() ? "bullet_forces" : scene.engines.front();
+  scene = with_step_of(std::move(scene), engine);
   const EngineInfo* info = find_engine(engine, StoredPrecision::kFloat32);
   ASSERT_NE(info, nullptr) << engine;
   const auto simulator = info->make();

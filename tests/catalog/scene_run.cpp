@@ -28,10 +28,11 @@ int piercings(const SceneState& state, const std::vector<ClothMesh>& meshes) {
 
 }  // namespace
 
-void run_scene(const Scene& scene, const std::function<void(const SceneState&)>& look) {
-  const EngineInfo* engine = find_engine(
-      scene.engines.empty() ? "bullet_soft" : scene.engines.front(), StoredPrecision::kFloat32);
+void run_scene(const Scene& for_all, const std::function<void(const SceneState&)>& look) {
+  const std::string name = for_all.engines.empty() ? "bullet_soft" : for_all.engines.front();
+  const EngineInfo* engine = find_engine(name, StoredPrecision::kFloat32);
   ASSERT_NE(engine, nullptr);
+  const Scene scene = with_step_of(for_all, name);
   const std::unique_ptr<Simulator> simulator = engine->make();
   simulator->load(scene);
   const World& world = scene.world;

@@ -236,6 +236,20 @@ TEST(SceneFile, EveryKeyReachesTheScene) {
   EXPECT_EQ(scene.reference.step_guard, StepGuard::kSubstep);
 }
 
+TEST(SceneFile, AnImplicitEngineMayHaveItsOwnTimeStep) {
+  const std::string key = "frame_interval = \"1/30 s\"\n";
+  std::string text(kFullScene);
+  text.insert(text.find(key) + key.size(), "implicit_time_step = \"1/60 s\"\n");
+  const Scene scene = read_scene_text(text, "full.toml");
+  EXPECT_EQ(with_step_of(scene, "bullet_weft").world.time_step, 1.0 / 60);
+  EXPECT_EQ(with_step_of(scene, "bullet_soft").world.time_step, 1.0 / 300);
+  EXPECT_EQ(with_step_of(read_scene_text(kFullScene, "full.toml"), "bullet_weft").world.time_step,
+            1.0 / 300);
+  EXPECT_EQ(read_scene_text(write_scene(scene), "again.toml").world.implicit_time_step, 1.0 / 60);
+  text.replace(text.find("1/60 s"), 6, "1/40 s");  // 3/4 of a step in a frame
+  EXPECT_THROW((void)read_scene_text(text, "full.toml"), Error);
+}
+
 TEST(SceneFile, PinsHoldTheCornersAndEdgesTheyName) {
   const auto pinned = [](const std::string& pin) {
     const std::string text = std::string(kSmallScene) + "pin = [" + pin + "]\n";
