@@ -197,6 +197,7 @@ Scene with_bullets_time_step(Scene scene) {
   const double num_steps = std::round(world.duration / world.time_step);
   const double steps_per_frame = std::round(world.frame_interval / world.time_step);
   world.time_step = static_cast<double>(static_cast<float>(world.time_step));
+  world.implicit_time_step.reset();
   world.duration = num_steps * world.time_step;
   world.frame_interval = steps_per_frame * world.time_step;
   return scene;

@@ -187,7 +187,7 @@ struct Scene {
 [[nodiscard]] Scene with_step_of(Scene scene, std::string_view engine);
 
 /// The scene with the time step that Bullet takes, which it rounds to single precision in both
-/// builds; duration and frame interval keep their numbers of steps. Engines that are to be compared
+/// builds, for all engines; duration and frame interval keep their numbers of steps. Engines that are to be compared
 /// must take the same step.
 [[nodiscard]] Scene with_bullets_time_step(Scene scene);
 

@@ -41,7 +41,7 @@ void check_schema(const TomlTable& root) {
 
 std::string read_name(const TomlTable& root) {
   const TomlValue value = root.require("name", "a name such as \"drape_sphere\"");
-  const std::string name = value.identifier();
+  std::string name = value.identifier();
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
   };

@@ -246,6 +246,7 @@ TEST(SceneFile, AnImplicitEngineMayHaveItsOwnTimeStep) {
   EXPECT_EQ(with_step_of(read_scene_text(kFullScene, "full.toml"), "bullet_weft").world.time_step,
             1.0 / 300);
   EXPECT_EQ(read_scene_text(write_scene(scene), "again.toml").world.implicit_time_step, 1.0 / 60);
+  EXPECT_FALSE(with_bullets_time_step(scene).world.implicit_time_step);
   text.replace(text.find("1/60 s"), 6, "1/40 s");  // 3/4 of a step in a frame
   EXPECT_THROW((void)read_scene_text(text, "full.toml"), Error);
 }
