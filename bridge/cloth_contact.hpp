@@ -41,9 +41,10 @@ class ClothContact {
   void add_copies(const std::vector<int>& origins);
   /// Before btSoftBody::predictMotion: the body will be elsewhere.
   void begin_step() { is_tree_of_this_step_ = false; }
-  /// Between btSoftBody::predictMotion and solveConstraints. time_step [s].
+  /// After btSoftBody::predictMotion, before contacts with cloth are projected: where nodes are then is where contacts are
+  /// looked for. time_step [s].
   void add_self_contacts(btSoftBody& body, btScalar time_step);
-  /// Contacts of the body's nodes with the faces of another one; add both ways. At the same place in a step.
+  /// Contacts of the body's nodes with the faces of another one; add both ways. Likewise.
   void add_contacts(btSoftBody& body, btSoftBody& other, ClothContact& other_contact,
                     btScalar time_step);
 

@@ -44,12 +44,6 @@ void check(const FastSettings& settings) {
   require(settings.effort.iterations, "iterations");
 }
 
-/// Of a rigid body that an impulse moves; nullptr for others.
-btRigidBody* movable(const btCollisionObject* object) {
-  auto* rigid = const_cast<btRigidBody*>(btRigidBody::upcast(object));
-  return rigid != nullptr && !rigid->isStaticOrKinematicObject() ? rigid : nullptr;
-}
-
 /// What a force at a place has to move, in the direction in which that is easiest [kg].
 btScalar mass_at(const btRigidBody& rigid, const btVector3& place) {
   const btVector3 arm = place - rigid.getCenterOfMassPosition();

@@ -9,7 +9,6 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
-#include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <weft/bridge/bullet_vector.hpp>
 
@@ -87,6 +86,11 @@ btScalar largest_motion(const btRigidBody& rigid, const MotionBox& nodes, btScal
 
 }  // namespace
 
+btRigidBody* movable(const btCollisionObject* object) {
+  auto* rigid = const_cast<btRigidBody*>(btRigidBody::upcast(object));
+  return rigid != nullptr && !rigid->isStaticOrKinematicObject() ? rigid : nullptr;
+}
+
 void NodeWays::update(const btSoftBody& body) {
   if (is_of_now_) return;
   is_of_now_ = true;
@@ -107,7 +111,7 @@ void add_rigid_contacts(const btSoftBody& body, const NodeWays& ways, const Obst
                         std::vector<RigidContact>& contacts) {
   if (!obstacle.object->hasContactResponse()) return;
   const btRigidBody* rigid = btRigidBody::upcast(obstacle.object);
-  const btRigidBody* const dynamic = obstacle.object->isStaticOrKinematicObject() ? nullptr : rigid;
+  const btRigidBody* const dynamic = movable(obstacle.object);
   if (rigid != nullptr && rigid->getLinearVelocity().isZero() &&
       rigid->getAngularVelocity().isZero()) {
     rigid = nullptr;  // as good as an object that cannot move
@@ -168,8 +172,8 @@ void add_rigid_contacts(const btSoftBody& body, const NodeWays& ways, const Obst
 }
 
 void follow_object(RigidContact& contact, btScalar time_step, btScalar least_surprise) {
-  const btRigidBody* const rigid = btRigidBody::upcast(contact.object);
-  if (rigid == nullptr || rigid->isStaticOrKinematicObject()) return;
+  const btRigidBody* const rigid = movable(contact.object);
+  if (rigid == nullptr) return;
   const btVector3 motion = rigid->getWorldTransform() * contact.met_by_object - contact.met;
   const btVector3 expected = contact.motion + time_step * time_step * rigid->getGravity();
   if ((motion - expected).length() < least_surprise) return;

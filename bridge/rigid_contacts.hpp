@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/face_tree.hpp>
@@ -11,6 +12,9 @@
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
+
+/// Of an object that impulses move, without its const; nullptr for others.
+[[nodiscard]] btRigidBody* movable(const btCollisionObject* object);
 
 /// A node in front of a rigid surface: normal . x >= offset at the end of the step.
 struct RigidContact {
