@@ -38,7 +38,7 @@ struct ValidateOptions {
 };
 
 void print_table(const validation::Report& report) {
-  fmt::print("{:<16} {:<22} {:<52} {:>11} {:>11} {:>9}  {}\n", "case", "engine", "metric",
+  fmt::print("{:<20} {:<25} {:<52} {:>11} {:>11} {:>9}  {}\n", "case", "engine", "metric",
              "measured", "allowed", "ratio", "verdict");
   for (const validation::CheckResult& check : report.checks) {
     const bool caught = std::all_of(check.sabotages.begin(), check.sabotages.end(),
@@ -49,12 +49,24 @@ void print_table(const validation::Report& report) {
     const std::string metric =
         check.unit == "1" ? check.metric : fmt::format("{} [{}]", check.metric, check.unit);
     const std::optional<double> part = validation::ratio(check);
-    fmt::print("{:<16} {:<22} {:<52} {:>11.3g} {:>11} {:>9}  {}{}\n", check.case_id, check.engine,
+    fmt::print("{:<20} {:<25} {:<52} {:>11.3g} {:>11} {:>9}  {}{}\n", check.case_id, check.engine,
                metric, check.measured,
                check.tolerance ? fmt::format("{:.3g}", check.tolerance->value) : std::string("-"),
                part ? fmt::format("{:.2g}", *part) : std::string("-"), verdict,
                caught ? "" : " (a sabotage went unnoticed)");
   }
+}
+
+void print_verdict(const validation::Report& report) {
+  std::size_t num_gated = 0;
+  std::size_t num_sabotages = 0;
+  for (const validation::CheckResult& check : report.checks) {
+    if (check.verdict != validation::Verdict::kInfo) ++num_gated;
+    num_sabotages += check.sabotages.size();
+  }
+  fmt::print("\n{}: {} checks, {} more measured without a bound, {} sabotages\n",
+             report.passed() ? "PASS" : "FAIL", num_gated, report.checks.size() - num_gated,
+             num_sabotages);
 }
 
 std::string page_path(const ValidateOptions& options) {
@@ -99,11 +111,8 @@ int validate(const ValidateOptions& options, const CommandLine& command_line) {
   validation::write_report(report, options.output);
   print_table(report);
 
-  std::size_t num_sabotages = 0;
-  for (const validation::CheckResult& check : report.checks)
-    num_sabotages += check.sabotages.size();
-  fmt::print("\n{}: {} checks, {} sabotages\nReport: {}\n", report.passed() ? "PASS" : "FAIL",
-             report.checks.size(), num_sabotages, page_path(options));
+  print_verdict(report);
+  fmt::print("Report: {}\n", page_path(options));
   return report.passed() ? kOk : kCaseFailed;
 }
 
