@@ -5,40 +5,52 @@
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
+namespace {
 
-double energy_put_in(const StepMotion& motion, const btSoftBody& body) {
+/// Nodes whose terms are summed in Bullet's precision; the sums of such pieces are summed in double precision.
+constexpr Eigen::Index kPiece = 128;
+
+/// term: of the first node and the number of nodes of a piece, their sum.
+template <class Term>
+double sum_over(Eigen::Index num_nodes, const Term& term) {
   double sum = 0;
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    const btSoftBody::Node& node = body.m_nodes[i];
-    if (node.m_im <= 0) continue;
-    const Vector3<btScalar> before = motion.start_velocities.col(i);
-    const Vector3<btScalar> predicted(node.m_v.x(), node.m_v.y(), node.m_v.z());
-    const Vector3<btScalar> way = motion.places.col(i) - motion.starts.col(i);
-    sum += motion.masses[i] * static_cast<double>(before.squaredNorm() / 2 +
-                                                  (predicted - before).dot(way) / motion.time_step);
+  for (Eigen::Index first = 0; first < num_nodes; first += kPiece) {
+    sum += static_cast<double>(term(first, std::min(kPiece, num_nodes - first)));
   }
   return sum;
 }
 
-double kinetic_energy(const VectorX<double>& masses, const btSoftBody& body,
-                      const Matrix3X<btScalar>& velocities) {
-  double sum = 0;
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    if (body.m_nodes[i].m_im <= 0) continue;
-    sum += 0.5 * masses[i] * static_cast<double>(velocities.col(i).squaredNorm());
-  }
-  return sum;
+}  // namespace
+
+double energy_put_in(const StepMotion& motion) {
+  return sum_over(motion.starts.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    const auto of = [&](const Matrix3X<btScalar>& vectors) {
+      return vectors.middleCols(first, count).array();
+    };
+    const auto before = of(motion.start_velocities);
+    const auto work = (of(motion.predicted) - before) * (of(motion.places) - of(motion.starts)) /
+                      motion.time_step;
+    return (of(motion.masses) * (before * before / 2 + work)).sum();
+  });
 }
 
-void limit_energy(const VectorX<double>& masses, const btSoftBody& body, double most,
-                  bool keeps_momentum, Matrix3X<btScalar>& velocities) {
+double kinetic_energy(const Matrix3X<btScalar>& masses, const Matrix3X<btScalar>& velocities) {
+  return 0.5 * sum_over(velocities.cols(), [&](Eigen::Index first, Eigen::Index count) {
+           const auto v = velocities.middleCols(first, count).array();
+           return (masses.middleCols(first, count).array() * v * v).sum();
+         });
+}
+
+void limit_energy(const Matrix3X<btScalar>& masses, double most, bool keeps_momentum,
+                  Matrix3X<btScalar>& velocities) {
   Vector3<double> mean = Vector3<double>::Zero();
   double of_mean = 0;
   if (keeps_momentum) {
-    mean = velocities.template cast<double>() * masses / masses.sum();
-    of_mean = 0.5 * masses.sum() * mean.squaredNorm();
+    const VectorX<double> of_nodes = masses.row(0).transpose().cast<double>();
+    mean = velocities.cast<double>() * of_nodes / of_nodes.sum();
+    of_mean = 0.5 * of_nodes.sum() * mean.squaredNorm();
   }
-  const double now = kinetic_energy(masses, body, velocities);
+  const double now = kinetic_energy(masses, velocities);
   const double share = now > of_mean ? std::max(0.0, most - of_mean) / (now - of_mean) : 0.0;
   const auto factor = static_cast<btScalar>(std::sqrt(std::min(1.0, share)));
   const Vector3<btScalar> kept = mean.cast<btScalar>();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
@@ -10,7 +11,7 @@
 #include <weft/bridge/bullet_vector.hpp>
 #include <weft/bridge/energy_limit.hpp>
 #include <weft/bridge/node_state.hpp>
-#include <weft/bridge/node_tree.hpp>
+#include <weft/bridge/node_prediction.hpp>
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/trace.hpp>
 
@@ -52,6 +53,11 @@ btScalar mass_at(const btRigidBody& rigid, const btVector3& place) {
   return 1 / (rigid.getInvMass() + turning);
 }
 
+void include_in_bounds(const Matrix3X<btScalar>& positions, btSoftBody& body) {
+  body.m_bounds[0].setMin(to_bullet(positions.rowwise().minCoeff()));
+  body.m_bounds[1].setMax(to_bullet(positions.rowwise().maxCoeff()));
+}
+
 void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& place) {
   rigid.activate();
   rigid.applyImpulse(impulse, place - rigid.getCenterOfMassPosition());
@@ -81,6 +87,7 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
     if (is_changed[node] != 0) torn_nodes_[node] = 1;
   }
   masses_ = std::move(masses);
+  weights_.resize(3, 0);
   if (solver_) {
     solver_->tear(springs, is_changed, masses_, origins);
     for (const int origin : origins) {
@@ -112,42 +119,49 @@ void FastBody::choose_origin(const btSoftBody& body) {
   if (body.m_nodes.size() == 0) return;
   const Vector3<btScalar> near = from_bullet<btScalar>(body.m_nodes[0].m_x);
   const bool is_far = (near - origin_).norm() > kFarFromOrigin;
-  if ((num_steps_ > 0 && !is_far) || !near.allFinite()) return;
+  if ((last_starts_.cols() > 0 && !is_far) || !near.allFinite()) return;
   const Vector3<btScalar> origin = (near / kOriginGrid).array().round() * kOriginGrid;
   last_starts_.colwise() += origin_ - origin;
   places_.colwise() += origin_ - origin;
   origin_ = origin;
 }
 
-void FastBody::predict(btSoftBody& body, btScalar time_step) {
+void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btScalar>& positions,
+                       const Matrix3X<btScalar>& velocities) {
   last_starts_.swap(starts_);
   last_velocities_.swap(start_velocities_);
   choose_origin(body);
-  read_nodes(body, starts_, start_velocities_);
-  starts_.colwise() -= origin_;
+  starts_ = positions.colwise() - origin_;
+  start_velocities_ = velocities;
   contacts_.clear();
   obstacles_.clear();
   ways_.outdate();
-  if (num_steps_++ % kCoveredSteps == 0) {
-    cover_motion(body, start_velocities_, last_velocities_, time_step);
+  find_pins(body);
+  if (is_plain(body)) {
+    predict_nodes(body, time_step, last_velocities_, predicted_);
+  } else {
+    // Bullet would tell the broadphase, which all bodies share.
+    btBroadphaseProxy* const proxy = body.getBroadphaseHandle();
+    body.setBroadphaseHandle(nullptr);
+    body.predictMotion(time_step);
+    body.setBroadphaseHandle(proxy);
+    include_in_bounds(positions, body);
+    read_nodes(body, origins_, predicted_);
   }
-  // Bullet would tell the broadphase, which all bodies share.
-  btBroadphaseProxy* const proxy = body.getBroadphaseHandle();
-  body.setBroadphaseHandle(nullptr);
-  body.predictMotion(time_step);
-  body.setBroadphaseHandle(proxy);
   is_predicted_ = true;
 }
 
-void FastBody::publish_bounds(btSoftBody& body) const {
-  btVector3 low = body.m_bounds[0];
-  btVector3 high = body.m_bounds[1];
-  low.setMin(to_bullet(starts_.rowwise().minCoeff() + origin_));
-  high.setMax(to_bullet(starts_.rowwise().maxCoeff() + origin_));
-  body.m_bounds[0] = low;
-  body.m_bounds[1] = high;
+void FastBody::find_pins(const btSoftBody& body) {
+  pins_.clear();
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    if (body.m_nodes[i].m_im <= 0) pins_.push_back(i);
+  }
+}
+
+void FastBody::publish_bounds(btSoftBody& body) {
   if (btBroadphaseProxy* const proxy = body.getBroadphaseHandle()) {
-    body.m_worldInfo->m_broadphase->setAabb(proxy, low, high, body.m_worldInfo->m_dispatcher);
+    body.m_worldInfo->m_broadphase->setAabb(proxy, body.m_bounds[0], body.m_bounds[1],
+                                            body.m_worldInfo->m_dispatcher);
   }
 }
 
@@ -201,14 +215,24 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
   return contacts_.size() > num_known;
 }
 
+bool FastBody::has_pins_of_solver(const btSoftBody& body) const {
+  const auto num_pins = static_cast<std::size_t>(std::count(is_free_.begin(), is_free_.end(), false));
+  return is_free_.size() == static_cast<std::size_t>(body.m_nodes.size()) &&
+         pins_.size() == num_pins && std::none_of(pins_.begin(), pins_.end(), [&](int pin) {
+           return is_free_[static_cast<std::size_t>(pin)];
+         });
+}
+
 void FastBody::prepare_solver(const btSoftBody& body, btScalar time_step) {
-  bool is_same = solver_ != nullptr && time_step < solver_step_ * kStepRatio &&
-                 time_step > solver_step_ / kStepRatio;
-  is_free_.resize(static_cast<std::size_t>(body.m_nodes.size()), false);
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    const bool is_free = body.m_nodes[i].m_im > 0;
-    if (is_free_[static_cast<std::size_t>(i)] != is_free) is_same = false;
-    is_free_[static_cast<std::size_t>(i)] = is_free;
+  const bool is_same = solver_ != nullptr && time_step < solver_step_ * kStepRatio &&
+                       time_step > solver_step_ / kStepRatio && has_pins_of_solver(body);
+  if (!is_same) {
+    is_free_.assign(static_cast<std::size_t>(body.m_nodes.size()), true);
+    for (const int pin : pins_) is_free_[static_cast<std::size_t>(pin)] = false;
+  }
+  if (!is_same || weights_.cols() != body.m_nodes.size()) {
+    weights_ = masses_.transpose().cast<btScalar>().replicate(3, 1);
+    for (const int pin : pins_) weights_.col(pin).setZero();
   }
   if (is_same) {
     solver_->renew({&network_, &torn_nodes_, &torn_springs_}, masses_);
@@ -221,15 +245,14 @@ void FastBody::prepare_solver(const btSoftBody& body, btScalar time_step) {
   solver_step_ = time_step;
 }
 
-bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) const {
+bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
   if (!settings_.is_second_order || last_step_ != time_step || !contacts_.empty() ||
       body.m_scontacts.size() > 0 || places_.cols() != starts_.cols()) {
     return false;
   }
-  for (int i = 0; i < body.m_nodes.size(); ++i) {  // somebody may have moved a node since
-    if (body.m_nodes[i].m_im > 0 && places_.col(i) != starts_.col(i)) return false;
-  }
-  return true;
+  // Somebody may have moved a node since.
+  for (const int pin : pins_) places_.col(pin) = starts_.col(pin);
+  return places_ == starts_;
 }
 
 void FastBody::read_constraints(const btSoftBody& body) {
@@ -271,7 +294,7 @@ void FastBody::read_constraints(const btSoftBody& body) {
 
 void FastBody::give_impulses(btSoftBody& body, btScalar time_step) {
   const auto impulse_on = [&](int node) {
-    return -time_step * to_bullet(solver_->holding_forces().col(node));
+    return -time_step * to_bullet(solver_->holding_force(node));
   };
   const auto place_of = [&](int node) { return in_world(node); };
   for (int a = 0; a < body.m_anchors.size(); ++a) {
@@ -290,28 +313,26 @@ void FastBody::give_impulses(btSoftBody& body, btScalar time_step) {
 }
 
 // What does that work is not known: pins and anchors that lead, obstacles that move, other cloth.
-bool FastBody::gets_work_from_outside(const btSoftBody& body) const {
+bool FastBody::gets_work_from_outside() const {
   if (!led_.empty()) return true;
   for (const RigidContact& contact : contacts_) {
     if (contact.motion.length2() > 0 || movable(contact.object) != nullptr) return true;
   }
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    if (body.m_nodes[i].m_im <= 0 && places_.col(i) != starts_.col(i)) return true;
-  }
-  return false;
+  return std::any_of(pins_.begin(), pins_.end(),
+                     [&](int pin) { return places_.col(pin) != starts_.col(pin); });
 }
 
 // Two conjugate gradients too few, or a contact that pushes a node out of a surface, and a very stiff sheet ends a
 // step with energy that nobody has given to it; BDF2, which leans on the step before, would make more of it. What is
 // stored in springs cannot be taken away without another step: it is kept in mind until it comes out as motion.
-bool FastBody::keep_energy(const btSoftBody& body, btScalar time_step) {
-  if (gets_work_from_outside(body)) {
+bool FastBody::keep_energy(btScalar time_step) {
+  if (gets_work_from_outside()) {
     excess_ = 0;
     return false;
   }
   const double given =
-      energy_put_in({masses_, starts_, start_velocities_, places_, time_step}, body);
-  const double now = kinetic_energy(masses_, body, velocities_);
+      energy_put_in({weights_, starts_, start_velocities_, predicted_, places_, time_step});
+  const double now = kinetic_energy(weights_, velocities_);
   // Springs are only asked when motion does not tell.
   if (now <= given && contacts_.empty() && excess_ == 0) return false;
   const double slack = kEnergySlack * solver_->step_energy();
@@ -319,9 +340,7 @@ bool FastBody::keep_energy(const btSoftBody& body, btScalar time_step) {
   const double most = given + solver_->spring_energy(starts_) - excess_ + slack - stored;
   const bool is_limited = now > most;
   if (is_limited) {
-    const bool keeps_momentum =
-        contacts_.empty() && std::find(is_free_.begin(), is_free_.end(), false) == is_free_.end();
-    limit_energy(masses_, body, most, keeps_momentum, velocities_);
+    limit_energy(weights_, most, contacts_.empty() && pins_.empty(), velocities_);
   }
   excess_ = std::max(0.0, -most);
   return is_limited;
@@ -377,13 +396,15 @@ void FastBody::place(btSoftBody& body, btScalar time_step) {
 }
 
 // Pinned nodes are where their leader has put them, to the last bit.
-void FastBody::write_places(btSoftBody& body) const {
+void FastBody::write_places(btSoftBody& body) {
+  may_be_pushed_ = false;
   for (int i = 0; i < body.m_nodes.size(); ++i) {
     if (body.m_nodes[i].m_im > 0) body.m_nodes[i].m_x = in_world(i);
   }
 }
 
 void FastBody::project_cloth_contacts(btSoftBody& body) {
+  may_be_pushed_ = true;
   if (body.m_scontacts.size() > 0) btSoftBody::PSolve_SContacts(&body, 1, 0);
   stay_outside(body, false);
 }
@@ -392,24 +413,29 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
   const TraceScope trace("write back");
   is_predicted_ = false;
   bool meets_cloth = body.m_scontacts.size() > 0;
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
+  for (int i = 0; may_be_pushed_ && i < body.m_nodes.size(); ++i) {
     const btSoftBody::Node& node = body.m_nodes[i];
     if (node.m_im <= 0 || node.m_x == in_world(i)) continue;
     meets_cloth = true;  // another body's contact has moved it
     places_.col(i) = from_bullet<btScalar>(node.m_x) - origin_;
   }
-  velocities_ = (places_ - origins_ + solver_->remainders()) / inertia_step_;
+  velocities_ = places_ - origins_;
+  solver_->add_remainders(velocities_);
+  velocities_ /= inertia_step_;
   if (meets_cloth) excess_ = 0;
-  const bool is_limited = !meets_cloth && keep_energy(body, time_step);
+  const bool is_limited = !meets_cloth && keep_energy(time_step);
   for (int i = 0; i < body.m_nodes.size(); ++i) {
     btSoftBody::Node& node = body.m_nodes[i];
     node.m_f.setZero();
     if (node.m_im > 0) {
       node.m_v = (1 - body.m_cfg.kDP) * to_bullet(velocities_.col(i));
-      places_.col(i) = from_bullet<btScalar>(node.m_x) - origin_;  // with Bullet's rounding
     } else {
       node.m_v = (node.m_x - node.m_q) / time_step;
     }
+  }
+  if (!origin_.isZero(0)) {  // with Bullet's rounding
+    places_.colwise() += origin_;
+    places_.colwise() -= origin_;
   }
   stay_outside(body, true);
   const bool met_something = !contacts_.empty() || meets_cloth;
@@ -433,20 +459,14 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step) {
   } else {
     origins_ = starts_;
   }
-  targets_.resize(3, starts_.cols());
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    const btSoftBody::Node& node = body.m_nodes[i];
-    if (node.m_im <= 0) {
-      targets_.col(i) = from_bullet<btScalar>(node.m_x) - origin_;
-      continue;
-    }
-    const Vector3<btScalar> start = start_velocities_.col(i);
-    Vector3<btScalar> velocity = from_bullet<btScalar>(node.m_v);
-    if (uses_history) {
-      const Vector3<btScalar> last = last_velocities_.col(i);
-      velocity = (4 * start - last) / 3 + (velocity - start) * btScalar(2) / 3;
-    }
-    targets_.col(i) = origins_.col(i) + inertia_step_ * velocity;
+  if (uses_history) {
+    targets_ = origins_ + inertia_step_ * ((4 * start_velocities_ - last_velocities_) / 3 +
+                                           (predicted_ - start_velocities_) * btScalar(2) / 3);
+  } else {
+    targets_ = origins_ + inertia_step_ * predicted_;
+  }
+  for (const int pin : pins_) {
+    targets_.col(pin) = from_bullet<btScalar>(body.m_nodes[pin].m_x) - origin_;
   }
   places_ = starts_ + time_step * start_velocities_;
   const btScalar least_surprise = kSurpriseShare * body.getCollisionShape()->getMargin();

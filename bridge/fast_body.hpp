@@ -66,11 +66,12 @@ class FastBody {
     sleep_.end_step(body, time_step, settings_);
   }
 
-  /// btSoftBody::predictMotion. Touches only the body, but not its entry in the broadphase: predictions of several
-  /// bodies may run at the same time.
-  void predict(btSoftBody& body, btScalar time_step);
-  /// After predict(): bounds that hold the whole way of each node, for the broadphase too.
-  void publish_bounds(btSoftBody& body) const;
+  /// btSoftBody::predictMotion. positions and velocities: m_x [m] and m_v [m/s], 3 x n. Touches only the body, but not
+  /// its entry in the broadphase: predictions of several bodies may run at the same time.
+  void predict(btSoftBody& body, btScalar time_step, const Matrix3X<btScalar>& positions,
+               const Matrix3X<btScalar>& velocities);
+  /// After predict(): tells the broadphase of the bounds, which hold the whole way of each node.
+  static void publish_bounds(btSoftBody& body);
   /// In place of btSoftBody::defaultCollisionHandler.
   void collide(const btSoftBody& body, const btCollisionObjectWrapper& object, HullTable& hulls,
                btScalar time_step);
@@ -104,21 +105,23 @@ class FastBody {
  private:
   void solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort);
   void prepare_solver(const btSoftBody& body, btScalar time_step);
-  [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step) const;
+  [[nodiscard]] bool has_pins_of_solver(const btSoftBody& body) const;
+  [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
   /// Contacts that the solution would need, and that nobody looked for where Bullet had predicted the
   /// nodes. True if there are any.
   [[nodiscard]] bool find_missed_contacts(btSoftBody& body, btScalar time_step);
   void choose_origin(const btSoftBody& body);
+  void find_pins(const btSoftBody& body);
   [[nodiscard]] btVector3 in_world(int node) const;
-  void write_places(btSoftBody& body) const;
+  void write_places(btSoftBody& body);
   void read_constraints(const btSoftBody& body);
   void give_impulses(btSoftBody& body, btScalar time_step);
   void keep_out_of_missed(btSoftBody& body, btScalar time_step);
   void leave_depths();
   void stay_outside(btSoftBody& body, bool of_movable) const;
-  [[nodiscard]] bool gets_work_from_outside(const btSoftBody& body) const;
+  [[nodiscard]] bool gets_work_from_outside() const;
   /// True if velocities_ had to be slowed down.
-  bool keep_energy(const btSoftBody& body, btScalar time_step);
+  bool keep_energy(btScalar time_step);
 
   void settle_network();
 
@@ -128,7 +131,9 @@ class FastBody {
   VectorX<double> masses_;
   FastSettings settings_;
   std::unique_ptr<fast::ImplicitSolver<btScalar>> solver_;
-  std::vector<bool> is_free_;
+  std::vector<bool> is_free_;   ///< that solver_ was made for
+  std::vector<int> pins_;       ///< of the present step
+  Matrix3X<btScalar> weights_;  ///< masses, each thrice [kg]; 0 for pins
   btScalar solver_step_ = 0;  ///< [s] of the steps that solver_ was made for
 
   BodySleep sleep_;
@@ -136,6 +141,7 @@ class FastBody {
   // Of the present step, 3 x n.
   Matrix3X<btScalar> starts_;            ///< q [m]
   Matrix3X<btScalar> start_velocities_;  ///< v [m/s]
+  Matrix3X<btScalar> predicted_;         ///< v + h a [m/s]
   Matrix3X<btScalar> origins_;           ///< what velocities are counted from [m]
   Matrix3X<btScalar> targets_;           ///< y [m]
   Matrix3X<btScalar> places_;            ///< solution [m]
@@ -145,8 +151,8 @@ class FastBody {
   Matrix3X<btScalar> last_velocities_;
   btScalar inertia_step_ = 0;  ///< [s] of the present step
   btScalar last_step_ = 0;     ///< [s]; 0: no history
-  int num_steps_ = 0;
   bool is_predicted_ = false;
+  bool may_be_pushed_ = false;       ///< since places were written
   double excess_ = 0;                ///< energy in springs that nothing has put in [J]
   bool is_contact_missing_ = false;  ///< in the present solution, for all that is known
   std::vector<Obstacle> obstacles_;  ///< of this step

@@ -41,8 +41,10 @@ std::optional<BodyBlowUp> predicted_blow_up(const btSoftBody& body,
                                             double max_speed) {
   const auto limit = static_cast<btScalar>(max_speed);
   for (int i = 0; i < body.m_nodes.size(); ++i) {
-    const btScalar speed =
-        (velocities.col(i) + forces.col(i) * (body.m_nodes[i].m_im * time_step)).norm();
+    const Vector3<btScalar> velocity =
+        velocities.col(i) + forces.col(i) * (body.m_nodes[i].m_im * time_step);
+    if (velocity.squaredNorm() < limit * limit) continue;
+    const btScalar speed = velocity.norm();
     if (speed <= limit) continue;
     if (!std::isfinite(speed)) return BodyBlowUp{i, "velocity is not finite"};
     char text[64];

@@ -312,14 +312,16 @@ void SoftBodySolver::predictMotion(btScalar time_step) {
     if (!attachment) return;
     attachment->add_forces(time_step);
     attachment->rigid_response.begin_step();
-    if (attachment->fast && !attachment->blow_up) attachment->fast->predict(body, time_step);
+    if (attachment->fast && !attachment->blow_up) {
+      attachment->fast->predict(body, time_step, attachment->positions, attachment->velocities);
+    }
   });
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
     if (!body.isActive() || is_still(body)) continue;  // the forces may have exploded
     const Attachment* const attachment = find(body);
     if (attachment && attachment->fast) {
-      attachment->fast->publish_bounds(body);
+      FastBody::publish_bounds(body);
     } else {
       body.predictMotion(time_step);
     }

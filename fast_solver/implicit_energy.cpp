@@ -33,34 +33,25 @@ std::size_t at(int i) {
 // that are left tells: if it opposes the step by more than half of what drove it, back to where a
 // straight line between the two is zero.
 template <class Scalar>
-void ImplicitSolver<Scalar>::hold_back(const StepProblem<Scalar>& problem, double work_before,
-                                       Matrix3XRef<Scalar> places) {
-  double work_after = 0;
-  for (Eigen::Index i = 0; i < places.cols(); ++i) {
-    if (holds_[at(static_cast<int>(i))] != Hold::kFree) continue;
-    work_after += static_cast<double>(unbalanced_.col(i).dot(step_of(i)));
-  }
+void ImplicitSolver<Scalar>::hold_back(double work_before) {
+  const double work_after =
+      sum_kernel<Scalar>().dot(unbalanced_.data(), step_.data(), step_.size()) - work_of_held();
   if (!(work_before > 0 && work_after < -0.5 * work_before)) return;
   const double share = std::max(kSmallestShare, work_before / (work_before - work_after));
   const auto excess = static_cast<Scalar>(1.0 - share);
-  for (Eigen::Index i = 0; i < places.cols(); ++i) {
-    if (holds_[at(static_cast<int>(i))] != Hold::kFree) continue;
-    places.col(i) -= excess * step_of(i);
-  }
-  evaluate(problem, places);
+  for (const int i : held_) step_.row(i).setZero();
+  places_ -= excess * step_.template cast<Scalar>();
+  evaluate();
 }
 
 /// What an implicit step minimises [J], with bodies that are tied to it and with what friction does.
 template <class Scalar>
-double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem,
-                                      ConstMatrix3XRef<Scalar> places) {
+double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem, const Nodes& places) {
   double sum = forces_.potential(places);
-  for (Eigen::Index i = 0; i < places.cols(); ++i) {
-    sum += 0.5 * static_cast<double>(inertia_[i]) *
-           static_cast<double>((places.col(i) - problem.targets.col(i)).squaredNorm());
-  }
+  sum += 0.5 * sum_kernel<Scalar>().weighted_distance(weights_.data(), weights_.size(),
+                                                      places.data(), targets_.data());
   for (const Tie& tie : ties_) {
-    Vector3<Scalar> away = places.col(tie.node) - tie.place;
+    Vector3<Scalar> away = at_node(places, tie.node) - tie.place;
     if (!tie.normal.isZero(0)) away = tie.normal.dot(away) * tie.normal;
     sum += 0.5 * static_cast<double>(tie.stiffness * away.squaredNorm());
   }
@@ -69,7 +60,7 @@ double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem,
     // A surface that moves may do work by friction; slip only takes it away.
     const Vector3<Scalar>& motion = problem.contacts[at(contact_of_[at(i)])].motion;
     const Vector3<Scalar> friction = friction_.col(i).template cast<Scalar>();
-    const Vector3<Scalar> slip = places.col(i) - problem.starts.col(i) - motion;
+    const Vector3<Scalar> slip = at_node(places, i) - at_node(starts_, i) - motion;
     sum -= static_cast<double>(friction.dot(motion) + std::min(Scalar(0), friction.dot(slip)));
   }
   return sum;
@@ -78,96 +69,76 @@ double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem,
 // A contact may have stretched springs; without one, more motion than without springs, or forces that are left over
 // and could do as much work as the step's motion is worth: springs may have pulled, or the solution may be off.
 template <class Scalar>
-bool ImplicitSolver<Scalar>::is_suspicious(const StepProblem<Scalar>& problem,
-                                           ConstMatrix3XRef<Scalar> places) const {
+bool ImplicitSolver<Scalar>::is_suspicious(const StepProblem<Scalar>& problem) const {
   if (!held_.empty()) return true;
-  double moved = 0;
-  double left = 0;
-  for (Eigen::Index i = 0; i < places.cols(); ++i) {
-    const auto mass = static_cast<double>(masses_[i]);
-    const auto squared_way =
-        static_cast<double>((places.col(i) - problem.starts.col(i)).squaredNorm());
-    moved += mass * squared_way;
-    left += std::sqrt(squared_way * static_cast<double>(unbalanced_.col(i).squaredNorm()));
-  }
+  const auto [moved, left] = sum_kernel<Scalar>().motion(
+      masses_.data(), masses_.size(), places_.data(), starts_.data(), unbalanced_.data());
   const auto h = static_cast<double>(problem.inertia_step);
   return !(moved <= 2 * h * h * kMostMotion * step_energy_ && left <= kMostWork * step_energy_);
-}
-
-template <class Scalar>
-void ImplicitSolver<Scalar>::find_step_energy(const StepProblem<Scalar>& problem) {
-  step_energy_ = 0;
-  for (Eigen::Index i = 0; i < problem.starts.cols(); ++i) {
-    step_energy_ +=
-        0.5 * static_cast<double>(inertia_[i]) *
-        static_cast<double>((problem.targets.col(i) - problem.starts.col(i)).squaredNorm());
-  }
 }
 
 // Where nothing has moved but what is led, in front of all planes.
 template <class Scalar>
 void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
-  unmoved_ = problem.starts;
-  for (const int node : pinned_) unmoved_.col(node) = problem.targets.col(node);
+  unmoved_ = starts_;
+  for (const int node : pinned_) unmoved_.row(node) = targets_.row(node);
   for (const LedNode<Scalar>& led : problem.led) {
-    if (led.mass <= 0) unmoved_.col(led.node) = led.place;
+    if (led.mass <= 0) unmoved_.row(led.node) = led.place.transpose();
   }
   for (const PlaneContact<Scalar>& contact : problem.contacts) {
     if (!is_free_[at(contact.node)] || contact.mass > 0) continue;
     if (holds_[at(contact.node)] == Hold::kFixed) {
-      unmoved_.col(contact.node) = problem.starts.col(contact.node) + contact.motion;
+      unmoved_.row(contact.node) = starts_.row(contact.node) + contact.motion.transpose();
     }
-    const Scalar gap = contact.normal.dot(unmoved_.col(contact.node)) - contact.offset;
-    if (gap < 0) unmoved_.col(contact.node) -= gap * contact.normal;
+    const Scalar gap = contact.normal.dot(at_node(unmoved_, contact.node)) - contact.offset;
+    if (gap < 0) unmoved_.row(contact.node) -= gap * contact.normal.transpose();
   }
 }
 
-// From places back towards from, until it has no more energy than that.
+// Back towards where nothing has moved, until there is no more energy than there.
 template <class Scalar>
-bool ImplicitSolver<Scalar>::descend(const StepProblem<Scalar>& problem,
-                                     ConstMatrix3XRef<Scalar> from, Matrix3XRef<Scalar> places) {
-  const double most = energy(problem, from);
+bool ImplicitSolver<Scalar>::descend(const StepProblem<Scalar>& problem) {
+  const double most = energy(problem, unmoved_);
   for (int halvings = 0; halvings <= kHalvings; ++halvings) {
-    if (energy(problem, places) <= most) {
-      if (halvings > 0) evaluate(problem, places);
+    if (energy(problem, places_) <= most) {
+      if (halvings > 0) evaluate();
       return true;
     }
-    places = Scalar(0.5) * (places + from);
+    places_ = Scalar(0.5) * (places_ + unmoved_);
   }
   return false;
 }
 
 // Newton's method from the start of the step, each round downhill. False if none was.
 template <class Scalar>
-bool ImplicitSolver<Scalar>::go_downhill(const StepProblem<Scalar>& problem, int iterations,
-                                         Matrix3XRef<Scalar> places) {
-  places = unmoved_;
-  evaluate(problem, places);
+bool ImplicitSolver<Scalar>::go_downhill(const StepProblem<Scalar>& problem, int iterations) {
+  places_ = unmoved_;
+  evaluate();
   // What springs will hold back would be held by a plane that it would reach without them.
   std::fill(holds_.begin(), holds_.end(), Hold::kFree);
   bool is_careful = false;
   bool went_down = false;
   for (int round = 0; round < kExtraRounds; ++round) {
-    do_round(problem, kExtraIterations * iterations, false, places);
+    do_round(problem, kExtraIterations * iterations, false);
     const double before = energy(problem, unmoved_);
-    const bool goes_down = descend(problem, unmoved_, places);
+    const bool goes_down = descend(problem);
     if (goes_down) {
-      unmoved_ = places;
+      unmoved_ = places_;
       went_down = true;
-      if (before - energy(problem, places) <= kLastDescent * step_energy_) break;
+      if (before - energy(problem, places_) <= kLastDescent * step_energy_) break;
     }
     if (!goes_down && is_careful) break;
     // Slack springs resist nothing across in a linearisation, and all the more once they have turned.
     is_careful = !goes_down;
     forces_.set_least_across(is_careful ? Scalar(1) : Scalar(0));
     if (!goes_down) {
-      places = unmoved_;
-      evaluate(problem, places);
+      places_ = unmoved_;
+      evaluate();
     }
   }
-  places = unmoved_;
+  places_ = unmoved_;
   forces_.set_least_across(0);
-  evaluate(problem, places);
+  evaluate();
   return went_down;
 }
 
@@ -178,14 +149,13 @@ bool ImplicitSolver<Scalar>::go_downhill(const StepProblem<Scalar>& problem, int
 // Friction follows from the force that holds a node. Where springs are some 10^5 times stiffer than
 // inertia, that is rounding: if nothing goes downhill with it, what does without.
 template <class Scalar>
-void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterations,
-                                  Matrix3XRef<Scalar> places) {
+void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterations) {
   stay_at_start(problem);
   const double most = energy(problem, unmoved_) + kRoundingShare * step_energy_;
-  if (energy(problem, places) <= most) return;
-  if (go_downhill(problem, iterations, places)) return;
+  if (energy(problem, places_) <= most) return;
+  if (go_downhill(problem, iterations)) return;
   has_friction_ = false;
-  (void)go_downhill(problem, iterations, places);
+  (void)go_downhill(problem, iterations);
   has_friction_ = true;
 }
 
@@ -194,7 +164,7 @@ void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterat
 // rounding. Where something does, what is left over is no error of the whole body's: in a stiff sheet a
 // micrometre is worth many newtons.
 template <class Scalar>
-void ImplicitSolver<Scalar>::balance(Matrix3XRef<Scalar> places) {
+void ImplicitSolver<Scalar>::balance() {
   const auto is_tied = [&](int node) { return holds_[at(node)] == Hold::kTied; };
   if (!pinned_.empty() || !std::all_of(held_.begin(), held_.end(), is_tied)) return;
   Matrix3<double> stiffness =
@@ -206,10 +176,10 @@ void ImplicitSolver<Scalar>::balance(Matrix3XRef<Scalar> places) {
     stiffness += static_cast<double>(tie.stiffness) * directions;
   }
   const Vector3<double> left =
-      (unbalanced_ + holding_forces_).template cast<double>().rowwise().sum();
+      (unbalanced_ + holding_forces_).template cast<double>().colwise().sum().transpose();
   const Vector3<Scalar> shift = stiffness.llt().solve(left).template cast<Scalar>();
-  places.colwise() += shift;
-  find_holding_forces(places);
+  places_.topRows(num_nodes()).rowwise() += shift.transpose();
+  find_holding_forces();
 }
 
 template class ImplicitSolver<float>;

@@ -20,8 +20,7 @@ void take_away(const Vector3<float>& normal, NodeArrays<float>& vectors, int nod
 // What holds a node is decided by what it would do if it stuck: the force that is left there is
 // weighed against what friction can bear.
 template <class Scalar>
-void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
-                                          ConstMatrix3XRef<Scalar> places, bool is_first) {
+void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bool is_first) {
   held_before_.assign(holds_.begin(), holds_.end());
   std::fill(holds_.begin(), holds_.end(), Hold::kFree);
   std::fill(contact_of_.begin(), contact_of_.end(), -1);
@@ -37,8 +36,8 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
     const PlaneContact<Scalar>& contact = problem.contacts[c];
     if (!is_free_[at(contact.node)] || holds_[at(contact.node)] != Hold::kFree) continue;
     int& best = contact_of_[at(contact.node)];
-    if (best < 0 || gap_at(contact, places.col(contact.node)) <
-                        gap_at(problem.contacts[at(best)], places.col(contact.node))) {
+    if (best < 0 || gap_at(contact, at_node(places_, contact.node)) <
+                        gap_at(problem.contacts[at(best)], at_node(places_, contact.node))) {
       best = static_cast<int>(c);
     }
   }
@@ -46,11 +45,11 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
     const int i = candidate.node;
     if (contact_of_[at(i)] < 0 || &problem.contacts[at(contact_of_[at(i)])] != &candidate) continue;
     const Vector3<Scalar> normal = candidate.normal;
-    const Scalar gap = gap_at(candidate, places.col(i));
+    const Scalar gap = gap_at(candidate, at_node(places_, i));
     const Scalar inertia = Scalar(inertia_[i]);
     const bool was_held = !is_first && held_before_[at(i)] != Hold::kFree;
     const Scalar tie = candidate.mass / (problem.inertia_step * problem.inertia_step);
-    Scalar pressure = -normal.dot(unbalanced_.col(i)) + inertia * std::max(Scalar(0), -gap);
+    Scalar pressure = -normal.dot(at_node(unbalanced_, i)) + inertia * std::max(Scalar(0), -gap);
     if (candidate.mass > 0 && was_held) pressure = -tie * gap;
     Scalar least_gap = gap;
     if (is_first) least_gap += std::min(Scalar(0), first_push(i, normal));
@@ -59,8 +58,8 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
       contact_of_[at(i)] = -1;
       continue;
     }
-    const Vector3<Scalar> slip = places.col(i) - problem.starts.col(i) - candidate.motion;
-    Vector3<Scalar> tendency = unbalanced_.col(i) + inertia * slip;
+    const Vector3<Scalar> slip = at_node(places_, i) - at_node(starts_, i) - candidate.motion;
+    Vector3<Scalar> tendency = at_node(unbalanced_, i) + inertia * slip;
     tendency -= normal.dot(tendency) * normal;
     const Scalar friction = has_friction_ ? candidate.friction : Scalar(0);
     const Scalar most = friction * std::max(Scalar(0), pressure);
@@ -71,7 +70,7 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
     friction_.col(i).setZero();
     if (!sticks) friction_.col(i) = (-(most / size) * tendency).template cast<float>();
     if (candidate.mass > 0) {
-      Vector3<Scalar> place = places.col(i);
+      Vector3<Scalar> place = at_node(places_, i);
       if (sticks) place -= slip;
       place -= gap_at(candidate, place) * normal;
       ties_.push_back({i, tie, sticks ? Vector3<Scalar>(Vector3<Scalar>::Zero()) : normal, place});
@@ -97,7 +96,7 @@ Scalar ImplicitSolver<Scalar>::first_push(int node, const Vector3<Scalar>& norma
                         block(2) * normal[2] * normal[2] +
                         2 * (block(3) * normal[0] * normal[1] + block(4) * normal[1] * normal[2] +
                              block(5) * normal[2] * normal[0]);
-  return normal.dot(unbalanced_.col(node)) / (Scalar(inertia_[node]) + across);
+  return normal.dot(at_node(unbalanced_, node)) / (Scalar(inertia_[node]) + across);
 }
 
 template <class Scalar>
@@ -140,15 +139,15 @@ void ImplicitSolver<Scalar>::add_tie_product(const Floats& displacements, Floats
 
 // Planes that no round has met, and those of a node on several. True if anything had to move.
 template <class Scalar>
-bool ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem, Matrix3XRef<Scalar> places) {
+bool ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
   bool any = false;
   for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
     const PlaneContact<Scalar>& contact = problem.contacts[c];
     const int i = contact.node;
     if (!is_free_[at(i)] || contact.mass > 0 || holds_[at(i)] == Hold::kTied) continue;
-    const Scalar gap = contact.normal.dot(places.col(i)) - contact.offset;
+    const Scalar gap = contact.normal.dot(at_node(places_, i)) - contact.offset;
     if (!(gap < 0)) continue;
-    places.col(i) -= gap * contact.normal;
+    places_.row(i) -= gap * contact.normal.transpose();
     any = true;
     if (holds_[at(i)] != Hold::kFree) continue;
     holds_[at(i)] = Hold::kOnPlane;
@@ -161,28 +160,37 @@ bool ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem, Matrix3XR
 }
 
 template <class Scalar>
-Vector3<Scalar> ImplicitSolver<Scalar>::tie_force(const Tie& tie,
-                                                  ConstMatrix3XRef<Scalar> places) const {
-  const Vector3<Scalar> away = places.col(tie.node) - tie.place;
+Vector3<Scalar> ImplicitSolver<Scalar>::tie_force(const Tie& tie) const {
+  const Vector3<Scalar> away = at_node(places_, tie.node) - tie.place;
   if (tie.normal.isZero(0)) return -tie.stiffness * away;
   return -tie.stiffness * tie.normal.dot(away) * tie.normal;
 }
 
 template <class Scalar>
-void ImplicitSolver<Scalar>::find_holding_forces(ConstMatrix3XRef<Scalar> places) {
+double ImplicitSolver<Scalar>::work_of_held() const {
+  double work = 0;
+  for (const int i : held_) {
+    work += static_cast<double>(at_node(unbalanced_, i).dot(step_of(i)));
+  }
+  return work;
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::find_holding_forces() {
   holding_forces_.setZero();
   for (const int i : held_) {
     if (holds_[at(i)] == Hold::kFixed) {
-      holding_forces_.col(i) = -unbalanced_.col(i);
+      holding_forces_.row(i) = -unbalanced_.row(i);
     } else if (holds_[at(i)] == Hold::kOnPlane) {
       const Vector3<Scalar> normal = normals_.col(i).template cast<Scalar>();
-      holding_forces_.col(i) =
-          -normal.dot(unbalanced_.col(i)) * normal + friction_.col(i).template cast<Scalar>();
+      const Scalar push = -normal.dot(at_node(unbalanced_, i));
+      holding_forces_.row(i) =
+          (push * normal + friction_.col(i).template cast<Scalar>()).transpose();
     }
   }
   for (const Tie& tie : ties_) {
-    holding_forces_.col(tie.node) =
-        tie_force(tie, places) + friction_.col(tie.node).template cast<Scalar>();
+    holding_forces_.row(tie.node) =
+        (tie_force(tie) + friction_.col(tie.node).template cast<Scalar>()).transpose();
   }
 }
 

@@ -51,14 +51,6 @@ GlobalCorrection correction_of(const SpringNetwork& network, const VectorX<doubl
           static_cast<int>(n)};
 }
 
-template <class Scalar>
-void load(const Matrix3X<Scalar>& vectors, NodeArrays<float>& arrays) {
-  for (Eigen::Index i = 0; i < vectors.cols(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) arrays(i, axis) = static_cast<float>(vectors(axis, i));
-  }
-  arrays.bottomRows(arrays.rows() - vectors.cols()).setZero();
-}
-
 }  // namespace
 
 template <class Scalar>
@@ -73,7 +65,6 @@ ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const Vecto
 template <class Scalar>
 void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
                                        const std::vector<bool>& is_free) {
-  masses_ = masses.cast<Scalar>();
   is_free_ = is_free;
   const Eigen::Index n = masses.size();
   pinned_.clear();
@@ -84,11 +75,14 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
   held_.reserve(at(static_cast<int>(n)));
   holds_.assign(at(static_cast<int>(n)), Hold::kFree);
   contact_of_.assign(at(static_cast<int>(n)), -1);
-  for (auto* vectors : {&holding_forces_, &unbalanced_, &unmoved_, &remainders_}) {
-    vectors->setZero(3, n);
-  }
   for (auto* vectors : {&normals_, &friction_}) vectors->setZero(3, n);
   const Eigen::Index n_filled = fill_up(static_cast<int>(n));
+  for (Nodes* vectors :
+       {&targets_, &starts_, &places_, &unbalanced_, &holding_forces_, &unmoved_, &remainders_}) {
+    vectors->setZero(n_filled, 3);
+  }
+  masses_.setZero(n_filled);
+  masses_.head(n) = masses.cast<Scalar>();
   inertia_.setZero(n_filled);
   if (blocks_.rows() == n_filled) return;  // the others keep no number from one step to the next
   blocks_.setZero(n_filled, 6);
@@ -127,13 +121,30 @@ void ImplicitSolver<Scalar>::renew(const ChangedNetwork& network, const VectorX<
 }
 
 template <class Scalar>
-void ImplicitSolver<Scalar>::evaluate(const StepProblem<Scalar>& problem,
-                                      ConstMatrix3XRef<Scalar> places) {
-  for (Eigen::Index i = 0; i < places.cols(); ++i) {
-    unbalanced_.col(i) = Scalar(inertia_[i]) * (problem.targets.col(i) - places.col(i));
+void ImplicitSolver<Scalar>::load(const StepProblem<Scalar>& problem,
+                                  ConstMatrix3XRef<Scalar> guess) {
+  to_arrays<Scalar>(problem.targets, targets_);
+  to_arrays<Scalar>(problem.starts, starts_);
+  to_arrays<Scalar>(guess, places_);
+  inertia_ = (masses_ / (problem.inertia_step * problem.inertia_step)).template cast<float>();
+  for (const int node : pinned_) {
+    inertia_[node] = 0;
+    places_.row(node) = targets_.row(node);
   }
-  forces_.add_forces(places, unbalanced_);
-  for (const int node : pinned_) unbalanced_.col(node).setZero();
+  weights_ = inertia_.template cast<Scalar>();
+  for (const LedNode<Scalar>& led : problem.led) {
+    if (led.mass <= 0) places_.row(led.node) = led.place.transpose();
+  }
+  forces_.begin_step(starts_, problem.time_step);
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::evaluate() {
+  for (int axis = 0; axis < 3; ++axis) {
+    unbalanced_.col(axis) = weights_.cwiseProduct(targets_.col(axis) - places_.col(axis));
+  }
+  forces_.add_forces(places_, unbalanced_);
+  for (const int node : pinned_) unbalanced_.row(node).setZero();
 }
 
 // Inverses of symmetric 3 x 3 matrices by their adjugates.
@@ -201,11 +212,10 @@ void ImplicitSolver<Scalar>::precondition() {
 }
 
 template <class Scalar>
-void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem,
-                                          ConstMatrix3XRef<Scalar> places, int iterations) {
+void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem, int iterations) {
   invert_blocks();
   step_.setZero();
-  load(unbalanced_, residual_vector_);
+  residual_vector_ = unbalanced_.template cast<float>();
   bool moves_held = false;
   for (const int i : held_) {
     if (holds_[at(i)] == Hold::kTied) residual_vector_.row(i) += friction_.col(i).transpose();
@@ -213,9 +223,9 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem,
     const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
     Vector3<Scalar> move = Vector3<Scalar>::Zero();
     if (holds_[at(i)] == Hold::kFixed) {
-      move = problem.starts.col(i) + contact.motion - places.col(i);
+      move = at_node(starts_, i) + contact.motion - at_node(places_, i);
     }
-    const Scalar height = contact.normal.dot(places.col(i) + move) - contact.offset;
+    const Scalar height = contact.normal.dot(at_node(places_, i) + move) - contact.offset;
     step_.row(i) = (move - height * contact.normal).template cast<float>().transpose();
     if (holds_[at(i)] == Hold::kOnPlane) residual_vector_.row(i) += friction_.col(i).transpose();
     moves_held = true;
@@ -225,7 +235,7 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem,
     residual_vector_ -= work_;
   }
   for (const Tie& tie : ties_) {
-    residual_vector_.row(tie.node) += tie_force(tie, places).template cast<float>().transpose();
+    residual_vector_.row(tie.node) += tie_force(tie).template cast<float>().transpose();
   }
   project(residual_vector_);
   // Flexible conjugate gradients (Notay 2000): the preconditioner is not symmetric, for a second
@@ -256,72 +266,77 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem,
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, int iterations,
-                                      bool is_first, Matrix3XRef<Scalar> places) {
-  decide_holds(problem, places, is_first);
-  solve_linear(problem, places, iterations);
-  double work = 0;
-  for (Eigen::Index i = 0; i < places.cols(); ++i) {
-    if (holds_[at(static_cast<int>(i))] != Hold::kFree) continue;
-    work += static_cast<double>(unbalanced_.col(i).dot(step_of(i)));
-  }
-  for (Eigen::Index i = 0; i < places.cols(); ++i) places.col(i) += step_of(i);
-  evaluate(problem, places);
-  hold_back(problem, work, places);
-  if (clamp(problem, places)) evaluate(problem, places);
+                                      bool is_first) {
+  decide_holds(problem, is_first);
+  solve_linear(problem, iterations);
+  const double held = work_of_held();
+  const double work =
+      sum_kernel<Scalar>().move(unbalanced_.data(), step_.data(), step_.size(), places_.data());
+  evaluate();
+  hold_back(work - held);
+  if (clamp(problem)) evaluate();
 }
 
 template <class Scalar>
 double ImplicitSolver<Scalar>::left_over() const {
-  return static_cast<double>((unbalanced_ + holding_forces_).norm());
+  double sum = sum_kernel<Scalar>().squares(unbalanced_.data(), unbalanced_.size());
+  for (const int i : held_) {
+    const Vector3<Scalar> force = at_node(unbalanced_, i);
+    sum += static_cast<double>((force + at_node(holding_forces_, i)).squaredNorm()) -
+           static_cast<double>(force.squaredNorm());
+  }
+  return std::sqrt(std::max(0.0, sum));
 }
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const SolverEffort& effort,
                                    Matrix3XRef<Scalar> places) {
   const TraceScope trace("implicit solve");
-  inertia_.head(masses_.size()) =
-      (masses_ / (problem.inertia_step * problem.inertia_step)).template cast<float>();
-  for (const int node : pinned_) {
-    inertia_[node] = 0;
-    places.col(node) = problem.targets.col(node);
-  }
-  for (const LedNode<Scalar>& led : problem.led) {
-    if (led.mass <= 0) places.col(led.node) = led.place;
-  }
-  forces_.begin_step(problem.starts, problem.time_step);
-  evaluate(problem, places);
-  const double first = static_cast<double>(unbalanced_.norm());
+  const SumKernel<Scalar>& sums = sum_kernel<Scalar>();
+  load(problem, places);
+  evaluate();
+  const double first = std::sqrt(sums.squares(unbalanced_.data(), unbalanced_.size()));
   for (int round = 0; round < effort.rounds; ++round) {
-    do_round(problem, effort.iterations, round == 0, places);
+    do_round(problem, effort.iterations, round == 0);
   }
   for (int extra = 0; !ties_.empty() && extra < kTiedRounds; ++extra) {
-    find_holding_forces(places);
+    find_holding_forces();
     if (left_over() <= kTiedResidual * first) break;
-    do_round(problem, effort.iterations, false, places);
+    do_round(problem, effort.iterations, false);
   }
-  find_step_energy(problem);
-  if (is_suspicious(problem, places)) tame(problem, effort.iterations, places);
-  find_holding_forces(places);
+  step_energy_ = 0.5 * sums.weighted_distance(weights_.data(), weights_.size(), targets_.data(),
+                                              starts_.data());
+  if (is_suspicious(problem)) tame(problem, effort.iterations);
+  find_holding_forces();
   residual_ = first > 0 ? left_over() / first : 0.0;
-  balance(places);
-  find_remainders(places);
+  balance();
+  find_remainders();
+  from_arrays<Scalar>(places_, places);
 }
 
 // One step of Jacobi's method for the forces that are left, which places on their grid cannot follow.
 template <class Scalar>
-void ImplicitSolver<Scalar>::find_remainders(ConstMatrix3XRef<Scalar> places) {
+void ImplicitSolver<Scalar>::find_remainders() {
+  constexpr Scalar kHalfRounding = std::numeric_limits<Scalar>::epsilon() / 2;
   const BlockArrays& blocks = forces_.diagonal_blocks();
-  for (Eigen::Index i = 0; i < places.cols(); ++i) {
-    const Hold hold = holds_[at(static_cast<int>(i))];
-    const bool may_move = hold == Hold::kFree || hold == Hold::kOnPlane;
-    for (int axis = 0; axis < 3; ++axis) {
+  const Eigen::Index n = weights_.size();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (Eigen::Index i = 0; i < n; ++i) {
       const Scalar stiffness = Scalar(inertia_[i] + blocks(i, axis));
-      const Scalar left = unbalanced_(axis, i) + holding_forces_(axis, i);
-      const Scalar most = std::numeric_limits<Scalar>::epsilon() / 2 * std::abs(places(axis, i));
-      remainders_(axis, i) =
-          may_move && stiffness > 0 ? std::clamp(left / stiffness, -most, most) : Scalar(0);
+      const Scalar left = unbalanced_(i, axis) + holding_forces_(i, axis);
+      const Scalar most = kHalfRounding * std::abs(places_(i, axis));
+      const Scalar way = left / (stiffness > 0 ? stiffness : Scalar(1));
+      remainders_(i, axis) = way > most ? most : way < -most ? -most : way;
     }
   }
+  for (const int i : held_) {
+    if (holds_[at(i)] != Hold::kOnPlane) remainders_.row(i).setZero();
+  }
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::add_remainders(Matrix3XRef<Scalar> ways) const {
+  for (Eigen::Index i = 0; i < ways.cols(); ++i) ways.col(i) += at_node(remainders_, i);
 }
 
 template class ImplicitSolver<float>;

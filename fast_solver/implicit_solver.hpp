@@ -67,12 +67,13 @@ class ImplicitSolver {
   void solve(const StepProblem<Scalar>& problem, const SolverEffort& effort,
              Matrix3XRef<Scalar> places);
 
-  /// After solve(): what each node is pushed with by contacts, and led nodes by what leads them, 3 x n
-  /// [N]. Zero elsewhere.
-  [[nodiscard]] const Matrix3X<Scalar>& holding_forces() const { return holding_forces_; }
+  /// After solve(): what a node is pushed with by contacts, or a led node by what leads it [N]; zero for others.
+  [[nodiscard]] Vector3<Scalar> holding_force(int node) const {
+    return at_node(holding_forces_, node);
+  }
   /// After solve(): what places would need to be on top, if they had more digits, 3 x n [m]; at most the
   /// rounding of each. Of a slow motion in short steps it is a good part.
-  [[nodiscard]] const Matrix3X<Scalar>& remainders() const { return remainders_; }
+  void add_remainders(Matrix3XRef<Scalar> ways) const;
   /// After solve(): the contact of the problem that holds a node, or -1.
   [[nodiscard]] int contact_of(int node) const {
     return contact_of_[static_cast<std::size_t>(node)];
@@ -81,13 +82,15 @@ class ImplicitSolver {
   [[nodiscard]] double step_energy() const { return step_energy_; }
   /// What springs store at places, and what dampers take away on the way there from the start of the step [J].
   [[nodiscard]] double spring_energy(ConstMatrix3XRef<Scalar> places) {
-    return forces_.potential(places);
+    to_arrays<Scalar>(places, unmoved_);
+    return forces_.potential(unmoved_);
   }
   /// After solve(): root mean square of the unbalanced forces over that of the step's first guess [-].
   [[nodiscard]] double residual() const { return residual_; }
 
  private:
   using Floats = NodeArrays<float>;
+  using Nodes = NodeArrays<Scalar>;
   /// A spring of stiffness mass / h'^2 to a place, in all directions or along a normal only: the
   /// inertia of a body that moves together with the node.
   struct Tie {
@@ -102,39 +105,35 @@ class ImplicitSolver {
     return step_.row(node).transpose().template cast<Scalar>();
   }
   void set_nodes(const VectorX<double>& masses, const std::vector<bool>& is_free);
-  void evaluate(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places);
-  void decide_holds(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places,
-                    bool is_first);
+  void load(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> guess);
+  void evaluate();
+  void decide_holds(const StepProblem<Scalar>& problem, bool is_first);
   [[nodiscard]] Scalar first_push(int node, const Vector3<Scalar>& normal) const;
   void invert_blocks();
   void project(Floats& vectors) const;
   void smooth(const Floats& residual, Floats& correction) const;
   void leave_out_ties(Floats& vectors) const;
   void add_tie_product(const Floats& displacements, Floats& product) const;
-  [[nodiscard]] Vector3<Scalar> tie_force(const Tie& tie, ConstMatrix3XRef<Scalar> places) const;
+  [[nodiscard]] Vector3<Scalar> tie_force(const Tie& tie) const;
   void multiply(const Floats& displacements, Floats& product);
   void precondition();
-  void solve_linear(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places,
-                    int iterations);
-  void do_round(const StepProblem<Scalar>& problem, int iterations, bool is_first,
-                Matrix3XRef<Scalar> places);
-  [[nodiscard]] double energy(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> places);
-  [[nodiscard]] bool is_suspicious(const StepProblem<Scalar>& problem,
-                                   ConstMatrix3XRef<Scalar> places) const;
-  void find_step_energy(const StepProblem<Scalar>& problem);
+  void solve_linear(const StepProblem<Scalar>& problem, int iterations);
+  void do_round(const StepProblem<Scalar>& problem, int iterations, bool is_first);
+  [[nodiscard]] double energy(const StepProblem<Scalar>& problem, const Nodes& places);
+  [[nodiscard]] bool is_suspicious(const StepProblem<Scalar>& problem) const;
   void stay_at_start(const StepProblem<Scalar>& problem);
-  bool descend(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> from,
-               Matrix3XRef<Scalar> places);
-  void tame(const StepProblem<Scalar>& problem, int iterations, Matrix3XRef<Scalar> places);
-  bool go_downhill(const StepProblem<Scalar>& problem, int iterations, Matrix3XRef<Scalar> places);
-  void hold_back(const StepProblem<Scalar>& problem, double work_before,
-                 Matrix3XRef<Scalar> places);
-  void find_holding_forces(ConstMatrix3XRef<Scalar> places);
+  bool descend(const StepProblem<Scalar>& problem);
+  void tame(const StepProblem<Scalar>& problem, int iterations);
+  bool go_downhill(const StepProblem<Scalar>& problem, int iterations);
+  void hold_back(double work_before);
+  /// Of the forces that are left with the step, but for nodes with a hold [J].
+  [[nodiscard]] double work_of_held() const;
+  void find_holding_forces();
   /// Norm of the forces that nothing balances [N].
   [[nodiscard]] double left_over() const;
-  void balance(Matrix3XRef<Scalar> places);
-  void find_remainders(ConstMatrix3XRef<Scalar> places);
-  bool clamp(const StepProblem<Scalar>& problem, Matrix3XRef<Scalar> places);
+  void balance();
+  void find_remainders();
+  bool clamp(const StepProblem<Scalar>& problem);
 
   NetworkForces<Scalar> forces_;
   GlobalCorrection global_;
@@ -142,16 +141,21 @@ class ImplicitSolver {
   std::unique_ptr<CorrectionMaker> next_global_;  ///< for the network as it was at some tear
   std::vector<int> copies_;                       ///< since then, their origins
   bool is_outdated_ = false;                      ///< there was a tear since then
-  VectorX<Scalar> masses_;
+  VectorX<Scalar> masses_;                        ///< [kg], filled up with zeros
   std::vector<bool> is_free_;
   std::vector<int> pinned_;
-  std::vector<int> held_;        ///< nodes with a hold
-  std::vector<Tie> ties_;        ///< of each tied node
-  VectorX<float> inertia_;       ///< m / h'^2 [N/m]; 0 for pinned nodes; filled up with zeros
-  Matrix3X<Scalar> unbalanced_;  ///< forces that are left [N]
-  Matrix3X<Scalar> holding_forces_;
-  Matrix3X<Scalar> remainders_;
-  Matrix3X<Scalar> unmoved_;
+  std::vector<int> held_;    ///< nodes with a hold
+  std::vector<Tie> ties_;    ///< of each tied node
+  VectorX<float> inertia_;   ///< m / h'^2 [N/m]; 0 for pinned nodes; filled up with zeros
+  VectorX<Scalar> weights_;  ///< the same in Scalar
+  // Of the present problem [m].
+  Nodes targets_;
+  Nodes starts_;
+  Nodes places_;
+  Nodes unbalanced_;  ///< forces that are left [N]
+  Nodes holding_forces_;
+  Nodes remainders_;
+  Nodes unmoved_;
   std::vector<Hold> holds_;        ///< of each node
   std::vector<Hold> held_before_;  ///< the same in the round before
   std::vector<int> contact_of_;    ///< of each node: the contact that holds it, or -1

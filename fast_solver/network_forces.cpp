@@ -84,9 +84,7 @@ void NetworkForces<Scalar>::resize_arrays() {
   if (has_stabiliser_) stabilisers_.resize(num_lanes, Scalar(0));
   linear_.resize(4 * num_lanes, 0.0F);
   const int num_rows = fill_up(num_nodes());
-  for (NodeArrays<Scalar>* arrays : {&starts_, &places_, &forces_}) {
-    if (arrays->rows() != num_rows) arrays->setZero(num_rows, 3);
-  }
+  if (starts_.rows() != num_rows) starts_.setZero(num_rows, 3);
   if (diagonal_.rows() != num_rows) diagonal_.setZero(num_rows, 6);
   task_sums_.resize(at(std::max(1, slots_.num_blocks() / kFewestBlocks)));
 }
@@ -232,7 +230,7 @@ NetworkView<Scalar> NetworkForces<Scalar>::view() const {
   return {slots_.blocks.data(),
           slots_.slots.data(),
           slots_.others.data(),
-          static_cast<int>(places_.rows()),
+          static_cast<int>(starts_.rows()),
           springs_.data(),
           dampers_.empty() ? nullptr : dampers_.data(),
           stabilisers_.empty() ? nullptr : stabilisers_.data(),
@@ -256,8 +254,8 @@ void NetworkForces<Scalar>::for_each_task(const Run& run) const {
 }
 
 template <class Scalar>
-void NetworkForces<Scalar>::begin_step(ConstMatrix3XRef<Scalar> starts, Scalar time_step) {
-  to_arrays<Scalar>(starts, starts_);
+void NetworkForces<Scalar>::begin_step(const NodeArrays<Scalar>& starts, Scalar time_step) {
+  starts_ = starts;
   if (!has_damping_) return;
   const std::size_t block = kNodeBlock;
   for (int b = 0; b < slots_.num_blocks(); ++b) {
@@ -266,31 +264,25 @@ void NetworkForces<Scalar>::begin_step(ConstMatrix3XRef<Scalar> starts, Scalar t
       const int node = std::min(b * kNodeBlock + static_cast<int>(place % block), num_nodes() - 1);
       Scalar* const damper = dampers_.data() + place / block * 2 * block + place % block;
       damper[0] = damping_[place] / time_step;
-      damper[block] = (starts.col(slots_.others[place]) - starts.col(node)).norm();
+      damper[block] = (at_node(starts, slots_.others[place]) - at_node(starts, node)).norm();
     }
   }
 }
 
 template <class Scalar>
-void NetworkForces<Scalar>::add_forces(ConstMatrix3XRef<Scalar> places,
-                                       Matrix3XRef<Scalar> forces) {
-  to_arrays<Scalar>(places, places_);
-  to_arrays<Scalar>(forces, forces_);
+void NetworkForces<Scalar>::add_forces(const NodeArrays<Scalar>& places,
+                                       NodeArrays<Scalar>& forces) {
   for_each_task([&](int, int begin, int end) {
-    network_kernel<Scalar>().forces(view(), begin, end, places_.data(), starts_.data(),
-                                    forces_.data(), diagonal_.data());
+    network_kernel<Scalar>().forces(view(), begin, end, places.data(), starts_.data(),
+                                    forces.data(), diagonal_.data());
   });
-  for (int axis = 0; axis < 3; ++axis) {
-    for (Eigen::Index i = 0; i < forces.cols(); ++i) forces(axis, i) = forces_(i, axis);
-  }
 }
 
 template <class Scalar>
-double NetworkForces<Scalar>::potential(ConstMatrix3XRef<Scalar> places) {
-  to_arrays<Scalar>(places, places_);
+double NetworkForces<Scalar>::potential(const NodeArrays<Scalar>& places) {
   for_each_task([&](int task, int begin, int end) {
     task_sums_[at(task)] =
-        network_kernel<Scalar>().energy(view(), begin, end, places_.data(), starts_.data());
+        network_kernel<Scalar>().energy(view(), begin, end, places.data(), starts_.data());
   });
   return std::accumulate(task_sums_.begin(), task_sums_.end(), 0.0);
 }

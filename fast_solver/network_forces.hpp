@@ -34,19 +34,19 @@ class NetworkForces {
   /// Share of the slots that no block uses any more [-].
   [[nodiscard]] double unused_share() const;
 
-  /// Lengths at the start of a step of time_step [s], > 0; starts: q, 3 x n [m].
-  void begin_step(ConstMatrix3XRef<Scalar> starts, Scalar time_step);
+  /// Lengths at the start of a step of time_step [s], > 0; starts: q [m].
+  void begin_step(const NodeArrays<Scalar>& starts, Scalar time_step);
 
   /// From the next add_forces() on t is at least this share of s, 0 to 1. With 1 no spring can store more than its
   /// linearisation says, so that a step that the linear system thinks good is good (as the global step of Bouaziz et
   /// al. 2014); with 0 steps of Newton's method are as large as they can be.
   void set_least_across(Scalar share) { least_across_ = share; }
 
-  /// forces (3 x n) += those of the network at places x (3 x n) [N], and linearises there.
-  void add_forces(ConstMatrix3XRef<Scalar> places, Matrix3XRef<Scalar> forces);
+  /// forces += those of the network at places x [N], and linearises there.
+  void add_forces(const NodeArrays<Scalar>& places, NodeArrays<Scalar>& forces);
 
   /// What add_forces() is minus the gradient of [J].
-  [[nodiscard]] double potential(ConstMatrix3XRef<Scalar> places);
+  [[nodiscard]] double potential(const NodeArrays<Scalar>& places);
 
   /// product = inertia displacements + stiffness displacements [N], with the stiffness of the last
   /// add_forces(). inertia: fill_up(n) [N/m].
@@ -91,8 +91,6 @@ class NetworkForces {
   Scalar least_across_ = 0;
   mutable std::vector<float> linear_;
   NodeArrays<Scalar> starts_;
-  NodeArrays<Scalar> places_;
-  NodeArrays<Scalar> forces_;
   BlockArrays diagonal_;
   std::vector<double> task_sums_;
 };

@@ -7,6 +7,10 @@ template <class Scalar>
 const NetworkKernel<Scalar>& network_kernel_avx2();
 template <class Scalar>
 const NetworkKernel<Scalar>& network_kernel_avx512();
+template <class Scalar>
+const SumKernel<Scalar>& sum_kernel_avx2();
+template <class Scalar>
+const SumKernel<Scalar>& sum_kernel_avx512();
 const VectorKernel& vector_kernel_avx2();
 const VectorKernel& vector_kernel_avx512();
 #endif
@@ -36,6 +40,15 @@ const NetworkKernel<Scalar>& network_kernel() {
   return kKernel<Scalar>;
 }
 
+template <class Scalar>
+const SumKernel<Scalar>& sum_kernel() {
+#ifdef WEFT_VECTOR_KERNELS
+  if (has_avx512()) return sum_kernel_avx512<Scalar>();
+  if (has_avx2()) return sum_kernel_avx2<Scalar>();
+#endif
+  return kSums<Scalar>;
+}
+
 const VectorKernel& vector_kernel() {
 #ifdef WEFT_VECTOR_KERNELS
   if (has_avx512()) return vector_kernel_avx512();
@@ -46,5 +59,7 @@ const VectorKernel& vector_kernel() {
 
 template const NetworkKernel<float>& network_kernel();
 template const NetworkKernel<double>& network_kernel();
+template const SumKernel<float>& sum_kernel();
+template const SumKernel<double>& sum_kernel();
 
 }  // namespace weft::fast

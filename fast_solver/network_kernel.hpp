@@ -46,6 +46,26 @@ struct NetworkKernel {
                    const Scalar* starts);
 };
 
+/// Sums over arrays of nodes, in double precision but for short pieces.
+template <class Scalar>
+struct SumKernel {
+  struct Sums {
+    double first;
+    double second;
+  };
+  /// a . a over `size` numbers, a multiple of kNodeBlock.
+  double (*squares)(const Scalar* a, long size);
+  /// a . step over `size` numbers.
+  double (*dot)(const Scalar* a, const float* step, long size);
+  /// The same, and places += step.
+  double (*move)(const Scalar* a, const float* step, long size, Scalar* places);
+  /// Sum of weight |a - b|^2 over the nodes of arrays of `stride`.
+  double (*weighted_distance)(const Scalar* weights, long stride, const Scalar* a, const Scalar* b);
+  /// Sums of weight |a - b|^2 and of |a - b| |forces|.
+  Sums (*motion)(const Scalar* weights, long stride, const Scalar* a, const Scalar* b,
+                 const Scalar* forces);
+};
+
 /// Loops of conjugate gradients over arrays of `size` numbers, a multiple of kNodeBlock.
 struct VectorKernel {
   struct Products {
@@ -74,6 +94,8 @@ struct VectorKernel {
 /// processor: AVX2 brings fused operations.
 template <class Scalar>
 [[nodiscard]] const NetworkKernel<Scalar>& network_kernel();
+template <class Scalar>
+[[nodiscard]] const SumKernel<Scalar>& sum_kernel();
 [[nodiscard]] const VectorKernel& vector_kernel();
 
 }  // namespace weft::fast

@@ -11,11 +11,18 @@ constexpr int kVectorBytes = 32;
 
 template <class Scalar>
 const NetworkKernel<Scalar>& network_kernel_avx2();
+template <class Scalar>
+const SumKernel<Scalar>& sum_kernel_avx2();
 const VectorKernel& vector_kernel_avx2();
 
 template <class Scalar>
 const NetworkKernel<Scalar>& network_kernel_avx2() {
   return kKernel<Scalar>;
+}
+
+template <class Scalar>
+const SumKernel<Scalar>& sum_kernel_avx2() {
+  return kSums<Scalar>;
 }
 
 const VectorKernel& vector_kernel_avx2() {
@@ -24,5 +31,7 @@ const VectorKernel& vector_kernel_avx2() {
 
 template const NetworkKernel<float>& network_kernel_avx2();
 template const NetworkKernel<double>& network_kernel_avx2();
+template const SumKernel<float>& sum_kernel_avx2();
+template const SumKernel<double>& sum_kernel_avx2();
 
 }  // namespace weft::fast

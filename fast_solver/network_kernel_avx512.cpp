@@ -11,11 +11,18 @@ constexpr int kVectorBytes = 64;
 
 template <class Scalar>
 const NetworkKernel<Scalar>& network_kernel_avx512();
+template <class Scalar>
+const SumKernel<Scalar>& sum_kernel_avx512();
 const VectorKernel& vector_kernel_avx512();
 
 template <class Scalar>
 const NetworkKernel<Scalar>& network_kernel_avx512() {
   return kKernel<Scalar>;
+}
+
+template <class Scalar>
+const SumKernel<Scalar>& sum_kernel_avx512() {
+  return kSums<Scalar>;
 }
 
 const VectorKernel& vector_kernel_avx512() {
@@ -24,5 +31,7 @@ const VectorKernel& vector_kernel_avx512() {
 
 template const NetworkKernel<float>& network_kernel_avx512();
 template const NetworkKernel<double>& network_kernel_avx512();
+template const SumKernel<float>& sum_kernel_avx512();
+template const SumKernel<double>& sum_kernel_avx512();
 
 }  // namespace weft::fast

@@ -36,4 +36,23 @@ void to_arrays(ConstMatrix3XRef<Scalar> vectors, NodeArrays<Scalar>& arrays) {
   arrays.bottomRows(arrays.rows() - n).setZero();
 }
 
+/// vectors, 3 x n = the first n of arrays.
+template <class Scalar>
+void from_arrays(const NodeArrays<Scalar>& arrays, Matrix3XRef<Scalar> vectors) {
+  const Scalar* const x = arrays.data();
+  const Scalar* const y = x + arrays.rows();
+  const Scalar* const z = y + arrays.rows();
+  for (Eigen::Index i = 0; i < vectors.cols(); ++i) {
+    vectors(0, i) = x[i];
+    vectors(1, i) = y[i];
+    vectors(2, i) = z[i];
+  }
+}
+
+/// The vector of one node.
+template <class Scalar>
+[[nodiscard]] Vector3<Scalar> at_node(const NodeArrays<Scalar>& arrays, Eigen::Index node) {
+  return {arrays(node, 0), arrays(node, 1), arrays(node, 2)};
+}
+
 }  // namespace weft::fast

@@ -1,0 +1,151 @@
+#include <weft/bridge/node_prediction.hpp>
+
+#include <array>
+
+#include <weft/bridge/bullet_vector.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+namespace {
+
+/// Steps that boxes look ahead when all of them are made anew.
+constexpr btScalar kCoveredSteps = 4;
+/// Of the nodes: so many may be put into the tree one by one.
+constexpr int kFewShare = 50;
+// The tree's depth is some 20; one that has degenerated to a list is left to Bullet.
+constexpr int kMostDepth = 200;
+
+/// All that Bullet stores of a vector: what a processor loads at once. The last number is of no meaning.
+using Four = Eigen::Array<btScalar, 4, 1>;
+
+Eigen::Map<Four, Eigen::Aligned16> four(btVector3& v) {
+  return Eigen::Map<Four, Eigen::Aligned16>(v.m_floats);
+}
+
+Eigen::Map<const Four, Eigen::Aligned16> four(const btVector3& v) {
+  return Eigen::Map<const Four, Eigen::Aligned16>(v.m_floats);
+}
+
+btVector3 vector_of(const Four& v) {
+  return {v[0], v[1], v[2]};
+}
+
+bool has_air(const btSoftBody::Config& settings) {
+  return settings.kLF > 0 || settings.kDG > 0 || settings.kPR != 0 || settings.kVC > 0;
+}
+
+void integrate(btSoftBody& body, btScalar time_step, Matrix3X<btScalar>& velocities) {
+  const btVector3 gravity = body.m_worldInfo->m_gravity * time_step;
+  const Four fall(gravity.x(), gravity.y(), gravity.z(), 0);
+  const btScalar most = body.m_worldInfo->m_maxDisplacement / time_step;
+  Four low = four(body.m_nodes[0].m_x);
+  Four high = low;
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    btSoftBody::Node& node = body.m_nodes[i];
+    const Four start = four(node.m_x);
+    const Four push = (four(node.m_f) * node.m_im * time_step).min(most).max(-most);
+    Four velocity = four(node.m_v);
+    if (node.m_im > 0) velocity += fall;
+    velocity += push;
+    const Four place = start + velocity * time_step;
+    four(node.m_q) = start;
+    four(node.m_v) = velocity;
+    four(node.m_x) = place;
+    four(node.m_f).setZero();
+    velocities.col(i) = velocity.matrix().template head<3>();
+    low = low.min(start).min(place);
+    high = high.max(start).max(place);
+  }
+  body.m_bounds[0] = vector_of(low - body.m_sst.radmrg);
+  body.m_bounds[1] = vector_of(high + body.m_sst.radmrg);
+}
+
+btDbvtVolume box_of(const btSoftBody::Node& node, btScalar margin) {
+  return btDbvtVolume::FromCR(node.m_x, margin);
+}
+
+void refit(btDbvtNode* node, int depth) {
+  if (node->isleaf() || depth > kMostDepth) return;
+  refit(node->childs[0], depth + 1);
+  refit(node->childs[1], depth + 1);
+  Merge(node->childs[0]->volume, node->childs[1]->volume, node->volume);
+}
+
+void cover_ways(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities) {
+  const bool has_last = last_velocities.cols() == body.m_nodes.size();
+  const btScalar ahead = kCoveredSteps * body.m_sst.sdt + body.m_sst.velmrg;
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    btSoftBody::Node& node = body.m_nodes[i];
+    btDbvtVolume box = box_of(node, body.m_sst.radmrg);
+    box.SignedExpand(node.m_v * ahead);
+    btVector3 bend(body.m_sst.updmrg, body.m_sst.updmrg, body.m_sst.updmrg);
+    if (has_last) {
+      const Vector3<btScalar> last = last_velocities.col(i);
+      bend += ahead * kCoveredSteps / 2 * (node.m_v - to_bullet(last)).absolute();
+    }
+    box.Expand(bend);
+    node.m_leaf->volume = box;
+  }
+  refit(body.m_ndbvt.m_root, 0);
+}
+
+void update_tree(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities) {
+  if (body.m_ndbvt.m_root == nullptr) return;
+  const btScalar margin = body.m_sst.radmrg;
+  const int few = body.m_nodes.size() / kFewShare;
+  int num_left = 0;
+  for (int i = 0; i < body.m_nodes.size() && num_left <= few; ++i) {
+    const btSoftBody::Node& node = body.m_nodes[i];
+    if (!node.m_leaf->volume.Contain(box_of(node, margin))) ++num_left;
+  }
+  if (num_left > few) {
+    cover_ways(body, last_velocities);
+  } else if (num_left > 0) {
+    for (int i = 0; i < body.m_nodes.size(); ++i) {
+      btSoftBody::Node& node = body.m_nodes[i];
+      btDbvtVolume box = box_of(node, margin);
+      body.m_ndbvt.update(node.m_leaf, box, node.m_v * body.m_sst.velmrg, body.m_sst.updmrg);
+    }
+  }
+}
+
+void update_face_tree(btSoftBody& body) {
+  if (body.m_fdbvt.empty()) return;
+  for (int f = 0; f < body.m_faces.size(); ++f) {
+    btSoftBody::Face& face = body.m_faces[f];
+    std::array<const btVector3*, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = &face.m_n[k]->m_x;
+    btDbvtVolume box = btDbvtVolume::FromPoints(corners.data(), 3);
+    const btScalar margin = body.m_sst.radmrg;
+    box.Expand(btVector3(margin, margin, margin));
+    const btVector3 velocity = (face.m_n[0]->m_v + face.m_n[1]->m_v + face.m_n[2]->m_v) / 3;
+    body.m_fdbvt.update(face.m_leaf, box, velocity * body.m_sst.velmrg, body.m_sst.updmrg);
+  }
+}
+
+}  // namespace
+
+bool is_plain(const btSoftBody& body) {
+  return !body.m_bUpdateRtCst && body.m_clusters.size() == 0 && !body.m_pose.m_bframe &&
+         body.m_cfg.timescale == btScalar(1) && !has_air(body.m_cfg) && body.m_nodes.size() > 0;
+}
+
+void predict_nodes(btSoftBody& body, btScalar time_step,
+                   ConstMatrix3XRef<btScalar> last_velocities, Matrix3X<btScalar>& velocities) {
+  body.m_sst.sdt = time_step;
+  body.m_sst.isdt = 1 / time_step;
+  body.m_sst.velmrg = 3 * time_step;
+  body.m_sst.radmrg = body.getCollisionShape()->getMargin();
+  body.m_sst.updmrg = body.m_sst.radmrg * btScalar(0.25);
+  velocities.resize(3, body.m_nodes.size());
+  integrate(body, time_step, velocities);
+  update_tree(body, last_velocities);
+  update_face_tree(body);
+  body.m_rcontacts.resizeNoInitialize(0);
+  body.m_scontacts.resizeNoInitialize(0);
+  body.m_ndbvt.optimizeIncremental(1);
+  body.m_fdbvt.optimizeIncremental(1);
+}
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge
