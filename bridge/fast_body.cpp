@@ -10,8 +10,8 @@
 
 #include <weft/bridge/bullet_vector.hpp>
 #include <weft/bridge/energy_limit.hpp>
-#include <weft/bridge/node_state.hpp>
 #include <weft/bridge/node_prediction.hpp>
+#include <weft/bridge/node_state.hpp>
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/trace.hpp>
 
@@ -216,7 +216,8 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
 }
 
 bool FastBody::has_pins_of_solver(const btSoftBody& body) const {
-  const auto num_pins = static_cast<std::size_t>(std::count(is_free_.begin(), is_free_.end(), false));
+  const auto num_pins =
+      static_cast<std::size_t>(std::count(is_free_.begin(), is_free_.end(), false));
   return is_free_.size() == static_cast<std::size_t>(body.m_nodes.size()) &&
          pins_.size() == num_pins && std::none_of(pins_.begin(), pins_.end(), [&](int pin) {
            return is_free_[static_cast<std::size_t>(pin)];
@@ -255,6 +256,17 @@ bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
   return places_ == starts_;
 }
 
+/// Of all that touches a rigid body or hangs on it: each gets an equal part of its inertia, and together no more.
+btScalar FastBody::num_shares(const btSoftBody& body, const btRigidBody& rigid) const {
+  auto shares = std::count_if(contacts_.begin(), contacts_.end(), [&](const RigidContact& contact) {
+    return contact.object == &rigid;
+  });
+  for (int a = 0; a < body.m_anchors.size(); ++a) {
+    shares += body.m_anchors[a].m_body == &rigid ? 1 : 0;
+  }
+  return static_cast<btScalar>(shares);
+}
+
 void FastBody::read_constraints(const btSoftBody& body) {
   plane_contacts_.clear();
   for (const RigidContact& contact : contacts_) {
@@ -265,10 +277,10 @@ void FastBody::read_constraints(const btSoftBody& body) {
     plane.motion = from_bullet<btScalar>(contact.motion);
     plane.friction = body.m_cfg.kDF * contact.object->getFriction();
     if (const btRigidBody* const rigid = movable(contact.object)) {
-      const auto shares = std::count_if(contacts_.begin(), contacts_.end(), [&](const auto& other) {
-        return other.object == contact.object;
-      });
-      plane.mass = mass_at(*rigid, body.m_nodes[contact.node].m_x) / static_cast<btScalar>(shares);
+      plane.mass = mass_at(*rigid, body.m_nodes[contact.node].m_x) / num_shares(body, *rigid);
+      // What is inside at the start is led out without speed (stay_outside()).
+      const btScalar gap = plane.normal.dot(starts_.col(contact.node) + plane.motion) - plane.offset;
+      plane.offset += std::min(btScalar(0), gap);
     }
     plane_contacts_.push_back(plane);
   }
@@ -282,11 +294,7 @@ void FastBody::read_constraints(const btSoftBody& body) {
     led.node = node;
     led.place = from_bullet<btScalar>(place) - origin_;
     if (const btRigidBody* const rigid = movable(anchor.m_body)) {
-      int shares = 0;
-      for (int b = 0; b < body.m_anchors.size(); ++b) {
-        shares += body.m_anchors[b].m_body == anchor.m_body ? 1 : 0;
-      }
-      led.mass = mass_at(*rigid, place) / static_cast<btScalar>(shares);
+      led.mass = mass_at(*rigid, place) / num_shares(body, *rigid);
     }
     led_.push_back(led);
   }

@@ -114,6 +114,7 @@ class FastBody {
   void find_pins(const btSoftBody& body);
   [[nodiscard]] btVector3 in_world(int node) const;
   void write_places(btSoftBody& body);
+  [[nodiscard]] btScalar num_shares(const btSoftBody& body, const btRigidBody& rigid) const;
   void read_constraints(const btSoftBody& body);
   void give_impulses(btSoftBody& body, btScalar time_step);
   void keep_out_of_missed(btSoftBody& body, btScalar time_step);
@@ -134,7 +135,7 @@ class FastBody {
   std::vector<bool> is_free_;   ///< that solver_ was made for
   std::vector<int> pins_;       ///< of the present step
   Matrix3X<btScalar> weights_;  ///< masses, each thrice [kg]; 0 for pins
-  btScalar solver_step_ = 0;  ///< [s] of the steps that solver_ was made for
+  btScalar solver_step_ = 0;    ///< [s] of the steps that solver_ was made for
 
   BodySleep sleep_;
   Vector3<btScalar> origin_ = Vector3<btScalar>::Zero();  ///< that places are counted from [m]

@@ -15,15 +15,11 @@ constexpr int kFewShare = 50;
 // The tree's depth is some 20; one that has degenerated to a list is left to Bullet.
 constexpr int kMostDepth = 200;
 
-/// All that Bullet stores of a vector: what a processor loads at once. The last number is of no meaning.
+/// All that Bullet stores of a vector, at no special address: what a processor loads at once. The last number is of no meaning.
 using Four = Eigen::Array<btScalar, 4, 1>;
 
-Eigen::Map<Four, Eigen::Aligned16> four(btVector3& v) {
-  return Eigen::Map<Four, Eigen::Aligned16>(v.m_floats);
-}
-
-Eigen::Map<const Four, Eigen::Aligned16> four(const btVector3& v) {
-  return Eigen::Map<const Four, Eigen::Aligned16>(v.m_floats);
+Eigen::Map<Four> four(btVector3& v) {
+  return Eigen::Map<Four>(v.m_floats);
 }
 
 btVector3 vector_of(const Four& v) {
@@ -130,8 +126,8 @@ bool is_plain(const btSoftBody& body) {
          body.m_cfg.timescale == btScalar(1) && !has_air(body.m_cfg) && body.m_nodes.size() > 0;
 }
 
-void predict_nodes(btSoftBody& body, btScalar time_step,
-                   ConstMatrix3XRef<btScalar> last_velocities, Matrix3X<btScalar>& velocities) {
+void predict_nodes(btSoftBody& body, btScalar time_step, ConstMatrix3XRef<btScalar> last_velocities,
+                   Matrix3X<btScalar>& velocities) {
   body.m_sst.sdt = time_step;
   body.m_sst.isdt = 1 / time_step;
   body.m_sst.velmrg = 3 * time_step;

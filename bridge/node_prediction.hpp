@@ -20,8 +20,8 @@ inline namespace WEFT_BULLET_PRECISION {
 /// neighbours in a cloth stay neighbours, so that the tree stays good.
 /// last_velocities: at the start of the step before, 3 x n [m/s], or of another size if not known: how fast ways bend.
 /// velocities: out, m_v afterwards, 3 x n [m/s].
-void predict_nodes(btSoftBody& body, btScalar time_step,
-                   ConstMatrix3XRef<btScalar> last_velocities, Matrix3X<btScalar>& velocities);
+void predict_nodes(btSoftBody& body, btScalar time_step, ConstMatrix3XRef<btScalar> last_velocities,
+                   Matrix3X<btScalar>& velocities);
 
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

@@ -87,7 +87,8 @@ void CorrectionMaker::make_sums() {
   result_.solution_.setZero(3, num_coarse);
   result_.coarse_.setZero(4, num_coarse);
   result_.coarse_sums_.setZero(4, num_coarse);
-  result_.nodes_.setZero(4, num_nodes_);
+  result_.num_nodes_ = num_nodes_;
+  result_.nodes_.setZero(4, fill_up(num_nodes_));
   using Row = std::vector<std::pair<int, float>>;
   std::vector<Row> of_coarse(at(num_coarse));
   std::vector<Row> of_node(at(num_nodes_));

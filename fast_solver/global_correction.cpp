@@ -4,6 +4,8 @@
 #include <utility>
 
 #include <weft/fast_solver/correction_maker.hpp>
+#include <weft/fast_solver/network_kernel.hpp>
+#include <weft/fast_solver/node_arrays.hpp>
 
 namespace weft::fast {
 namespace {
@@ -26,7 +28,7 @@ GlobalCorrection::GlobalCorrection(const SymmetricMatrix& matrix, const std::vec
 }
 
 void GlobalCorrection::add_copies(const std::vector<int>& origins) {
-  auto node = static_cast<int>(nodes_.cols());
+  int node = num_nodes_;
   const auto take_part = [&](int coarse, float weight) {
     if (weight != 0) coarsen_.rest.push_back({coarse, node, weight});
   };
@@ -47,7 +49,8 @@ void GlobalCorrection::add_copies(const std::vector<int>& origins) {
     }
     ++node;
   }
-  nodes_.setZero(4, node);
+  num_nodes_ = node;
+  nodes_.setZero(4, fill_up(node));
 }
 
 GlobalCorrection::Sums GlobalCorrection::make_sums(
@@ -84,7 +87,10 @@ std::size_t GlobalCorrection::num_bytes() const {
 void GlobalCorrection::add_up(const Sums& sums, const Fours& values, Fours& results) {
   const int* columns = sums.columns.data();
   const float* weights = sums.weights.data();
-  for (Eigen::Index row = 0; row < results.cols(); ++row) {
+  const auto num_sums = sums.num_terms > 0
+                            ? static_cast<Eigen::Index>(sums.weights.size()) / sums.num_terms
+                            : Eigen::Index{0};
+  for (Eigen::Index row = 0; row < num_sums; ++row) {
     Eigen::Vector4f sum = Eigen::Vector4f::Zero();
     for (int k = 0; k < sums.num_terms; ++k) sum += *weights++ * values.col(*columns++);
     results.col(row) = sum;
@@ -96,23 +102,13 @@ void GlobalCorrection::add_up(const Sums& sums, const Fours& values, Fours& resu
 
 // Four numbers for a node, of which the last is not used: what a processor loads and adds at once.
 void GlobalCorrection::solve(const NodeArrays<float>& residual, NodeArrays<float>& correction) {
-  const Eigen::Index n = residual.rows();
-  const float* const from = residual.data();
-  for (Eigen::Index i = 0; i < nodes_.cols(); ++i) {
-    nodes_.col(i) << from[i], from[n + i], from[2 * n + i], 0.0F;
-  }
+  vector_kernel().to_fours(residual.data(), residual.rows(), nodes_.data());
   add_up(coarsen_, nodes_, coarse_sums_);
   right_ = coarse_sums_.topRows<3>();
   factor_.solve(right_, solution_);
   coarse_.topRows<3>() = solution_;
   add_up(refine_, coarse_, nodes_);
-  float* const to = correction.data();
-  for (Eigen::Index i = 0; i < nodes_.cols(); ++i) {
-    to[i] = nodes_(0, i);
-    to[n + i] = nodes_(1, i);
-    to[2 * n + i] = nodes_(2, i);
-  }
-  correction.bottomRows(n - nodes_.cols()).setZero();
+  vector_kernel().from_fours(nodes_.data(), correction.rows(), correction.data());
 }
 
 }  // namespace weft::fast

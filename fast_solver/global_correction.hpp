@@ -56,9 +56,10 @@ class GlobalCorrection {
   Sums coarsen_;  ///< P^T: of each coarse unknown, nodes
   Sums refine_;   ///< P: of each node, coarse unknowns
   SparseCholesky factor_;
+  int num_nodes_ = 0;
   Matrix3X<float> right_;
   Matrix3X<float> solution_;
-  Fours nodes_;
+  Fours nodes_;  ///< filled up
   Fours coarse_;
   Fours coarse_sums_;
 };

@@ -36,6 +36,16 @@ std::vector<int> free_nodes(const std::vector<bool>& is_free) {
   return nodes;
 }
 
+/// Where nothing touches the cloth, the first round only has to find where springs will point: some of its
+/// iterations are worth more in the last.
+template <class Scalar>
+int iterations_of(const StepProblem<Scalar>& problem, const SolverEffort& effort, int round) {
+  const bool is_touched = !problem.contacts.empty() || !problem.led.empty();
+  if (is_touched || effort.rounds == 1) return effort.iterations;
+  if (round == 0) return 1;
+  return effort.iterations + (round == effort.rounds - 1 ? effort.iterations / 4 : 0);
+}
+
 GlobalCorrection correction_of(const SpringNetwork& network, const VectorX<double>& masses,
                                const std::vector<bool>& is_free, double inertia_step) {
   const auto n = static_cast<std::size_t>(masses.size());
@@ -147,7 +157,6 @@ void ImplicitSolver<Scalar>::evaluate() {
   for (const int node : pinned_) unbalanced_.row(node).setZero();
 }
 
-// Inverses of symmetric 3 x 3 matrices by their adjugates.
 template <class Scalar>
 void ImplicitSolver<Scalar>::invert_blocks() {
   blocks_ = forces_.diagonal_blocks();
@@ -160,27 +169,8 @@ void ImplicitSolver<Scalar>::invert_blocks() {
       if (!is_full) blocks_(tie.node, 3 + c) += k * n[c] * n[(c + 1) % 3];
     }
   }
-  const Eigen::Index n = blocks_.rows();
-  float* const m = blocks_.data();
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const float a = m[i] + inertia_[i];
-    const float b = m[n + i] + inertia_[i];
-    const float c = m[2 * n + i] + inertia_[i];
-    const float d = m[3 * n + i];
-    const float e = m[4 * n + i];
-    const float f = m[5 * n + i];
-    const float xx = b * c - e * e;
-    const float xy = e * f - c * d;
-    const float xz = d * e - b * f;
-    const float determinant = a * xx + d * xy + f * xz;
-    const float scale = determinant > 0 ? kSmoothing / determinant : 0.0F;
-    m[i] = scale * xx;
-    m[n + i] = scale * (a * c - f * f);
-    m[2 * n + i] = scale * (a * b - d * d);
-    m[3 * n + i] = scale * xy;
-    m[4 * n + i] = scale * (d * f - a * e);
-    m[5 * n + i] = scale * xz;
-  }
+  vector_kernel().invert_blocks(inertia_.data(), kSmoothing, static_cast<int>(blocks_.rows()),
+                                blocks_.data());
 }
 
 template <class Scalar>
@@ -297,7 +287,7 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const Sol
   evaluate();
   const double first = std::sqrt(sums.squares(unbalanced_.data(), unbalanced_.size()));
   for (int round = 0; round < effort.rounds; ++round) {
-    do_round(problem, effort.iterations, round == 0);
+    do_round(problem, iterations_of(problem, effort, round), round == 0);
   }
   for (int extra = 0; !ties_.empty() && extra < kTiedRounds; ++extra) {
     find_holding_forces();

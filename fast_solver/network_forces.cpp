@@ -1,6 +1,7 @@
 #include <weft/fast_solver/network_forces.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -17,6 +18,8 @@ constexpr int kFewestBlocks = 75;
 constexpr double kRoom = 2.0;
 /// Slots that a block which has grown may grow by again.
 constexpr int kSpareSlots = 6;
+/// Half precision ends a little below 2^16.
+constexpr int kMostHalfExponent = 14;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -51,6 +54,7 @@ NetworkForces<Scalar>::NetworkForces(const SpringNetwork& network, int num_nodes
     : slots_(make_edge_slots(network.edges, num_nodes)) {
   has_damping_ = (network.damping.array() != 0).any();
   has_stabiliser_ = (network.stabiliser.array() != 0).any();
+  note_stiffest(network);
   reserve(static_cast<std::size_t>(kRoom * slots_.num_slots()));
   resize_arrays();
   for (std::size_t place = 0; place < slots_.edges.size(); ++place) {
@@ -65,6 +69,24 @@ NetworkForces<Scalar>::NetworkForces(const SpringNetwork& network, int num_nodes
                   static_cast<Scalar>(network.stabiliser[e])});
   }
   for (const SlotRange& range : slots_.blocks) room_.push_back(range.end - range.begin);
+}
+
+template <class Scalar>
+void NetworkForces<Scalar>::note_stiffest(const SpringNetwork& springs) {
+  if (springs.edges.cols() == 0) return;
+  const double most = springs.stiffness.cwiseMax(springs.compressed_stiffness).maxCoeff();
+  stiffest_ = std::max(stiffest_, most + springs.stabiliser.maxCoeff());
+  most_damped_ = std::max(most_damped_, springs.damping.maxCoeff());
+}
+
+/// A power of two, so that no number of a linearisation is too large for half precision, and few are too small.
+template <class Scalar>
+void NetworkForces<Scalar>::choose_scale(double time_step) {
+  const double most = stiffest_ + most_damped_ / time_step;
+  root_scale_ = 1;
+  if (most > 0 && std::isfinite(most)) {
+    root_scale_ = std::ldexp(1.0F, (kMostHalfExponent - std::ilogb(most)) >> 1);
+  }
 }
 
 /// Of the lanes that slots_ has: new ones are empty.
@@ -82,7 +104,7 @@ void NetworkForces<Scalar>::resize_arrays() {
     dampers_.resize(2 * num_lanes, Scalar(0));
   }
   if (has_stabiliser_) stabilisers_.resize(num_lanes, Scalar(0));
-  linear_.resize(4 * num_lanes, 0.0F);
+  linear_.resize(4 * num_lanes, 0);
   const int num_rows = fill_up(num_nodes());
   if (starts_.rows() != num_rows) starts_.setZero(num_rows, 3);
   if (diagonal_.rows() != num_rows) diagonal_.setZero(num_rows, 6);
@@ -105,6 +127,7 @@ void NetworkForces<Scalar>::replace(const SpringNetwork& springs,
                                     const std::vector<char>& is_changed, int num_nodes) {
   has_damping_ = has_damping_ || (springs.damping.array() != 0).any();
   has_stabiliser_ = has_stabiliser_ || (springs.stabiliser.array() != 0).any();
+  note_stiffest(springs);
   const std::vector<char> blocks = blocks_to_change(springs, is_changed);
   std::vector<std::vector<Spring>> of_block(blocks.size());
   for (int block = 0; block < slots_.num_blocks(); ++block) {
@@ -235,6 +258,7 @@ NetworkView<Scalar> NetworkForces<Scalar>::view() const {
           dampers_.empty() ? nullptr : dampers_.data(),
           stabilisers_.empty() ? nullptr : stabilisers_.data(),
           least_across_,
+          root_scale_,
           linear_.data()};
 }
 
@@ -256,6 +280,7 @@ void NetworkForces<Scalar>::for_each_task(const Run& run) const {
 template <class Scalar>
 void NetworkForces<Scalar>::begin_step(const NodeArrays<Scalar>& starts, Scalar time_step) {
   starts_ = starts;
+  choose_scale(static_cast<double>(time_step));
   if (!has_damping_) return;
   const std::size_t block = kNodeBlock;
   for (int b = 0; b < slots_.num_blocks(); ++b) {

@@ -68,6 +68,8 @@ class NetworkForces {
     Scalar stabiliser;
   };
   [[nodiscard]] NetworkView<Scalar> view() const;
+  void note_stiffest(const SpringNetwork& springs);
+  void choose_scale(double time_step);
   void reserve(std::size_t num_slots);
   void resize_arrays();
   [[nodiscard]] std::vector<char> blocks_to_change(const SpringNetwork& springs,
@@ -89,7 +91,10 @@ class NetworkForces {
   std::vector<Scalar> dampers_;
   std::vector<Scalar> stabilisers_;
   Scalar least_across_ = 0;
-  mutable std::vector<float> linear_;
+  double stiffest_ = 0;     ///< [N/m]
+  double most_damped_ = 0;  ///< [N s/m]
+  mutable std::vector<std::uint16_t> linear_;
+  float root_scale_ = 1;
   NodeArrays<Scalar> starts_;
   BlockArrays diagonal_;
   std::vector<double> task_sums_;

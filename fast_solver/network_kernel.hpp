@@ -28,8 +28,10 @@ struct NetworkView {
   const Scalar* dampers;      ///< damping / time step, length at the start; nullptr: none
   const Scalar* stabilisers;  ///< w; nullptr: none
   Scalar least_across;        ///< t over s at least
-  /// sqrt(s - t) u and t, of the stiffness s u u^T + t (I - u u^T) of an edge of direction u
-  float* linear;
+  float root_scale;           ///< square root of what the stiffness is multiplied by to be stored
+  /// sqrt(s - t) u and t, of the stiffness s u u^T + t (I - u u^T) of an edge of direction u, in half precision: what a
+  /// correction is off by is small beside what one step of Newton's method leaves
+  unsigned short* linear;
 };
 
 /// The inner loops over the blocks begin ... end - 1. What they write: these blocks' nodes only.
@@ -72,6 +74,8 @@ struct VectorKernel {
     float first;
     float second;
   };
+  /// blocks = share (blocks + inertia)^-1, node by node; 0 where there is none.
+  void (*invert_blocks)(const float* inertia, float share, int stride, float* blocks);
   /// result = blocks vectors, node by node: 3 arrays from 6, of `stride` nodes each.
   void (*multiply_blocks)(const float* blocks, int stride, const float* vectors, float* result);
   /// result = a - b
@@ -88,6 +92,9 @@ struct VectorKernel {
   /// step += length direction, residual -= length product
   void (*advance)(const float* direction, const float* product, float length, long size,
                   float* step, float* residual);
+  /// x, y, z and a zero of each node in a row, from arrays of `stride` nodes, and back.
+  void (*to_fours)(const float* arrays, long stride, float* fours);
+  void (*from_fours)(const float* fours, long stride, float* arrays);
 };
 
 /// The fastest that this processor runs. Same results in every call, but not those of another

@@ -1,4 +1,6 @@
 // Compiled for AVX2 and FMA (CMakeLists.txt), called only on processors that have it.
+#include <immintrin.h>
+
 #include <weft/fast_solver/network_kernel.hpp>
 
 namespace weft::fast {

@@ -6,6 +6,8 @@
 #include <weft/custom_forces/core/tear.hpp>
 #include <weft/fast_solver/implicit_solver.hpp>
 
+#include "tests/fast_solver/node_arrays.hpp"
+
 namespace weft::fast {
 namespace {
 
@@ -61,15 +63,14 @@ void expect_same_forces(NetworkForces<double>& a, NetworkForces<double>& b, int 
   std::srand(5);  // Eigen's Random
   const Matrix3X<double> q = Matrix3X<double>::Random(3, num_nodes);
   const Matrix3X<double> x = q + 0.1 * Matrix3X<double>::Random(3, num_nodes);
-  Matrix3X<double> of_a = Matrix3X<double>::Zero(3, num_nodes);
-  Matrix3X<double> of_b = of_a;
-  a.begin_step(q, 0.01);
-  b.begin_step(q, 0.01);
-  a.add_forces(x, of_a);
-  b.add_forces(x, of_b);
+  a.begin_step(arrays_of(q), 0.01);
+  b.begin_step(arrays_of(q), 0.01);
+  const Matrix3X<double> of_a = forces_at(a, x);
+  const Matrix3X<double> of_b = forces_at(b, x);
   // Sums of some fifty springs in another order.
   EXPECT_LT((of_a - of_b).norm(), 1e-14 * of_b.norm());
-  EXPECT_NEAR(a.potential(x), b.potential(x), 1e-14 * b.potential(x));
+  const NodeArrays<double> places = arrays_of(x);
+  EXPECT_NEAR(a.potential(places), b.potential(places), 1e-14 * b.potential(places));
   const int rows = fill_up(num_nodes);
   NodeArrays<float> d = NodeArrays<float>::Random(rows, 3);
   d.bottomRows(rows - num_nodes).setZero();
@@ -147,7 +148,7 @@ struct Step {
   }
   double residual(ImplicitSolver<double>& solver) {
     places = starts;
-    solver.solve({targets, starts, h, h}, {2, 4}, places);
+    solver.solve({targets, starts, h, h}, {2, 6}, places);
     return solver.residual();
   }
   double h = 1.0 / 60;
