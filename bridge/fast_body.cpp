@@ -45,22 +45,9 @@ void check(const FastSettings& settings) {
   require(settings.effort.iterations, "iterations");
 }
 
-/// What a force at a place has to move, in the direction in which that is easiest [kg].
-btScalar mass_at(const btRigidBody& rigid, const btVector3& place) {
-  const btVector3 arm = place - rigid.getCenterOfMassPosition();
-  const btVector3 inverse_inertia = rigid.getInvInertiaDiagLocal();
-  const btScalar turning = inverse_inertia[inverse_inertia.maxAxis()] * arm.length2();
-  return 1 / (rigid.getInvMass() + turning);
-}
-
 void include_in_bounds(const Matrix3X<btScalar>& positions, btSoftBody& body) {
   body.m_bounds[0].setMin(to_bullet(positions.rowwise().minCoeff()));
   body.m_bounds[1].setMax(to_bullet(positions.rowwise().maxCoeff()));
-}
-
-void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& place) {
-  rigid.activate();
-  rigid.applyImpulse(impulse, place - rigid.getCenterOfMassPosition());
 }
 
 }  // namespace
@@ -256,70 +243,6 @@ bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
   return places_ == starts_;
 }
 
-/// Of all that touches a rigid body or hangs on it: each gets an equal part of its inertia, and together no more.
-btScalar FastBody::num_shares(const btSoftBody& body, const btRigidBody& rigid) const {
-  auto shares = std::count_if(contacts_.begin(), contacts_.end(), [&](const RigidContact& contact) {
-    return contact.object == &rigid;
-  });
-  for (int a = 0; a < body.m_anchors.size(); ++a) {
-    shares += body.m_anchors[a].m_body == &rigid ? 1 : 0;
-  }
-  return static_cast<btScalar>(shares);
-}
-
-void FastBody::read_constraints(const btSoftBody& body) {
-  plane_contacts_.clear();
-  for (const RigidContact& contact : contacts_) {
-    fast::PlaneContact<btScalar> plane;
-    plane.node = contact.node;
-    plane.normal = from_bullet<btScalar>(contact.normal);
-    plane.offset = contact.offset - plane.normal.dot(origin_);
-    plane.motion = from_bullet<btScalar>(contact.motion);
-    plane.friction = body.m_cfg.kDF * contact.object->getFriction();
-    if (const btRigidBody* const rigid = movable(contact.object)) {
-      plane.mass = mass_at(*rigid, body.m_nodes[contact.node].m_x) / num_shares(body, *rigid);
-      // What is inside at the start is led out without speed (stay_outside()).
-      const btScalar gap = plane.normal.dot(starts_.col(contact.node) + plane.motion) - plane.offset;
-      plane.offset += std::min(btScalar(0), gap);
-    }
-    plane_contacts_.push_back(plane);
-  }
-  led_.clear();
-  for (int a = 0; a < body.m_anchors.size(); ++a) {
-    const btSoftBody::Anchor& anchor = body.m_anchors[a];
-    const auto node = static_cast<int>(anchor.m_node - &body.m_nodes[0]);
-    if (!is_free_[static_cast<std::size_t>(node)]) continue;
-    const btVector3 place = anchor.m_body->getWorldTransform() * anchor.m_local;
-    fast::LedNode<btScalar> led;
-    led.node = node;
-    led.place = from_bullet<btScalar>(place) - origin_;
-    if (const btRigidBody* const rigid = movable(anchor.m_body)) {
-      led.mass = mass_at(*rigid, place) / num_shares(body, *rigid);
-    }
-    led_.push_back(led);
-  }
-}
-
-void FastBody::give_impulses(btSoftBody& body, btScalar time_step) {
-  const auto impulse_on = [&](int node) {
-    return -time_step * to_bullet(solver_->holding_force(node));
-  };
-  const auto place_of = [&](int node) { return in_world(node); };
-  for (int a = 0; a < body.m_anchors.size(); ++a) {
-    const btSoftBody::Anchor& anchor = body.m_anchors[a];
-    const auto node = static_cast<int>(anchor.m_node - &body.m_nodes[0]);
-    if (movable(anchor.m_body) == nullptr) continue;
-    push(*anchor.m_body, anchor.m_influence * impulse_on(node), place_of(node));
-  }
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    const int node = contacts_[c].node;
-    if (solver_->contact_of(node) != static_cast<int>(c)) continue;
-    if (btRigidBody* const rigid = movable(contacts_[c].object)) {
-      push(*rigid, impulse_on(node), place_of(node));
-    }
-  }
-}
-
 // What does that work is not known: pins and anchors that lead, obstacles that move, other cloth.
 bool FastBody::gets_work_from_outside() const {
   if (!led_.empty()) return true;
@@ -451,9 +374,9 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
 }
 
 void FastBody::solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort) {
-  read_constraints(body);
-  solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, led_}, effort,
-                 places_);
+  read_constraints(body, time_step);
+  solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, led_, inertias_},
+                 effort, places_);
 }
 
 void FastBody::begin_solve(btSoftBody& body, btScalar time_step) {

@@ -24,8 +24,7 @@ inline namespace WEFT_BULLET_PRECISION {
 ///
 /// Solved together: springs and dampers of the network, stabilised bending, anchors, contact with rigid
 /// shapes and Coulomb friction. Contacts with cloth (m_scontacts) are projected afterwards, as Bullet
-/// does it. A dynamic body takes part with its inertia, shared out over what touches it, and gets the impulses
-/// at the end of the step.
+/// does it. A dynamic body takes part with its inertia, and gets the impulses at the end of the step.
 /// Bullet's own links are not looked at.
 class FastBody {
  public:
@@ -114,8 +113,8 @@ class FastBody {
   void find_pins(const btSoftBody& body);
   [[nodiscard]] btVector3 in_world(int node) const;
   void write_places(btSoftBody& body);
-  [[nodiscard]] btScalar num_shares(const btSoftBody& body, const btRigidBody& rigid) const;
-  void read_constraints(const btSoftBody& body);
+  [[nodiscard]] int number_of(const btRigidBody& rigid, btScalar time_step);
+  void read_constraints(const btSoftBody& body, btScalar time_step);
   void give_impulses(btSoftBody& body, btScalar time_step);
   void keep_out_of_missed(btSoftBody& body, btScalar time_step);
   void leave_depths();
@@ -166,6 +165,9 @@ class FastBody {
   std::vector<int> contact_before_;
   std::vector<fast::PlaneContact<btScalar>> plane_contacts_;
   std::vector<fast::LedNode<btScalar>> led_;
+  std::vector<const btRigidBody*>
+      pushed_;  ///< those that the body may push, and what they are to the solver
+  std::vector<fast::RigidInertia<btScalar>> inertias_;
 };
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -1,8 +1,6 @@
 // What keeps a step from gaining energy or momentum, however badly it has converged.
 #include <algorithm>
 
-#include <Eigen/Cholesky>
-
 #include <weft/fast_solver/implicit_solver.hpp>
 
 namespace weft::fast {
@@ -35,33 +33,42 @@ std::size_t at(int i) {
 template <class Scalar>
 void ImplicitSolver<Scalar>::hold_back(double work_before) {
   const double work_after =
-      sum_kernel<Scalar>().dot(unbalanced_.data(), step_.data(), step_.size()) - work_of_held();
+      sum_kernel<Scalar>().dot(unbalanced_.data(), step_.data(), step_.size()) - work_of_held() +
+      work_of_bodies();
   if (!(work_before > 0 && work_after < -0.5 * work_before)) return;
   const double share = std::max(kSmallestShare, work_before / (work_before - work_after));
   const auto excess = static_cast<Scalar>(1.0 - share);
   for (const int i : held_) step_.row(i).setZero();
+  add_motions(&Body::step, step_);
+  move_bodies(-excess);
   places_ -= excess * step_.template cast<Scalar>();
   evaluate();
 }
 
 /// What an implicit step minimises [J], with bodies that are tied to it and with what friction does.
 template <class Scalar>
-double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem, const Nodes& places) {
+double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem, const Nodes& places,
+                                      Vector6 Body::*motion) {
   double sum = forces_.potential(places);
   sum += 0.5 * sum_kernel<Scalar>().weighted_distance(weights_.data(), weights_.size(),
                                                       places.data(), targets_.data());
-  for (const Tie& tie : ties_) {
-    Vector3<Scalar> away = at_node(places, tie.node) - tie.place;
-    if (!tie.normal.isZero(0)) away = tie.normal.dot(away) * tie.normal;
-    sum += 0.5 * static_cast<double>(tie.stiffness * away.squaredNorm());
+  for (const Body& body : bodies_) {
+    const Vector6& way = body.*motion;
+    sum += 0.5 * static_cast<double>(way.dot(body.inertia.template cast<Scalar>() * way));
   }
   for (const int i : held_) {
     if (contact_of_[at(i)] < 0) continue;
-    // A surface that moves may do work by friction; slip only takes it away.
-    const Vector3<Scalar>& motion = problem.contacts[at(contact_of_[at(i)])].motion;
+    // A surface that is led may do work by friction; slip only takes it away.
+    const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
     const Vector3<Scalar> friction = friction_.col(i).template cast<Scalar>();
-    const Vector3<Scalar> slip = at_node(places, i) - at_node(starts_, i) - motion;
-    sum -= static_cast<double>(friction.dot(motion) + std::min(Scalar(0), friction.dot(slip)));
+    Vector3<Scalar> slip = at_node(places, i) - at_node(starts_, i) - contact.motion;
+    if (contact.body >= 0) {
+      const Vector6& way = bodies_[at(contact.body)].*motion;
+      slip -= way.template head<3>() + way.template tail<3>().cross(contact.arm);
+    } else {
+      sum -= static_cast<double>(friction.dot(contact.motion));
+    }
+    sum -= static_cast<double>(std::min(Scalar(0), friction.dot(slip)));
   }
   return sum;
 }
@@ -82,11 +89,17 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
   unmoved_ = starts_;
   for (const int node : pinned_) unmoved_.row(node) = targets_.row(node);
+  for (Body& body : bodies_) body.unmoved = -body.motion_alone;
   for (const LedNode<Scalar>& led : problem.led) {
-    if (led.mass <= 0) unmoved_.row(led.node) = led.place.transpose();
+    Vector3<Scalar> place = led.place;
+    if (led.body >= 0) {
+      const Vector6& way = bodies_[at(led.body)].unmoved;
+      place += way.template head<3>() + way.template tail<3>().cross(led.arm);
+    }
+    unmoved_.row(led.node) = place.transpose();
   }
   for (const PlaneContact<Scalar>& contact : problem.contacts) {
-    if (!is_free_[at(contact.node)] || contact.mass > 0) continue;
+    if (!is_free_[at(contact.node)] || contact.body >= 0) continue;
     if (holds_[at(contact.node)] == Hold::kFixed) {
       unmoved_.row(contact.node) = starts_.row(contact.node) + contact.motion.transpose();
     }
@@ -98,21 +111,28 @@ void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
 // Back towards where nothing has moved, until there is no more energy than there.
 template <class Scalar>
 bool ImplicitSolver<Scalar>::descend(const StepProblem<Scalar>& problem) {
-  const double most = energy(problem, unmoved_);
+  const double most = energy(problem, unmoved_, &Body::unmoved);
   for (int halvings = 0; halvings <= kHalvings; ++halvings) {
-    if (energy(problem, places_) <= most) {
+    if (energy(problem, places_, &Body::motion) <= most) {
       if (halvings > 0) evaluate();
       return true;
     }
     places_ = Scalar(0.5) * (places_ + unmoved_);
+    for (Body& body : bodies_) body.motion = Scalar(0.5) * (body.motion + body.unmoved);
   }
   return false;
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::go_back() {
+  places_ = unmoved_;
+  for (Body& body : bodies_) body.motion = body.unmoved;
 }
 
 // Newton's method from the start of the step, each round downhill. False if none was.
 template <class Scalar>
 bool ImplicitSolver<Scalar>::go_downhill(const StepProblem<Scalar>& problem, int iterations) {
-  places_ = unmoved_;
+  go_back();
   evaluate();
   // What springs will hold back would be held by a plane that it would reach without them.
   std::fill(holds_.begin(), holds_.end(), Hold::kFree);
@@ -120,23 +140,24 @@ bool ImplicitSolver<Scalar>::go_downhill(const StepProblem<Scalar>& problem, int
   bool went_down = false;
   for (int round = 0; round < kExtraRounds; ++round) {
     do_round(problem, kExtraIterations * iterations, false);
-    const double before = energy(problem, unmoved_);
+    const double before = energy(problem, unmoved_, &Body::unmoved);
     const bool goes_down = descend(problem);
     if (goes_down) {
       unmoved_ = places_;
+      for (Body& body : bodies_) body.unmoved = body.motion;
       went_down = true;
-      if (before - energy(problem, places_) <= kLastDescent * step_energy_) break;
+      if (before - energy(problem, places_, &Body::motion) <= kLastDescent * step_energy_) break;
     }
     if (!goes_down && is_careful) break;
     // Slack springs resist nothing across in a linearisation, and all the more once they have turned.
     is_careful = !goes_down;
     forces_.set_least_across(is_careful ? Scalar(1) : Scalar(0));
     if (!goes_down) {
-      places_ = unmoved_;
+      go_back();
       evaluate();
     }
   }
-  places_ = unmoved_;
+  go_back();
   forces_.set_least_across(0);
   evaluate();
   return went_down;
@@ -151,8 +172,8 @@ bool ImplicitSolver<Scalar>::go_downhill(const StepProblem<Scalar>& problem, int
 template <class Scalar>
 void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterations) {
   stay_at_start(problem);
-  const double most = energy(problem, unmoved_) + kRoundingShare * step_energy_;
-  if (energy(problem, places_) <= most) return;
+  const double most = energy(problem, unmoved_, &Body::unmoved) + kRoundingShare * step_energy_;
+  if (energy(problem, places_, &Body::motion) <= most) return;
   if (go_downhill(problem, iterations)) return;
   has_friction_ = false;
   (void)go_downhill(problem, iterations);
@@ -165,21 +186,17 @@ void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterat
 // micrometre is worth many newtons.
 template <class Scalar>
 void ImplicitSolver<Scalar>::balance() {
-  const auto is_tied = [&](int node) { return holds_[at(node)] == Hold::kTied; };
-  if (!pinned_.empty() || !std::all_of(held_.begin(), held_.end(), is_tied)) return;
-  Matrix3<double> stiffness =
-      Matrix3<double>::Identity() * static_cast<double>(inertia_.template cast<double>().sum());
-  for (const Tie& tie : ties_) {
-    const Vector3<double> normal = tie.normal.template cast<double>();
-    Matrix3<double> directions = Matrix3<double>::Identity();
-    if (!tie.normal.isZero(0)) directions = normal * normal.transpose();
-    stiffness += static_cast<double>(tie.stiffness) * directions;
+  if (!pinned_.empty() || links_.size() != held_.size()) return;
+  auto inertia = static_cast<double>(inertia_.template cast<double>().sum());
+  Vector3<double> left = unbalanced_.template cast<double>().colwise().sum().transpose();
+  for (const Body& body : bodies_) {
+    const auto of_body = static_cast<double>(body.inertia(0, 0));
+    inertia += of_body;
+    left -= of_body * body.motion.template head<3>().template cast<double>();
   }
-  const Vector3<double> left =
-      (unbalanced_ + holding_forces_).template cast<double>().colwise().sum().transpose();
-  const Vector3<Scalar> shift = stiffness.llt().solve(left).template cast<Scalar>();
+  const Vector3<Scalar> shift = (left / inertia).template cast<Scalar>();
   places_.topRows(num_nodes()).rowwise() += shift.transpose();
-  find_holding_forces();
+  for (Body& body : bodies_) body.motion.template head<3>() += shift;
 }
 
 template class ImplicitSolver<float>;

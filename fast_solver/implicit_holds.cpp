@@ -1,4 +1,4 @@
-// What contacts, ties and what leads a node do to it during a solve.
+// What contacts and what leads a node do to it during a solve.
 #include <algorithm>
 
 #include <weft/fast_solver/implicit_solver.hpp>
@@ -25,12 +25,10 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bo
   std::fill(holds_.begin(), holds_.end(), Hold::kFree);
   std::fill(contact_of_.begin(), contact_of_.end(), -1);
   held_.clear();
-  ties_.clear();
-  for (const LedNode<Scalar>& led : problem.led) {
-    holds_[at(led.node)] = led.mass > 0 ? Hold::kTied : Hold::kFixed;
-  }
+  links_.clear();
+  for (const LedNode<Scalar>& led : problem.led) holds_[at(led.node)] = Hold::kFixed;
   const auto gap_at = [&](const PlaneContact<Scalar>& contact, const auto& place) {
-    return contact.normal.dot(place) - contact.offset;
+    return contact.normal.dot(place - motion_with(contact.body, contact.arm)) - contact.offset;
   };
   for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
     const PlaneContact<Scalar>& contact = problem.contacts[c];
@@ -48,9 +46,8 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bo
     const Scalar gap = gap_at(candidate, at_node(places_, i));
     const Scalar inertia = Scalar(inertia_[i]);
     const bool was_held = !is_first && held_before_[at(i)] != Hold::kFree;
-    const Scalar tie = candidate.mass / (problem.inertia_step * problem.inertia_step);
-    Scalar pressure = -normal.dot(at_node(unbalanced_, i)) + inertia * std::max(Scalar(0), -gap);
-    if (candidate.mass > 0 && was_held) pressure = -tie * gap;
+    const Scalar pressure =
+        -normal.dot(at_node(unbalanced_, i)) + inertia * std::max(Scalar(0), -gap);
     Scalar least_gap = gap;
     if (is_first) least_gap += std::min(Scalar(0), first_push(i, normal));
     const bool is_near = least_gap < 0;
@@ -58,22 +55,20 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bo
       contact_of_[at(i)] = -1;
       continue;
     }
-    const Vector3<Scalar> slip = at_node(places_, i) - at_node(starts_, i) - candidate.motion;
+    const Vector3<Scalar> slip = at_node(places_, i) - at_node(starts_, i) - candidate.motion -
+                                 motion_with(candidate.body, candidate.arm);
     Vector3<Scalar> tendency = at_node(unbalanced_, i) + inertia * slip;
     tendency -= normal.dot(tendency) * normal;
     const Scalar friction = has_friction_ ? candidate.friction : Scalar(0);
     const Scalar most = friction * std::max(Scalar(0), pressure);
     const Scalar size = tendency.norm();
     const bool sticks = size <= most;
-    holds_[at(i)] = candidate.mass > 0 ? Hold::kTied : sticks ? Hold::kFixed : Hold::kOnPlane;
+    holds_[at(i)] = sticks ? Hold::kFixed : Hold::kOnPlane;
     normals_.col(i) = normal.template cast<float>();
     friction_.col(i).setZero();
     if (!sticks) friction_.col(i) = (-(most / size) * tendency).template cast<float>();
-    if (candidate.mass > 0) {
-      Vector3<Scalar> place = at_node(places_, i);
-      if (sticks) place -= slip;
-      place -= gap_at(candidate, place) * normal;
-      ties_.push_back({i, tie, sticks ? Vector3<Scalar>(Vector3<Scalar>::Zero()) : normal, place});
+    if (candidate.body >= 0) {
+      link(i, candidate.body, candidate.arm, sticks ? Vector3<Scalar>::Zero().eval() : normal);
     }
     held_.push_back(i);
   }
@@ -81,9 +76,7 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bo
     held_.push_back(led.node);
     friction_.col(led.node).setZero();
     normals_.col(led.node).setZero();
-    if (led.mass <= 0) continue;
-    ties_.push_back({led.node, led.mass / (problem.inertia_step * problem.inertia_step),
-                     Vector3<Scalar>::Zero(), led.place});
+    if (led.body >= 0) link(led.node, led.body, turned(led.body, led.arm), Vector3<Scalar>::Zero());
   }
 }
 
@@ -111,40 +104,18 @@ void ImplicitSolver<Scalar>::project(Floats& vectors) const {
   }
 }
 
-// The global matrix knows nothing of ties, and would move what is tied far too much.
-template <class Scalar>
-void ImplicitSolver<Scalar>::leave_out_ties(Floats& vectors) const {
-  for (const Tie& tie : ties_) {
-    if (tie.normal.isZero(0)) {
-      vectors.row(tie.node).setZero();
-    } else {
-      take_away(tie.normal.template cast<float>(), vectors, tie.node);
-    }
-  }
-}
-
-template <class Scalar>
-void ImplicitSolver<Scalar>::add_tie_product(const Floats& displacements, Floats& product) const {
-  for (const Tie& tie : ties_) {
-    const auto stiffness = static_cast<float>(tie.stiffness);
-    const Vector3<float> d = displacements.row(tie.node);
-    if (tie.normal.isZero(0)) {
-      product.row(tie.node) += stiffness * d.transpose();
-    } else {
-      const Vector3<float> normal = tie.normal.template cast<float>();
-      product.row(tie.node) += stiffness * normal.dot(d) * normal.transpose();
-    }
-  }
-}
-
 // Planes that no round has met, and those of a node on several. True if anything had to move.
 template <class Scalar>
 bool ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
+  const auto is_linked = [&](int node) {
+    return std::any_of(links_.begin(), links_.end(),
+                       [&](const Link& link) { return link.node == node; });
+  };
   bool any = false;
   for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
     const PlaneContact<Scalar>& contact = problem.contacts[c];
     const int i = contact.node;
-    if (!is_free_[at(i)] || contact.mass > 0 || holds_[at(i)] == Hold::kTied) continue;
+    if (!is_free_[at(i)] || contact.body >= 0 || is_linked(i)) continue;
     const Scalar gap = contact.normal.dot(at_node(places_, i)) - contact.offset;
     if (!(gap < 0)) continue;
     places_.row(i) -= gap * contact.normal.transpose();
@@ -157,13 +128,6 @@ bool ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
     held_.push_back(i);
   }
   return any;
-}
-
-template <class Scalar>
-Vector3<Scalar> ImplicitSolver<Scalar>::tie_force(const Tie& tie) const {
-  const Vector3<Scalar> away = at_node(places_, tie.node) - tie.place;
-  if (tie.normal.isZero(0)) return -tie.stiffness * away;
-  return -tie.stiffness * tie.normal.dot(away) * tie.normal;
 }
 
 template <class Scalar>
@@ -187,10 +151,6 @@ void ImplicitSolver<Scalar>::find_holding_forces() {
       holding_forces_.row(i) =
           (push * normal + friction_.col(i).template cast<Scalar>()).transpose();
     }
-  }
-  for (const Tie& tie : ties_) {
-    holding_forces_.row(tie.node) =
-        (tie_force(tie) + friction_.col(tie.node).template cast<Scalar>()).transpose();
   }
 }
 

@@ -17,7 +17,7 @@ constexpr float kSmoothing = 0.6F;
 
 /// A body that is tied to the cloth gets its forces, and with them what is wrong with them, as impulses:
 /// rounds on top, and the share of the first unbalanced forces that may be left.
-constexpr int kTiedRounds = 2;
+constexpr int kTiedRounds = 1;
 constexpr double kTiedResidual = 0.02;
 
 /// An iteration that gains no more than this share of what the first of its round gained is the last of that round:
@@ -143,8 +143,9 @@ void ImplicitSolver<Scalar>::load(const StepProblem<Scalar>& problem,
   }
   weights_ = inertia_.template cast<Scalar>();
   for (const LedNode<Scalar>& led : problem.led) {
-    if (led.mass <= 0) places_.row(led.node) = led.place.transpose();
+    places_.row(led.node) = led.place.transpose();
   }
+  load_bodies(problem);
   forces_.begin_step(starts_, problem.time_step);
 }
 
@@ -160,15 +161,6 @@ void ImplicitSolver<Scalar>::evaluate() {
 template <class Scalar>
 void ImplicitSolver<Scalar>::invert_blocks() {
   blocks_ = forces_.diagonal_blocks();
-  for (const Tie& tie : ties_) {
-    const auto k = static_cast<float>(tie.stiffness);
-    const Vector3<float> n = tie.normal.template cast<float>();
-    const bool is_full = tie.normal.isZero(0);
-    for (int c = 0; c < 3; ++c) {
-      blocks_(tie.node, c) += is_full ? k : k * n[c] * n[c];
-      if (!is_full) blocks_(tie.node, 3 + c) += k * n[c] * n[(c + 1) % 3];
-    }
-  }
   vector_kernel().invert_blocks(inertia_.data(), kSmoothing, static_cast<int>(blocks_.rows()),
                                 blocks_.data());
 }
@@ -180,75 +172,107 @@ void ImplicitSolver<Scalar>::smooth(const Floats& residual, Floats& correction) 
   project(correction);
 }
 
-template <class Scalar>
-void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats& product) {
-  forces_.multiply(inertia_, displacements, product);
-  add_tie_product(displacements, product);
-  project(product);
-}
-
 // correction + coarse = P residual, each with its product with the stiffness.
 template <class Scalar>
 void ImplicitSolver<Scalar>::precondition() {
   smooth(residual_vector_, correction_);
-  multiply(correction_, correction_product_);
+  for (Body& body : bodies_) body.correction = body.stiffness.solve(body.residual);
+  add_motions(&Body::correction, correction_);
+  multiply(correction_, &Body::correction, correction_product_, &Body::correction_product);
   vector_kernel().subtract(residual_vector_.data(), correction_product_.data(), work_.size(),
                            work_.data());
-  leave_out_ties(work_);
   global_.solve(work_, coarse_);
-  leave_out_ties(coarse_);
   project(coarse_);
-  multiply(coarse_, coarse_product_);
+  multiply(coarse_, &Body::none, coarse_product_, &Body::coarse_product);
+}
+
+// The right-hand side, and in step_ what holds demand of nodes before anything is solved for.
+template <class Scalar>
+void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
+  step_.setZero();
+  residual_vector_ = unbalanced_.template cast<float>();
+  bool moves_held = false;
+  for (const int i : held_) {
+    if (contact_of_[at(i)] < 0) continue;
+    const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
+    const Vector3<Scalar> with_body = motion_with(contact.body, contact.arm);
+    Vector3<Scalar> move = Vector3<Scalar>::Zero();
+    if (holds_[at(i)] == Hold::kFixed) {
+      move = at_node(starts_, i) + contact.motion + with_body - at_node(places_, i);
+    }
+    const Scalar height =
+        contact.normal.dot(at_node(places_, i) + move - with_body) - contact.offset;
+    step_.row(i) = (move - height * contact.normal).template cast<float>().transpose();
+    if (holds_[at(i)] == Hold::kOnPlane) residual_vector_.row(i) += friction_.col(i).transpose();
+    moves_held = true;
+  }
+  for (const LedNode<Scalar>& led : problem.led) {
+    if (led.body < 0) continue;
+    const Vector3<Scalar> way = bodies_[at(led.body)].motion.template head<3>();
+    const Vector3<Scalar> place = led.place + way + turned(led.body, led.arm) - led.arm;
+    step_.row(led.node) = (place - at_node(places_, led.node)).template cast<float>().transpose();
+    moves_held = true;
+  }
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    bodies_[b].residual = unbalanced_of(static_cast<int>(b));
+  }
+  if (moves_held) {
+    forces_.multiply(inertia_, step_, work_);
+    residual_vector_ -= work_;
+    for (Body& body : bodies_) body.coarse_product.setZero();
+    gather(work_, &Body::coarse_product);
+    for (Body& body : bodies_) body.residual -= body.coarse_product;
+  }
+  project(residual_vector_);
 }
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem, int iterations) {
   invert_blocks();
-  step_.setZero();
-  residual_vector_ = unbalanced_.template cast<float>();
-  bool moves_held = false;
-  for (const int i : held_) {
-    if (holds_[at(i)] == Hold::kTied) residual_vector_.row(i) += friction_.col(i).transpose();
-    if (contact_of_[at(i)] < 0 || holds_[at(i)] == Hold::kTied) continue;
-    const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
-    Vector3<Scalar> move = Vector3<Scalar>::Zero();
-    if (holds_[at(i)] == Hold::kFixed) {
-      move = at_node(starts_, i) + contact.motion - at_node(places_, i);
-    }
-    const Scalar height = contact.normal.dot(at_node(places_, i) + move) - contact.offset;
-    step_.row(i) = (move - height * contact.normal).template cast<float>().transpose();
-    if (holds_[at(i)] == Hold::kOnPlane) residual_vector_.row(i) += friction_.col(i).transpose();
-    moves_held = true;
-  }
-  if (moves_held) {
-    forces_.multiply(inertia_, step_, work_);
-    residual_vector_ -= work_;
-  }
-  for (const Tie& tie : ties_) {
-    residual_vector_.row(tie.node) += tie_force(tie).template cast<float>().transpose();
-  }
-  project(residual_vector_);
+  start_linear(problem);
+  factorise_bodies();
   // Flexible conjugate gradients (Notay 2000): the preconditioner is not symmetric, for a second
   // smoothing costs more than it gains, so that a direction is made conjugate explicitly.
   const VectorKernel& vectors = vector_kernel();
   const long size = residual_vector_.size();
   direction_.setZero();
   direction_product_.setZero();
+  for (Body& body : bodies_) {
+    for (Floats6* vector : {&body.step, &body.direction, &body.direction_product})
+      vector->setZero();
+  }
   float curvature = 1;
   float first_gain = 0;
   for (int k = 0; k < iterations; ++k) {
     precondition();
-    const auto [gain, overlap] = vectors.add_correction(
+    auto [gain, overlap] = vectors.add_correction(
         coarse_.data(), coarse_product_.data(), residual_vector_.data(), direction_product_.data(),
         size, correction_.data(), correction_product_.data());
+    for (Body& body : bodies_) {
+      body.correction_product += body.coarse_product;
+      gain += body.correction.dot(body.residual);
+      overlap += body.correction.dot(body.direction_product);
+    }
     if (!(gain > 0)) break;
-    const auto [new_curvature, descent] =
-        vectors.turn(correction_.data(), correction_product_.data(), residual_vector_.data(),
-                     overlap / curvature, size, direction_.data(), direction_product_.data());
+    const float share = overlap / curvature;
+    auto [new_curvature, descent] =
+        vectors.turn(correction_.data(), correction_product_.data(), residual_vector_.data(), share,
+                     size, direction_.data(), direction_product_.data());
+    for (Body& body : bodies_) {
+      body.direction = body.correction - share * body.direction;
+      body.direction_product = body.correction_product - share * body.direction_product;
+      new_curvature += body.direction.dot(body.direction_product);
+      descent += body.direction.dot(body.residual);
+    }
     if (!(new_curvature > 0)) break;
     curvature = new_curvature;
-    vectors.advance(direction_.data(), direction_product_.data(), descent / curvature, size,
-                    step_.data(), residual_vector_.data());
+    const float length = descent / curvature;
+    vectors.advance(direction_.data(), direction_product_.data(), length, size, step_.data(),
+                    residual_vector_.data());
+    for (Body& body : bodies_) {
+      body.step += length * body.direction;
+      body.residual -= length * body.direction_product;
+    }
     if (k == 0) first_gain = gain;
     if (gain <= kLastGain * first_gain) break;
   }
@@ -259,11 +283,12 @@ void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, int it
                                       bool is_first) {
   decide_holds(problem, is_first);
   solve_linear(problem, iterations);
-  const double held = work_of_held();
+  const double of_others = work_of_bodies() - work_of_held();
   const double work =
       sum_kernel<Scalar>().move(unbalanced_.data(), step_.data(), step_.size(), places_.data());
+  move_bodies(1);
   evaluate();
-  hold_back(work - held);
+  hold_back(work + of_others);
   if (clamp(problem)) evaluate();
 }
 
@@ -274,6 +299,9 @@ double ImplicitSolver<Scalar>::left_over() const {
     const Vector3<Scalar> force = at_node(unbalanced_, i);
     sum += static_cast<double>((force + at_node(holding_forces_, i)).squaredNorm()) -
            static_cast<double>(force.squaredNorm());
+  }
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    sum += static_cast<double>(unbalanced_of(static_cast<int>(b)).template head<3>().squaredNorm());
   }
   return std::sqrt(std::max(0.0, sum));
 }
@@ -289,7 +317,7 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const Sol
   for (int round = 0; round < effort.rounds; ++round) {
     do_round(problem, iterations_of(problem, effort, round), round == 0);
   }
-  for (int extra = 0; !ties_.empty() && extra < kTiedRounds; ++extra) {
+  for (int extra = 0; !links_.empty() && extra < kTiedRounds; ++extra) {
     find_holding_forces();
     if (left_over() <= kTiedResidual * first) break;
     do_round(problem, effort.iterations, false);

@@ -4,6 +4,9 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
 #include <weft/fast_solver/correction_maker.hpp>
 #include <weft/fast_solver/global_correction.hpp>
 #include <weft/fast_solver/network_forces.hpp>
@@ -27,6 +30,7 @@ struct StepProblem {
   Scalar inertia_step;                         ///< h' [s]
   std::span<const PlaneContact<Scalar>> contacts = {};
   std::span<const LedNode<Scalar>> led = {};
+  std::span<const RigidInertia<Scalar>> bodies = {};
 };
 
 /// Newton's method, each linear system by a few conjugate gradients. Their preconditioner joins two
@@ -36,7 +40,8 @@ struct StepProblem {
 /// to say. Block smoothing, then the global correction of what is left (a two-level cycle) make each
 /// iteration take away about half of the error, whatever the number of nodes. Contacts are eliminated: a node on a plane moves in
 /// the plane, one that sticks not at all (Baraff and Witkin 1998), and what it takes to hold them is
-/// the contact force, whose sign and friction decide how the next round holds them.
+/// the contact force, whose sign and friction decide how the next round holds them. Nodes that touch a rigid body
+/// which gives way, or hang on it, move with it: its six unknowns are solved for with the nodes.
 ///
 /// Places and forces in Scalar, corrections in single precision.
 /// Deterministic: the same bits for any number of threads. No allocation in solve(), except for more
@@ -44,6 +49,8 @@ struct StepProblem {
 template <class Scalar>
 class ImplicitSolver {
  public:
+  using Vector6 = Eigen::Matrix<Scalar, 6, 1>;
+
   /// masses: n [kg], > 0; is_free: n. inertia_step [s], > 0: of most steps; others converge more
   /// slowly. Throws InvalidArgument for sizes that do not fit.
   ImplicitSolver(const SpringNetwork& network, const VectorX<double>& masses,
@@ -78,6 +85,11 @@ class ImplicitSolver {
   [[nodiscard]] int contact_of(int node) const {
     return contact_of_[static_cast<std::size_t>(node)];
   }
+  /// After solve(): how far a body of the problem gives way, of its centre [m] and about it [rad]: the nodes have pushed
+  /// it with mass motion / h'^2.
+  [[nodiscard]] Vector6 body_motion(int body) const {
+    return bodies_[static_cast<std::size_t>(body)].motion;
+  }
   /// After solve(): m |y - q|^2 / (2 h'^2), the energy of the motion without springs [J].
   [[nodiscard]] double step_energy() const { return step_energy_; }
   /// What springs store at places, and what dampers take away on the way there from the start of the step [J].
@@ -91,13 +103,27 @@ class ImplicitSolver {
  private:
   using Floats = NodeArrays<float>;
   using Nodes = NodeArrays<Scalar>;
-  /// A spring of stiffness mass / h'^2 to a place, in all directions or along a normal only: the
-  /// inertia of a body that moves together with the node.
-  struct Tie {
+  using Floats6 = Eigen::Matrix<float, 6, 1>;
+  using Matrix6 = Eigen::Matrix<float, 6, 6>;
+  /// A node that moves with a rigid body, in all directions or along a normal only.
+  struct Link {
     int node;
-    Scalar stiffness;        ///< [N/m]
-    Vector3<Scalar> normal;  ///< zero: in all directions
-    Vector3<Scalar> place;   ///< [m]
+    int body;
+    Vector3<float> arm;     ///< [m]
+    Vector3<float> normal;  ///< zero: in all directions
+  };
+  /// Motions and forces of a rigid body: of its centre, and about it.
+  struct Body {
+    Vector6 motion = Vector6::Zero();  ///< beyond that of the body left alone [m, rad]
+    Vector6 unmoved =
+        Vector6::Zero();  ///< the same where nothing has moved since the start of the step
+    Vector6 motion_alone = Vector6::Zero();
+    Matrix6 inertia = Matrix6::Zero();  ///< over h'^2
+    Eigen::LLT<Matrix6> stiffness;      ///< with what is linked to it
+    // Of conjugate gradients, as those of nodes.
+    Floats6 step, residual, direction, direction_product;
+    Floats6 correction, correction_product, coarse_product;
+    Floats6 none = Floats6::Zero();
   };
 
   /// [m] of the last linear system.
@@ -112,20 +138,33 @@ class ImplicitSolver {
   void invert_blocks();
   void project(Floats& vectors) const;
   void smooth(const Floats& residual, Floats& correction) const;
-  void leave_out_ties(Floats& vectors) const;
-  void add_tie_product(const Floats& displacements, Floats& product) const;
-  [[nodiscard]] Vector3<Scalar> tie_force(const Tie& tie) const;
-  void multiply(const Floats& displacements, Floats& product);
+  void load_bodies(const StepProblem<Scalar>& problem);
+  void link(int node, int body, const Vector3<Scalar>& arm, const Vector3<Scalar>& normal);
+  [[nodiscard]] static Vector3<float> motion_of(const Link& link, const Floats6& motion);
+  [[nodiscard]] Vector3<Scalar> motion_with(int body, const Vector3<Scalar>& arm) const;
+  [[nodiscard]] Vector3<Scalar> turned(int body, const Vector3<Scalar>& arm) const;
+  /// Adds each linked node's part of a motion of its body to its row, or the rows of linked nodes to the force on the body.
+  void add_motions(Floats6 Body::*motion, Floats& displacements) const;
+  void gather(const Floats& forces, Floats6 Body::*sum);
+  void factorise_bodies();
+  [[nodiscard]] Floats6 unbalanced_of(int body) const;
+  [[nodiscard]] double work_of_bodies() const;
+  void multiply(const Floats& displacements, Floats6 Body::*motion, Floats& product,
+                Floats6 Body::*body_product);
   void precondition();
+  void start_linear(const StepProblem<Scalar>& problem);
   void solve_linear(const StepProblem<Scalar>& problem, int iterations);
   void do_round(const StepProblem<Scalar>& problem, int iterations, bool is_first);
-  [[nodiscard]] double energy(const StepProblem<Scalar>& problem, const Nodes& places);
+  [[nodiscard]] double energy(const StepProblem<Scalar>& problem, const Nodes& places,
+                              Vector6 Body::*motion);
   [[nodiscard]] bool is_suspicious(const StepProblem<Scalar>& problem) const;
   void stay_at_start(const StepProblem<Scalar>& problem);
+  void go_back();
   bool descend(const StepProblem<Scalar>& problem);
   void tame(const StepProblem<Scalar>& problem, int iterations);
   bool go_downhill(const StepProblem<Scalar>& problem, int iterations);
   void hold_back(double work_before);
+  void move_bodies(Scalar share);
   /// Of the forces that are left with the step, but for nodes with a hold [J].
   [[nodiscard]] double work_of_held() const;
   void find_holding_forces();
@@ -144,8 +183,9 @@ class ImplicitSolver {
   VectorX<Scalar> masses_;                        ///< [kg], filled up with zeros
   std::vector<bool> is_free_;
   std::vector<int> pinned_;
-  std::vector<int> held_;    ///< nodes with a hold
-  std::vector<Tie> ties_;    ///< of each tied node
+  std::vector<int> held_;  ///< nodes with a hold
+  std::vector<Link> links_;
+  std::vector<Body> bodies_;
   VectorX<float> inertia_;   ///< m / h'^2 [N/m]; 0 for pinned nodes; filled up with zeros
   VectorX<Scalar> weights_;  ///< the same in Scalar
   // Of the present problem [m].

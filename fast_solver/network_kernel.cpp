@@ -18,7 +18,11 @@ const VectorKernel& vector_kernel_avx512();
 namespace {
 
 constexpr int kVectorBytes = 16;
+#include "vector_types.inc"
+
 #include "network_kernel_body.inc"
+
+#include "vector_kernel_body.inc"
 
 #ifdef WEFT_VECTOR_KERNELS
 bool has_avx512() {

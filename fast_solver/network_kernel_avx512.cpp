@@ -7,7 +7,11 @@ namespace weft::fast {
 namespace {
 
 constexpr int kVectorBytes = 64;
+#include "vector_types.inc"
+
 #include "network_kernel_body.inc"
+
+#include "vector_kernel_body.inc"
 
 }  // namespace
 

@@ -6,6 +6,16 @@
 
 namespace weft::fast {
 
+/// A rigid body that gives way to the nodes that touch it or hang on it.
+template <class Scalar>
+struct RigidInertia {
+  Scalar mass = 0;                                    ///< [kg], > 0
+  Matrix3<Scalar> inertia = Matrix3<Scalar>::Zero();  ///< about its centre, in the world [kg m^2]
+  /// How it moves during the step if left alone: of its centre [m], about it [rad].
+  Vector3<Scalar> motion = Vector3<Scalar>::Zero();
+  Vector3<Scalar> turn = Vector3<Scalar>::Zero();
+};
+
 /// A node must stay in front of a plane at the end of a step, with Coulomb friction on it.
 template <class Scalar>
 struct PlaneContact {
@@ -14,9 +24,9 @@ struct PlaneContact {
   Scalar offset = 0;  ///< [m] normal . x >= offset at the end of the step
   Vector3<Scalar> motion = Vector3<Scalar>::Zero();  ///< of the surface there during the step [m]
   Scalar friction = 0;                               ///< Coulomb coefficient [-], >= 0
-  /// Of the obstacle, as much as this contact has to move [kg]; 0: nothing moves it. Offset and motion
-  /// are then those of the obstacle left alone. It gives way by force h^2 / mass, as Newton says.
-  Scalar mass = 0;
+  /// The obstacle among the step's rigid bodies, or -1: nothing moves it. Offset and motion are those of a body left alone.
+  int body = -1;
+  Vector3<Scalar> arm = Vector3<Scalar>::Zero();  ///< from the body's centre to the node [m]
 };
 
 /// A node that is led: its place at the end of a step.
@@ -24,7 +34,9 @@ template <class Scalar>
 struct LedNode {
   int node = 0;
   Vector3<Scalar> place = Vector3<Scalar>::Zero();  ///< [m]
-  Scalar mass = 0;  ///< of what leads it [kg], as that of a contact; 0: nothing moves it
+  int body =
+      -1;  ///< that leads it, among the step's rigid bodies, or -1: nothing moves what leads it
+  Vector3<Scalar> arm = Vector3<Scalar>::Zero();  ///< from the body's centre to the place [m]
 };
 
 /// What constraints do to one node during a solve.
@@ -32,7 +44,6 @@ enum class Hold : unsigned char {
   kFree,
   kOnPlane,  ///< in contact, and slides or rests without friction
   kFixed,    ///< sticks, or is led
-  kTied,     ///< a spring ties it to where it would stick to a body that gives way, or to its plane
 };
 
 }  // namespace weft::fast

@@ -15,83 +15,10 @@
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/icosphere.hpp>
 
-#include "tests/bridge/rigid_objects.hpp"
+#include "tests/bridge/fast_scene.hpp"
 
 namespace weft::bridge {
 namespace {
-
-constexpr double kTimeStep = 1.0 / 60;  // [s]
-constexpr double kMargin = 0.01;        // [m]
-
-forces::LawSpecification law(const std::string& id, const std::string& parameter, double value) {
-  return {id, {}, {{parameter, {value}}}};
-}
-
-const forces::LawSpecification kGravity{"gravity", {}, {{"acceleration", {0.0, -9.81, 0.0}}}};
-
-ClothMesh cloth(int n, double size, double height, double mass = 0.25) {
-  ClothGrid grid;
-  grid.nodes = {n, n};
-  grid.size = {size, size};
-  grid.center = {0, height, 0};
-  grid.total_mass = mass;
-  return make_cloth_grid(grid);
-}
-
-/// A world with one cloth, and what a test puts into it.
-class Scene {
- public:
-  explicit Scene(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
-                 double friction = 0.5, const FastSettings& fast = {.may_sleep = false})
-      : world_(SoftWorldSettings{}),
-        masses_(mesh.masses),
-        body_(&world_.add(make_cloth_body(world_.info(), mesh,
-                                          {.collision_margin = kMargin, .friction = friction}))) {
-    EXPECT_FALSE(world_.solver().attach_fast(*body_, mesh, laws, fast));
-  }
-
-  btRigidBody& add(std::shared_ptr<btCollisionShape> shape, double mass, const btTransform& place) {
-    return add_rigid(world_, std::move(shape), mass, place);
-  }
-  void step(int num_steps = 1, double time_step = kTimeStep) {
-    for (int i = 0; i < num_steps; ++i) world_.step(time_step);
-  }
-  void set_velocity(const btVector3& velocity) {
-    for (int i = 0; i < body_->m_nodes.size(); ++i) body_->m_nodes[i].m_v = velocity;
-  }
-  [[nodiscard]] Matrix3X<double> positions() const { return read().first; }
-  [[nodiscard]] Matrix3X<double> velocities() const { return read().second; }
-  [[nodiscard]] Vector3<double> mean_velocity() const {
-    return velocities() * masses_ / masses_.sum();
-  }
-  [[nodiscard]] Vector3<double> momentum() const { return velocities() * masses_; }
-  /// Of the cloth without its springs, from a height on [J].
-  [[nodiscard]] double mechanical_energy(double height) const {
-    const VectorX<double> squared_speeds = velocities().colwise().squaredNorm().transpose();
-    const VectorX<double> heights = positions().row(1).transpose().array() - height;
-    return masses_.dot(0.5 * squared_speeds + 9.81 * heights);
-  }
-  [[nodiscard]] btSoftBody& body() { return *body_; }
-  [[nodiscard]] SoftBodySolver& solver() { return world_.solver(); }
-  [[nodiscard]] SoftWorld& world() { return world_; }
-
- private:
-  [[nodiscard]] std::pair<Matrix3X<double>, Matrix3X<double>> read() const {
-    Matrix3X<btScalar> x;
-    Matrix3X<btScalar> v;
-    read_nodes(*body_, x, v);
-    return {x.cast<double>(), v.cast<double>()};
-  }
-  SoftWorld world_;
-  VectorX<double> masses_;
-  btSoftBody* body_;
-};
-
-std::shared_ptr<btCollisionShape> box(double x, double y, double z) {
-  auto shape = std::make_shared<btBoxShape>(vector(x, y, z));
-  shape->setMargin(btScalar(0.001));
-  return shape;
-}
 
 TEST(FastBody, FallsFreely) {
   Scene scene(cloth(6, 1, 0), {kGravity, law("tension", "stiffness", 1000)});
@@ -316,45 +243,6 @@ TEST(FastBody, GainsNoEnergyFromAStiffSheetThatMeetsAnObstacle) {
     scene.step();
     const double energy = 0.5 * 0.0014 / 64 * scene.velocities().squaredNorm();
     ASSERT_LT(energy, 2 * start) << i;  // twice: the nodes' masses are not alike
-  }
-}
-
-TEST(FastBody, HoldsABoxOnAnchors) {
-  ClothMesh mesh = cloth(9, 1, 2);
-  mesh.pinned = {0, 8};
-  Scene scene(mesh,
-              {kGravity, law("tension", "stiffness", 2000), law("velocity_damping", "rate", 3)});
-  btRigidBody& load = scene.add(box(0.5, 0.1, 0.1), 2.0, at(0, 2, -0.5));
-  scene.body().appendAnchor(72, &load, false, 1);
-  scene.body().appendAnchor(80, &load, false, 1);
-  for (int i = 0; i < 40; ++i) {
-    scene.step(15);
-    // It swings and is flung about, but never with more energy, the cloth's with it, than at its start.
-    const double energy =
-        static_cast<double>(load.getLinearVelocity().length2()) +  // m v^2 / 2 with 2 kg [J]
-        2.0 * 9.81 * static_cast<double>(load.getCenterOfMassPosition().y() - 2) +
-        scene.mechanical_energy(2);
-    EXPECT_LT(energy, 0.5) << i;
-  }
-  // What it may have fallen from its start by then is no more than 0.5 m.
-  EXPECT_LT(load.getLinearVelocity().length(), std::sqrt(2 * 9.81 * 0.5));
-  EXPECT_GT(load.getCenterOfMassPosition().y(), 0.5);
-  EXPECT_FALSE(scene.solver().blow_up(scene.body()));
-}
-
-// What Bullet's own collision, and every user of the tree, relies on.
-TEST(FastBody, KeepsEachBoxOfTheTreeInTheNextOne) {
-  Scene scene(cloth(12, 1, 1), {kGravity, law("tension", "stiffness", 300)});
-  scene.set_velocity(btVector3(3, 1, 0));
-  scene.add(std::make_shared<btSphereShape>(btScalar(0.3)), 0, at(0.2, -0.3, 0));
-  for (int step = 0; step < 40; ++step) {
-    scene.step(1);
-    for (int i = 0; i < scene.body().m_nodes.size(); ++i) {
-      for (const btDbvtNode* box = scene.body().m_nodes[i].m_leaf; box->parent != nullptr;
-           box = box->parent) {
-        ASSERT_TRUE(box->parent->volume.Contain(box->volume)) << i;
-      }
-    }
   }
 }
 

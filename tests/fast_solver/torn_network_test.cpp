@@ -148,7 +148,7 @@ struct Step {
   }
   double residual(ImplicitSolver<double>& solver) {
     places = starts;
-    solver.solve({targets, starts, h, h}, {2, 6}, places);
+    solver.solve({targets, starts, h, h}, {3, 4}, places);
     return solver.residual();
   }
   double h = 1.0 / 60;

@@ -1,0 +1,143 @@
+// Rigid bodies that give way: six unknowns each, solved for together with the nodes.
+#include <weft/fast_solver/implicit_solver.hpp>
+
+namespace weft::fast {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::load_bodies(const StepProblem<Scalar>& problem) {
+  bodies_.resize(problem.bodies.size());
+  const Scalar per_square = 1 / (problem.inertia_step * problem.inertia_step);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const RigidInertia<Scalar>& given = problem.bodies[b];
+    Body& body = bodies_[b];
+    body.motion.setZero();
+    body.motion_alone << given.motion, given.turn;
+    body.inertia.setZero();
+    body.inertia.template topLeftCorner<3, 3>().diagonal().setConstant(
+        static_cast<float>(given.mass * per_square));
+    body.inertia.template bottomRightCorner<3, 3>() =
+        (per_square * given.inertia).template cast<float>();
+  }
+  links_.clear();
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::link(int node, int body, const Vector3<Scalar>& arm,
+                                  const Vector3<Scalar>& normal) {
+  links_.push_back({node, body, arm.template cast<float>(), normal.template cast<float>()});
+}
+
+template <class Scalar>
+Vector3<float> ImplicitSolver<Scalar>::motion_of(const Link& link, const Floats6& motion) {
+  const Vector3<float> way = motion.template head<3>() + motion.template tail<3>().cross(link.arm);
+  if (link.normal.isZero(0)) return way;
+  return link.normal.dot(way) * link.normal;
+}
+
+// Of the present state; none of what is no body.
+template <class Scalar>
+Vector3<Scalar> ImplicitSolver<Scalar>::motion_with(int body, const Vector3<Scalar>& arm) const {
+  if (body < 0) return Vector3<Scalar>::Zero();
+  const Vector6& motion = bodies_[at(body)].motion;
+  return motion.template head<3>() + motion.template tail<3>().cross(arm);
+}
+
+// An arm that the body has turned: by more than its first order, or what hangs on a body that spins would be drawn out.
+template <class Scalar>
+Vector3<Scalar> ImplicitSolver<Scalar>::turned(int body, const Vector3<Scalar>& arm) const {
+  const Vector3<Scalar> turn = bodies_[at(body)].motion.template tail<3>();
+  const Scalar angle = turn.norm();
+  if (angle == 0) return arm;
+  return Eigen::AngleAxis<Scalar>(angle, turn / angle) * arm;
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::add_motions(Floats6 Body::*motion, Floats& displacements) const {
+  for (const Link& link : links_) {
+    displacements.row(link.node) += motion_of(link, bodies_[at(link.body)].*motion).transpose();
+  }
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::gather(const Floats& forces, Floats6 Body::*sum) {
+  for (const Link& link : links_) {
+    Vector3<float> force = at_node(forces, link.node);
+    if (!link.normal.isZero(0)) force = link.normal.dot(force) * link.normal;
+    Floats6& all = bodies_[at(link.body)].*sum;
+    all.template head<3>() += force;
+    all.template tail<3>() += link.arm.cross(force);
+  }
+}
+
+// What a body resists with, and the springs of all nodes that move with it: column by column, for springs
+// between two such nodes do not resist.
+template <class Scalar>
+void ImplicitSolver<Scalar>::factorise_bodies() {
+  for (Body& body : bodies_) {
+    Matrix6 stiffness = body.inertia;
+    for (Body& other : bodies_) other.correction.setZero();
+    for (int k = 0; k < 6; ++k) {
+      body.correction = Floats6::Unit(k);
+      correction_.setZero();
+      add_motions(&Body::correction, correction_);
+      multiply(correction_, &Body::correction, correction_product_, &Body::correction_product);
+      stiffness.col(k) = body.correction_product;
+    }
+    body.correction.setZero();
+    body.stiffness.compute((stiffness + stiffness.transpose()) / 2);
+  }
+}
+
+/// What pushes the body in the present state: nodes, friction, its own inertia.
+template <class Scalar>
+typename ImplicitSolver<Scalar>::Floats6 ImplicitSolver<Scalar>::unbalanced_of(int number) const {
+  Vector6 sum = -(bodies_[at(number)].inertia.template cast<Scalar>() * bodies_[at(number)].motion);
+  for (const Link& link : links_) {
+    if (link.body != number) continue;
+    const Vector3<Scalar> normal = link.normal.template cast<Scalar>();
+    Vector3<Scalar> force = at_node(unbalanced_, link.node);
+    if (!normal.isZero(0)) {
+      force = normal.dot(force) * normal - friction_.col(link.node).template cast<Scalar>();
+    }
+    sum.template head<3>() += force;
+    sum.template tail<3>() += link.arm.template cast<Scalar>().cross(force);
+  }
+  return sum.template cast<float>();
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::move_bodies(Scalar share) {
+  for (Body& body : bodies_) body.motion += share * body.step.template cast<Scalar>();
+}
+
+/// Of the forces that are left with the last step [J].
+template <class Scalar>
+double ImplicitSolver<Scalar>::work_of_bodies() const {
+  double work = 0;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    work += static_cast<double>(unbalanced_of(static_cast<int>(b)).dot(bodies_[b].step));
+  }
+  return work;
+}
+
+// Rows of linked nodes hold their own motion across the normal, if any, and get that of the body.
+template <class Scalar>
+void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body::*motion,
+                                      Floats& product, Floats6 Body::*body_product) {
+  forces_.multiply(inertia_, displacements, product);
+  for (Body& body : bodies_) body.*body_product = body.inertia * (body.*motion);
+  gather(product, body_product);
+  project(product);
+}
+
+template class ImplicitSolver<float>;
+template class ImplicitSolver<double>;
+
+}  // namespace weft::fast

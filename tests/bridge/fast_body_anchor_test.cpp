@@ -1,0 +1,63 @@
+// Anchors to bodies that give way.
+#include <cmath>
+
+#include "tests/bridge/fast_scene.hpp"
+
+namespace weft::bridge {
+namespace {
+
+TEST(FastBody, HoldsABoxOnAnchors) {
+  for (int k = 0; k < 8; ++k) {  // what it does is chaos: so many times
+    ClothMesh mesh = cloth(9, 1, 2);
+    mesh.pinned = {0, 8};
+    Scene scene(mesh,
+                {kGravity, law("tension", "stiffness", 2000), law("velocity_damping", "rate", 3)});
+    btRigidBody& load = scene.add(box(0.5, 0.1, 0.1), 2.0 + 1e-4 * k, at(0, 2, -0.5));
+    scene.body().appendAnchor(72, &load, false, 1);
+    scene.body().appendAnchor(80, &load, false, 1);
+    for (int i = 0; i < 40; ++i) {
+      scene.step(15);
+      // It swings and is flung about, but with no more energy, the cloth's with it, than at its start, and what the
+      // nodes that are inside the box then give to it.
+      const double energy =
+          static_cast<double>(load.getLinearVelocity().length2()) +  // m v^2 / 2 with 2 kg [J]
+          2.0 * 9.81 * static_cast<double>(load.getCenterOfMassPosition().y() - 2) +
+          scene.mechanical_energy(2);
+      EXPECT_LT(energy, 1.5) << i << " " << k;
+      // Bullet moves the box by the step's impulses in the next step.
+      for (int a = 0; a < 2; ++a) {
+        const btSoftBody::Anchor& anchor = scene.body().m_anchors[a];
+        const btVector3 place = load.getWorldTransform() * anchor.m_local;
+        EXPECT_LT((anchor.m_node->m_x - place).length(), 0.1) << i << " " << k;
+      }
+    }
+    // What it may have fallen from its start by then is no more than 0.5 m.
+    EXPECT_LT(load.getLinearVelocity().length(), std::sqrt(2 * 9.81 * 0.5));
+    EXPECT_GT(load.getCenterOfMassPosition().y(), 0.5);
+    EXPECT_FALSE(scene.solver().blow_up(scene.body()));
+  }
+}
+
+TEST(FastBody, AnchorsStayAtABoxThatHangsAtRest) {
+  ClothMesh mesh = cloth(9, 1, 2);
+  mesh.pinned = {0, 8};
+  Scene scene(mesh,
+              {kGravity, law("tension", "stiffness", 2000), law("velocity_damping", "rate", 3)});
+  // Far from the box's centre: a force there turns a box much more easily than it moves one.
+  btRigidBody& load = scene.add(box(0.1, 0.1, 0.1), 2.0, at(0, 1, 0.5));
+  load.setDamping(btScalar(0.5), btScalar(0.9));
+  scene.body().appendAnchor(72, &load, true, 1);
+  scene.body().appendAnchor(80, &load, true, 1);
+  scene.step(600);
+  // Bullet adds the next step of gravity before it moves the box.
+  EXPECT_LT(load.getLinearVelocity().length(), 0.01 + 9.81 * kTimeStep);
+  for (int a = 0; a < 2; ++a) {
+    const btSoftBody::Anchor& anchor = scene.body().m_anchors[a];
+    const btVector3 place = load.getWorldTransform() * anchor.m_local;
+    // Its weight moves the box by g h^2 before the cloth holds it back.
+    EXPECT_LT((anchor.m_node->m_x - place).length(), 1.2 * 9.81 * kTimeStep * kTimeStep) << a;
+  }
+}
+
+}  // namespace
+}  // namespace weft::bridge
