@@ -62,8 +62,9 @@ struct ContactEntry {
 
 struct SoftBodySolver::Attachments {
   std::vector<std::unique_ptr<Attachment>> list;
-  std::vector<Attachment*> stepped;  ///< fast bodies of the present step
-  std::vector<Attachment*> asked;    ///< of those, that contacts are still looked for
+  std::vector<Attachment*> stepped;        ///< fast bodies of the present step
+  std::vector<Attachment*> asked;          ///< of those, that contacts are still looked for
+  std::vector<const btRigidBody*> pushed;  ///< once for each of those that may push it, in order
   std::vector<std::unique_ptr<ContactEntry>> contacts;
   HullTable hulls;  ///< of rigid objects that bodies have met
 };

@@ -379,8 +379,10 @@ void FastBody::solve(btSoftBody& body, btScalar time_step, const fast::SolverEff
                  effort, places_);
 }
 
-void FastBody::begin_solve(btSoftBody& body, btScalar time_step) {
+void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
+                           std::span<const btRigidBody* const> pushed) {
   const TraceScope trace("fast body");
+  all_pushed_.assign(pushed.begin(), pushed.end());
   prepare_solver(body, time_step);
   // Bullet has predicted velocities v + h a; what it would do to nodes without springs.
   const bool uses_history = may_use_history(body, time_step);

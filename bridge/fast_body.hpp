@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -76,9 +77,14 @@ class FastBody {
                btScalar time_step);
   /// Whether predict() was called in this step. A body that is woken up in between is to be left alone.
   [[nodiscard]] bool is_predicted() const { return is_predicted_; }
+  /// Appends the rigid bodies that this one may push in this step, each once.
+  void list_pushed(const btSoftBody& body, std::vector<const btRigidBody*>& list) const;
   /// In place of btSoftBody::solveConstraints, in parts. begin_solve() and solve_again() touch only the body, so that
   /// those of several bodies may run at the same time; the others look things up in the world and push rigid bodies.
-  void begin_solve(btSoftBody& body, btScalar time_step);
+  /// pushed: those of all bodies, in order. Each of several that push one rigid body has a part of its inertia: they are
+  /// solved apart, and each alone would stop it.
+  void begin_solve(btSoftBody& body, btScalar time_step,
+                   std::span<const btRigidBody* const> pushed);
   /// Looks for contacts that the solution needs: is_contact_missing() says whether it found any.
   void look_again(btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool is_contact_missing() const { return is_contact_missing_; }
@@ -168,6 +174,7 @@ class FastBody {
   std::vector<const btRigidBody*>
       pushed_;  ///< those that the body may push, and what they are to the solver
   std::vector<fast::RigidInertia<btScalar>> inertias_;
+  std::vector<const btRigidBody*> all_pushed_;  ///< by all bodies, in order
 };
 
 }  // namespace WEFT_BULLET_PRECISION

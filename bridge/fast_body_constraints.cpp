@@ -1,4 +1,6 @@
 // What touches or leads a fast body, as its solver sees it, and what that gets from it.
+#include <algorithm>
+
 #include <weft/bridge/bullet_vector.hpp>
 #include <weft/bridge/fast_body.hpp>
 
@@ -28,6 +30,16 @@ void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& place) 
 
 }  // namespace
 
+void FastBody::list_pushed(const btSoftBody& body, std::vector<const btRigidBody*>& list) const {
+  const std::size_t num_before = list.size();
+  const auto add = [&](const btRigidBody* rigid) {
+    const auto mine = list.begin() + static_cast<std::ptrdiff_t>(num_before);
+    if (rigid != nullptr && std::find(mine, list.end(), rigid) == list.end()) list.push_back(rigid);
+  };
+  for (const RigidContact& contact : contacts_) add(movable(contact.object));
+  for (int a = 0; a < body.m_anchors.size(); ++a) add(movable(body.m_anchors[a].m_body));
+}
+
 // A body that is pushed for the first time in this step gets the next number.
 int FastBody::number_of(const btRigidBody& rigid, btScalar time_step) {
   for (std::size_t b = 0; b < pushed_.size(); ++b) {
@@ -35,8 +47,10 @@ int FastBody::number_of(const btRigidBody& rigid, btScalar time_step) {
   }
   pushed_.push_back(&rigid);
   fast::RigidInertia<btScalar> given;
-  given.mass = 1 / rigid.getInvMass();
-  given.inertia = inertia_of(rigid);
+  const auto [first, last] = std::equal_range(all_pushed_.begin(), all_pushed_.end(), &rigid);
+  const auto share = 1 / static_cast<btScalar>(std::max<std::ptrdiff_t>(1, last - first));
+  given.mass = share / rigid.getInvMass();
+  given.inertia = share * inertia_of(rigid);
   given.motion = from_bullet<btScalar>(time_step * rigid.getLinearVelocity());
   given.turn = from_bullet<btScalar>(time_step * rigid.getAngularVelocity());
   inertias_.push_back(given);

@@ -349,7 +349,12 @@ void SoftBodySolver::solve_fast_bodies() {
   const auto in_parallel = [&](const std::vector<Attachment*>& list, const auto& work) {
     tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) { work(*list[i]); });
   };
-  in_parallel(bodies, [&](Attachment& one) { one.fast->begin_solve(*one.body, time_step_); });
+  std::vector<const btRigidBody*>& pushed = attachments_->pushed;
+  pushed.clear();
+  for (const Attachment* one : bodies) one->fast->list_pushed(*one->body, pushed);
+  std::sort(pushed.begin(), pushed.end());
+  in_parallel(bodies,
+              [&](Attachment& one) { one.fast->begin_solve(*one.body, time_step_, pushed); });
   std::vector<Attachment*>& asked = attachments_->asked;
   asked.assign(bodies.begin(), bodies.end());
   for (int look = 0; look < FastBody::kMostLooks && !asked.empty(); ++look) {

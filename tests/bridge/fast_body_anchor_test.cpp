@@ -1,5 +1,9 @@
 // Anchors to bodies that give way.
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
 
 #include "tests/bridge/fast_scene.hpp"
 
@@ -56,6 +60,48 @@ TEST(FastBody, AnchorsStayAtABoxThatHangsAtRest) {
     const btVector3 place = load.getWorldTransform() * anchor.m_local;
     // Its weight moves the box by g h^2 before the cloth holds it back.
     EXPECT_LT((anchor.m_node->m_x - place).length(), 1.2 * 9.81 * kTimeStep * kTimeStep) << a;
+  }
+}
+
+/// Of a box on strips of cloth, each held at its upper end and anchored to the box with its lower one.
+double highest_speed_on_strips(int num_strips) {
+  SoftWorld world(SoftWorldSettings{});
+  btRigidBody& load = add_rigid(world, box(0.2, 0.2, 0.2), 0.5, at(0, 0, 0));
+  for (int k = 0; k < num_strips; ++k) {
+    ClothMesh mesh = cloth(6, 0.5, 0, 0.1);
+    const double turn = 2 * std::numbers::pi * k / num_strips;
+    const Matrix3<double> about =
+        Eigen::AngleAxisd(turn, Vector3<double>::UnitY()).toRotationMatrix() *
+        Eigen::AngleAxisd(std::numbers::pi / 2, Vector3<double>::UnitX()).toRotationMatrix();
+    mesh.rest_positions = about * mesh.rest_positions;
+    mesh.rest_positions.colwise() +=
+        about * Vector3<double>(0, 0.2, 0) + Vector3<double>(0, 0.35, 0);
+    for (int i = 0; i < mesh.num_nodes(); ++i) {
+      if (mesh.rest_positions(1, i) > 0.59) mesh.pinned.push_back(i);
+    }
+    btSoftBody& body =
+        world.add(make_cloth_body(world.info(), mesh, {.collision_margin = kMargin}));
+    EXPECT_FALSE(world.solver().attach_fast(
+        body, mesh, {kGravity, law("tension", "stiffness", 2000)}, {.may_sleep = false}));
+    for (int i = 0; i < mesh.num_nodes(); ++i) {
+      if (mesh.rest_positions(1, i) < 0.11) body.appendAnchor(i, &load, true, 1);
+    }
+    EXPECT_EQ(body.m_anchors.size(), 6);
+  }
+  double highest = 0;
+  for (int step = 0; step < 240; ++step) {
+    world.step(kTimeStep);
+    if (step > 180) {
+      highest = std::max(highest, static_cast<double>(load.getLinearVelocity().length()));
+    }
+  }
+  return highest;
+}
+
+TEST(FastBody, SeveralClothsHoldOneBox) {
+  // Each alone would stop the box; together they may do no more.
+  for (const int num_strips : {1, 2, 3, 6}) {
+    EXPECT_LT(highest_speed_on_strips(num_strips), 2) << num_strips;  // it swings
   }
 }
 
