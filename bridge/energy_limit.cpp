@@ -46,9 +46,14 @@ void limit_energy(const Matrix3X<btScalar>& masses, double most, bool keeps_mome
   Vector3<double> mean = Vector3<double>::Zero();
   double of_mean = 0;
   if (keeps_momentum) {
-    const VectorX<double> of_nodes = masses.row(0).transpose().cast<double>();
-    mean = velocities.cast<double>() * of_nodes / of_nodes.sum();
-    of_mean = 0.5 * of_nodes.sum() * mean.squaredNorm();
+    double mass = 0;
+    for (Eigen::Index i = 0; i < velocities.cols(); ++i) {
+      const auto of_node = static_cast<double>(masses(0, i));
+      mass += of_node;
+      mean += of_node * velocities.col(i).template cast<double>();
+    }
+    mean /= mass;
+    of_mean = 0.5 * mass * mean.squaredNorm();
   }
   const double now = kinetic_energy(masses, velocities);
   const double share = now > of_mean ? std::max(0.0, most - of_mean) / (now - of_mean) : 0.0;

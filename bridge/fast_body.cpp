@@ -123,9 +123,8 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
   contacts_.clear();
   obstacles_.clear();
   ways_.outdate();
-  find_pins(body);
   if (is_plain(body)) {
-    predict_nodes(body, time_step, last_velocities_, predicted_);
+    predict_nodes(body, time_step, last_velocities_);
   } else {
     // Bullet would tell the broadphase, which all bodies share.
     btBroadphaseProxy* const proxy = body.getBroadphaseHandle();
@@ -133,15 +132,18 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
     body.predictMotion(time_step);
     body.setBroadphaseHandle(proxy);
     include_in_bounds(positions, body);
-    read_nodes(body, origins_, predicted_);
   }
   is_predicted_ = true;
 }
 
-void FastBody::find_pins(const btSoftBody& body) {
+// Of now: somebody may have pushed or pinned nodes since predict().
+void FastBody::read_prediction(const btSoftBody& body) {
+  predicted_.resize(3, body.m_nodes.size());
   pins_.clear();
   for (int i = 0; i < body.m_nodes.size(); ++i) {
-    if (body.m_nodes[i].m_im <= 0) pins_.push_back(i);
+    const btSoftBody::Node& node = body.m_nodes[i];
+    predicted_.col(i) << node.m_v.x(), node.m_v.y(), node.m_v.z();
+    if (node.m_im <= 0) pins_.push_back(i);
   }
 }
 
@@ -308,11 +310,11 @@ void FastBody::leave_depths() {
   }
 }
 
-// The solution counts on a body that gives way at once. Bullet has moved it before, and moves it next by the impulse
-// that it gets now: until then nodes stand where it is, with the velocities of the solution.
-void FastBody::stay_outside(btSoftBody& body, bool of_movable) const {
+// A body that gives way is not meant: Bullet has moved it before, and moves it next by the impulse that it gets now. To put
+// nodes outside until then would draw out springs.
+void FastBody::stay_outside(btSoftBody& body) const {
   for (const RigidContact& contact : contacts_) {
-    if ((movable(contact.object) != nullptr) != of_movable) continue;
+    if (movable(contact.object) != nullptr) continue;
     btSoftBody::Node& node = body.m_nodes[contact.node];
     const btScalar gap = btDot(contact.normal, node.m_x) - contact.offset;
     if (gap < 0 && node.m_im > 0) node.m_x -= gap * contact.normal;
@@ -337,7 +339,7 @@ void FastBody::write_places(btSoftBody& body) {
 void FastBody::project_cloth_contacts(btSoftBody& body) {
   may_be_pushed_ = true;
   if (body.m_scontacts.size() > 0) btSoftBody::PSolve_SContacts(&body, 1, 0);
-  stay_outside(body, false);
+  stay_outside(body);
 }
 
 void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
@@ -368,21 +370,23 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
     places_.colwise() += origin_;
     places_.colwise() -= origin_;
   }
-  stay_outside(body, true);
   const bool met_something = !contacts_.empty() || meets_cloth;
   last_step_ = met_something || is_limited ? btScalar(0) : time_step;
 }
 
-void FastBody::solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort) {
-  read_constraints(body, time_step);
+void FastBody::solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort,
+                     bool is_again) {
+  read_constraints(body, time_step, is_again);
   solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, led_, inertias_},
                  effort, places_);
+  remember_ways();
 }
 
 void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
                            std::span<const btRigidBody* const> pushed) {
   const TraceScope trace("fast body");
   all_pushed_.assign(pushed.begin(), pushed.end());
+  read_prediction(body);
   prepare_solver(body, time_step);
   // Bullet has predicted velocities v + h a; what it would do to nodes without springs.
   const bool uses_history = may_use_history(body, time_step);
@@ -404,7 +408,7 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
   places_ = starts_ + time_step * start_velocities_;
   const btScalar least_surprise = kSurpriseShare * body.getCollisionShape()->getMargin();
   for (RigidContact& contact : contacts_) follow_object(contact, time_step, least_surprise);
-  solve(body, time_step, settings_.effort);
+  solve(body, time_step, settings_.effort, false);
 }
 
 void FastBody::look_again(btSoftBody& body, btScalar time_step) {
@@ -418,9 +422,11 @@ bool FastBody::looks_alone() const {
   });
 }
 
-void FastBody::solve_again(btSoftBody& body, btScalar time_step) {
+void FastBody::solve_again(btSoftBody& body, btScalar time_step,
+                           std::span<const btRigidBody* const> pushed) {
   const TraceScope trace("fast body");
-  solve(body, time_step, {1, settings_.effort.iterations});
+  all_pushed_.assign(pushed.begin(), pushed.end());
+  solve(body, time_step, {1, settings_.effort.iterations}, true);
 }
 
 }  // namespace WEFT_BULLET_PRECISION

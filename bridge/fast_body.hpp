@@ -20,7 +20,7 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
 /// Implicit springs for one btSoftBody of the classic world: what stands in the place of
-/// btSoftBody::solveConstraints. Bullet's bookkeeping stays: btSoftBody::predictMotion runs, m_q keeps
+/// btSoftBody::solveConstraints. Bullet's bookkeeping stays: nodes are predicted as by btSoftBody::predictMotion, m_q keeps
 /// the places at the start of the step, m_v follows from places, m_f is cleared.
 ///
 /// Solved together: springs and dampers of the network, stabilised bending, anchors, contact with rigid
@@ -90,7 +90,8 @@ class FastBody {
   [[nodiscard]] bool is_contact_missing() const { return is_contact_missing_; }
   /// Whether look_again() touches only the body too.
   [[nodiscard]] bool looks_alone() const;
-  void solve_again(btSoftBody& body, btScalar time_step);
+  void solve_again(btSoftBody& body, btScalar time_step,
+                   std::span<const btRigidBody* const> pushed);
   /// Writes the solution to m_x. Contacts with cloth are projected then, over all bodies, as often as
   /// kClothContactSweeps says, for what one body does to another would be lost otherwise.
   void place(btSoftBody& body, btScalar time_step);
@@ -108,7 +109,7 @@ class FastBody {
   [[nodiscard]] double residual() const { return solver_ ? solver_->residual() : 0.0; }
 
  private:
-  void solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort);
+  void solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort, bool is_again);
   void prepare_solver(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool has_pins_of_solver(const btSoftBody& body) const;
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
@@ -116,15 +117,18 @@ class FastBody {
   /// nodes. True if there are any.
   [[nodiscard]] bool find_missed_contacts(btSoftBody& body, btScalar time_step);
   void choose_origin(const btSoftBody& body);
-  void find_pins(const btSoftBody& body);
+  void read_prediction(const btSoftBody& body);
   [[nodiscard]] btVector3 in_world(int node) const;
   void write_places(btSoftBody& body);
-  [[nodiscard]] int number_of(const btRigidBody& rigid, btScalar time_step);
-  void read_constraints(const btSoftBody& body, btScalar time_step);
+  using Way = Eigen::Matrix<btScalar, 6, 1>;  ///< [m, rad]
+  [[nodiscard]] Way way_of(const btRigidBody& rigid) const;
+  void remember_ways();
+  [[nodiscard]] int number_of(const btRigidBody& rigid, btScalar time_step, bool is_again);
+  void read_constraints(const btSoftBody& body, btScalar time_step, bool is_again);
   void give_impulses(btSoftBody& body, btScalar time_step);
   void keep_out_of_missed(btSoftBody& body, btScalar time_step);
   void leave_depths();
-  void stay_outside(btSoftBody& body, bool of_movable) const;
+  void stay_outside(btSoftBody& body) const;
   [[nodiscard]] bool gets_work_from_outside() const;
   /// True if velocities_ had to be slowed down.
   bool keep_energy(btScalar time_step);
@@ -174,7 +178,9 @@ class FastBody {
   std::vector<const btRigidBody*>
       pushed_;  ///< those that the body may push, and what they are to the solver
   std::vector<fast::RigidInertia<btScalar>> inertias_;
-  std::vector<const btRigidBody*> all_pushed_;  ///< by all bodies, in order
+  std::vector<const btRigidBody*> all_pushed_;   ///< by all bodies, in order
+  std::vector<const btRigidBody*> last_pushed_;  ///< in the last solution, and how far
+  std::vector<Way> last_ways_;
 };
 
 }  // namespace WEFT_BULLET_PRECISION

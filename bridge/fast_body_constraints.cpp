@@ -8,19 +8,31 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-/// [m^2] Inertia over mass of a body that cannot be turned.
-constexpr btScalar kNoTurn = 1e6;
+/// [m^2] Inertia over mass of a body that cannot be turned, far above that of any that can.
+constexpr btScalar kNoTurn = 100;
+/// Over the mass: that in a direction in which a body cannot be moved.
+constexpr btScalar kNoWay = 1e4;
 
-/// In the world [kg m^2]. What cannot be turned about an axis has a very large one there.
+/// Of the margin: how far out of a body that gives way a node is led in a step.
+constexpr btScalar kMostWayOut = 2;
+
+/// With what Bullet makes of impulses: in the world, factors included [kg].
+Vector3<btScalar> mass_of(const btRigidBody& rigid) {
+  const btScalar mass = 1 / rigid.getInvMass();
+  const Vector3<btScalar> factor = from_bullet<btScalar>(rigid.getLinearFactor());
+  return mass * factor.cwiseMax(1 / kNoWay).cwiseInverse();
+}
+
+/// Likewise [kg m^2].
 Matrix3<btScalar> inertia_of(const btRigidBody& rigid) {
-  Vector3<btScalar> about;
-  Matrix3<btScalar> turn;
+  Matrix3<btScalar> inverse;
   for (int k = 0; k < 3; ++k) {
-    const btScalar inverse = rigid.getInvInertiaDiagLocal()[k];
-    about[k] = inverse > 0 ? 1 / inverse : kNoTurn / rigid.getInvMass();
-    turn.row(k) = from_bullet<btScalar>(rigid.getWorldTransform().getBasis().getRow(k));
+    inverse.row(k) = from_bullet<btScalar>(rigid.getInvInertiaTensorWorld().getRow(k)).transpose();
   }
-  return turn * about.asDiagonal() * turn.transpose();
+  const Vector3<btScalar> factor = from_bullet<btScalar>(rigid.getAngularFactor());
+  inverse = (factor.asDiagonal() * inverse * factor.asDiagonal()).eval();
+  inverse.diagonal().array() += rigid.getInvMass() / kNoTurn;
+  return inverse.inverse();
 }
 
 void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& place) {
@@ -30,18 +42,40 @@ void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& place) 
 
 }  // namespace
 
+// Those that are only near are not meant: a cloth that holds a body alone has to move all of it.
 void FastBody::list_pushed(const btSoftBody& body, std::vector<const btRigidBody*>& list) const {
   const std::size_t num_before = list.size();
   const auto add = [&](const btRigidBody* rigid) {
     const auto mine = list.begin() + static_cast<std::ptrdiff_t>(num_before);
     if (rigid != nullptr && std::find(mine, list.end(), rigid) == list.end()) list.push_back(rigid);
   };
-  for (const RigidContact& contact : contacts_) add(movable(contact.object));
   for (int a = 0; a < body.m_anchors.size(); ++a) add(movable(body.m_anchors[a].m_body));
+  for (const RigidContact& contact : contacts_) {
+    const btRigidBody* const rigid = movable(contact.object);
+    if (rigid == nullptr) continue;
+    const bool is_inside = btDot(contact.normal, body.m_nodes[contact.node].m_x) < contact.offset;
+    if (is_inside || !way_of(*rigid).isZero(0)) add(rigid);
+  }
+}
+
+/// How far a rigid body gave way in the last solution.
+FastBody::Way FastBody::way_of(const btRigidBody& rigid) const {
+  for (std::size_t b = 0; b < last_pushed_.size(); ++b) {
+    if (last_pushed_[b] == &rigid) return last_ways_[b];
+  }
+  return Way::Zero();
+}
+
+void FastBody::remember_ways() {
+  last_pushed_.assign(pushed_.begin(), pushed_.end());
+  last_ways_.clear();
+  for (std::size_t b = 0; b < pushed_.size(); ++b) {
+    last_ways_.push_back(solver_->body_motion(static_cast<int>(b)));
+  }
 }
 
 // A body that is pushed for the first time in this step gets the next number.
-int FastBody::number_of(const btRigidBody& rigid, btScalar time_step) {
+int FastBody::number_of(const btRigidBody& rigid, btScalar time_step, bool is_again) {
   for (std::size_t b = 0; b < pushed_.size(); ++b) {
     if (pushed_[b] == &rigid) return static_cast<int>(b);
   }
@@ -49,15 +83,16 @@ int FastBody::number_of(const btRigidBody& rigid, btScalar time_step) {
   fast::RigidInertia<btScalar> given;
   const auto [first, last] = std::equal_range(all_pushed_.begin(), all_pushed_.end(), &rigid);
   const auto share = 1 / static_cast<btScalar>(std::max<std::ptrdiff_t>(1, last - first));
-  given.mass = share / rigid.getInvMass();
+  given.mass = share * mass_of(rigid);
   given.inertia = share * inertia_of(rigid);
   given.motion = from_bullet<btScalar>(time_step * rigid.getLinearVelocity());
   given.turn = from_bullet<btScalar>(time_step * rigid.getAngularVelocity());
+  if (is_again) given.guess = way_of(rigid);
   inertias_.push_back(given);
   return static_cast<int>(pushed_.size()) - 1;
 }
 
-void FastBody::read_constraints(const btSoftBody& body, btScalar time_step) {
+void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool is_again) {
   pushed_.clear();
   inertias_.clear();
   const auto arm_of = [](const btRigidBody& rigid, const btVector3& place) {
@@ -72,8 +107,16 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step) {
     plane.motion = from_bullet<btScalar>(contact.motion);
     plane.friction = body.m_cfg.kDF * contact.object->getFriction();
     if (const btRigidBody* const rigid = movable(contact.object)) {
-      plane.body = number_of(*rigid, time_step);
-      plane.arm = arm_of(*rigid, body.m_nodes[contact.node].m_x);
+      plane.body = number_of(*rigid, time_step, is_again);
+      // A node that is deep inside at the start, for the body has turned over it, is not thrown out in one step.
+      const btScalar depth =
+          plane.normal.dot(starts_.col(contact.node) + plane.motion) - plane.offset;
+      plane.offset +=
+          std::min(btScalar(0), depth + kMostWayOut * body.getCollisionShape()->getMargin());
+      // Where the surface holds the node, which is predicted to be deep inside.
+      const btVector3& place = body.m_nodes[contact.node].m_x;
+      const btScalar gap = btDot(contact.normal, place) - contact.offset;
+      plane.arm = arm_of(*rigid, place - std::min(btScalar(0), gap) * contact.normal);
     }
     plane_contacts_.push_back(plane);
   }
@@ -82,12 +125,15 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step) {
     const btSoftBody::Anchor& anchor = body.m_anchors[a];
     const auto node = static_cast<int>(anchor.m_node - &body.m_nodes[0]);
     if (!is_free_[static_cast<std::size_t>(node)]) continue;
+    const bool is_led = std::any_of(led_.begin(), led_.end(),
+                                    [&](const auto& other) { return other.node == node; });
+    if (is_led) continue;  // by an anchor before
     const btVector3 place = anchor.m_body->getWorldTransform() * anchor.m_local;
     fast::LedNode<btScalar> led;
     led.node = node;
     led.place = from_bullet<btScalar>(place) - origin_;
     if (const btRigidBody* const rigid = movable(anchor.m_body)) {
-      led.body = number_of(*rigid, time_step);
+      led.body = number_of(*rigid, time_step, is_again);
       led.arm = arm_of(*rigid, place);
     }
     led_.push_back(led);
@@ -102,7 +148,8 @@ void FastBody::give_impulses(btSoftBody& body, btScalar time_step) {
     auto& rigid = const_cast<btRigidBody&>(*pushed_[b]);
     const btScalar rate = time_step / (inertia_step_ * inertia_step_);
     rigid.activate();
-    rigid.applyCentralImpulse(to_bullet(rate * inertias_[b].mass * motion.template head<3>()));
+    rigid.applyCentralImpulse(
+        to_bullet(rate * inertias_[b].mass.cwiseProduct(motion.template head<3>())));
     rigid.applyTorqueImpulse(to_bullet(rate * (inertias_[b].inertia * motion.template tail<3>())));
   }
   for (int a = 0; a < body.m_anchors.size(); ++a) {  // that push with a part only

@@ -12,7 +12,7 @@ namespace {
 constexpr btScalar kCoveredSteps = 4;
 /// Of the nodes: so many may be put into the tree one by one.
 constexpr int kFewShare = 50;
-// The tree's depth is some 20; one that has degenerated to a list is left to Bullet.
+/// A tree's depth is some 20; one that nodes were put into in a row is made anew.
 constexpr int kMostDepth = 200;
 
 /// All that Bullet stores of a vector, at no special address: what a processor loads at once. The last number is of no meaning.
@@ -30,7 +30,7 @@ bool has_air(const btSoftBody::Config& settings) {
   return settings.kLF > 0 || settings.kDG > 0 || settings.kPR != 0 || settings.kVC > 0;
 }
 
-void integrate(btSoftBody& body, btScalar time_step, Matrix3X<btScalar>& velocities) {
+void integrate(btSoftBody& body, btScalar time_step) {
   const btVector3 gravity = body.m_worldInfo->m_gravity * time_step;
   const Four fall(gravity.x(), gravity.y(), gravity.z(), 0);
   const btScalar most = body.m_worldInfo->m_maxDisplacement / time_step;
@@ -48,7 +48,6 @@ void integrate(btSoftBody& body, btScalar time_step, Matrix3X<btScalar>& velocit
     four(node.m_v) = velocity;
     four(node.m_x) = place;
     four(node.m_f).setZero();
-    velocities.col(i) = velocity.matrix().template head<3>();
     low = low.min(start).min(place);
     high = high.max(start).max(place);
   }
@@ -60,11 +59,13 @@ btDbvtVolume box_of(const btSoftBody::Node& node, btScalar margin) {
   return btDbvtVolume::FromCR(node.m_x, margin);
 }
 
-void refit(btDbvtNode* node, int depth) {
-  if (node->isleaf() || depth > kMostDepth) return;
-  refit(node->childs[0], depth + 1);
-  refit(node->childs[1], depth + 1);
+/// False if the tree is too deep.
+bool refit(btDbvtNode* node, int depth) {
+  if (node->isleaf()) return true;
+  if (depth > kMostDepth) return false;
+  if (!refit(node->childs[0], depth + 1) || !refit(node->childs[1], depth + 1)) return false;
   Merge(node->childs[0]->volume, node->childs[1]->volume, node->volume);
+  return true;
 }
 
 void cover_ways(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities) {
@@ -82,7 +83,7 @@ void cover_ways(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities) {
     box.Expand(bend);
     node.m_leaf->volume = box;
   }
-  refit(body.m_ndbvt.m_root, 0);
+  if (!refit(body.m_ndbvt.m_root, 0)) body.m_ndbvt.optimizeTopDown();
 }
 
 void update_tree(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities) {
@@ -126,15 +127,14 @@ bool is_plain(const btSoftBody& body) {
          body.m_cfg.timescale == btScalar(1) && !has_air(body.m_cfg) && body.m_nodes.size() > 0;
 }
 
-void predict_nodes(btSoftBody& body, btScalar time_step, ConstMatrix3XRef<btScalar> last_velocities,
-                   Matrix3X<btScalar>& velocities) {
+void predict_nodes(btSoftBody& body, btScalar time_step,
+                   ConstMatrix3XRef<btScalar> last_velocities) {
   body.m_sst.sdt = time_step;
   body.m_sst.isdt = 1 / time_step;
   body.m_sst.velmrg = 3 * time_step;
   body.m_sst.radmrg = body.getCollisionShape()->getMargin();
   body.m_sst.updmrg = body.m_sst.radmrg * btScalar(0.25);
-  velocities.resize(3, body.m_nodes.size());
-  integrate(body, time_step, velocities);
+  integrate(body, time_step);
   update_tree(body, last_velocities);
   update_face_tree(body);
   body.m_rcontacts.resizeNoInitialize(0);

@@ -19,9 +19,8 @@ inline namespace WEFT_BULLET_PRECISION {
 /// Bullet does it; if many have, all boxes grow to hold the ways of the next steps instead, which costs less by far:
 /// neighbours in a cloth stay neighbours, so that the tree stays good.
 /// last_velocities: at the start of the step before, 3 x n [m/s], or of another size if not known: how fast ways bend.
-/// velocities: out, m_v afterwards, 3 x n [m/s].
-void predict_nodes(btSoftBody& body, btScalar time_step, ConstMatrix3XRef<btScalar> last_velocities,
-                   Matrix3X<btScalar>& velocities);
+void predict_nodes(btSoftBody& body, btScalar time_step,
+                   ConstMatrix3XRef<btScalar> last_velocities);
 
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

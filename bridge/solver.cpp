@@ -350,9 +350,12 @@ void SoftBodySolver::solve_fast_bodies() {
     tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) { work(*list[i]); });
   };
   std::vector<const btRigidBody*>& pushed = attachments_->pushed;
-  pushed.clear();
-  for (const Attachment* one : bodies) one->fast->list_pushed(*one->body, pushed);
-  std::sort(pushed.begin(), pushed.end());
+  const auto list_pushed = [&] {
+    pushed.clear();
+    for (const Attachment* one : bodies) one->fast->list_pushed(*one->body, pushed);
+    std::sort(pushed.begin(), pushed.end());
+  };
+  list_pushed();
   in_parallel(bodies,
               [&](Attachment& one) { one.fast->begin_solve(*one.body, time_step_, pushed); });
   std::vector<Attachment*>& asked = attachments_->asked;
@@ -365,7 +368,9 @@ void SoftBodySolver::solve_fast_bodies() {
       if (!one->fast->looks_alone()) one->fast->look_again(*one->body, time_step_);
     }
     std::erase_if(asked, [](const Attachment* one) { return !one->fast->is_contact_missing(); });
-    in_parallel(asked, [&](Attachment& one) { one.fast->solve_again(*one.body, time_step_); });
+    list_pushed();
+    in_parallel(asked,
+                [&](Attachment& one) { one.fast->solve_again(*one.body, time_step_, pushed); });
   }
   for (Attachment* one : bodies) one->fast->place(*one->body, time_step_);
   // Where springs have led the nodes, not where they would fly without them: in steps of 1/100 s layers that were found there

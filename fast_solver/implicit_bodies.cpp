@@ -1,4 +1,6 @@
 // Rigid bodies that give way: six unknowns each, solved for together with the nodes.
+#include <algorithm>
+
 #include <weft/fast_solver/implicit_solver.hpp>
 
 namespace weft::fast {
@@ -17,11 +19,11 @@ void ImplicitSolver<Scalar>::load_bodies(const StepProblem<Scalar>& problem) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const RigidInertia<Scalar>& given = problem.bodies[b];
     Body& body = bodies_[b];
-    body.motion.setZero();
+    body.motion = given.guess;
     body.motion_alone << given.motion, given.turn;
     body.inertia.setZero();
-    body.inertia.template topLeftCorner<3, 3>().diagonal().setConstant(
-        static_cast<float>(given.mass * per_square));
+    body.inertia.template topLeftCorner<3, 3>().diagonal() =
+        (per_square * given.mass).template cast<float>();
     body.inertia.template bottomRightCorner<3, 3>() =
         (per_square * given.inertia).template cast<float>();
   }
@@ -59,6 +61,12 @@ Vector3<Scalar> ImplicitSolver<Scalar>::turned(int body, const Vector3<Scalar>& 
 }
 
 template <class Scalar>
+Vector3<Scalar> ImplicitSolver<Scalar>::place_of(const LedNode<Scalar>& led) const {
+  const Vector3<Scalar> way = bodies_[at(led.body)].motion.template head<3>();
+  return led.place + way + turned(led.body, led.arm) - led.arm;
+}
+
+template <class Scalar>
 void ImplicitSolver<Scalar>::add_motions(Floats6 Body::*motion, Floats& displacements) const {
   for (const Link& link : links_) {
     displacements.row(link.node) += motion_of(link, bodies_[at(link.body)].*motion).transpose();
@@ -67,49 +75,82 @@ void ImplicitSolver<Scalar>::add_motions(Floats6 Body::*motion, Floats& displace
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::gather(const Floats& forces, Floats6 Body::*sum) {
+  for (const Link& link : links_) add_force(link, forces, bodies_[at(link.body)].*sum);
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::gather_of(int body, const Floats& forces, Floats6& sum) const {
   for (const Link& link : links_) {
-    Vector3<float> force = at_node(forces, link.node);
-    if (!link.normal.isZero(0)) force = link.normal.dot(force) * link.normal;
-    Floats6& all = bodies_[at(link.body)].*sum;
-    all.template head<3>() += force;
-    all.template tail<3>() += link.arm.cross(force);
+    if (link.body == body) add_force(link, forces, sum);
+  }
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::add_force(const Link& link, const Floats& forces, Floats6& sum) {
+  Vector3<float> force = at_node(forces, link.node);
+  if (!link.normal.isZero(0)) force = link.normal.dot(force) * link.normal;
+  sum.template head<3>() += force;
+  sum.template tail<3>() += link.arm.cross(force);
+}
+
+// A body that nothing is linked to in this round has moved as if left alone.
+template <class Scalar>
+void ImplicitSolver<Scalar>::release_bodies() {
+  for (Body& body : bodies_) body.is_linked = false;
+  for (const Link& link : links_) bodies_[at(link.body)].is_linked = true;
+  for (Body& body : bodies_) {
+    if (!body.is_linked) body.motion.setZero();
   }
 }
 
 // What a body resists with, and the springs of all nodes that move with it: column by column, for springs
-// between two such nodes do not resist.
+// between two such nodes do not resist. Only at these nodes is anything moved or asked for.
 template <class Scalar>
 void ImplicitSolver<Scalar>::factorise_bodies() {
-  for (Body& body : bodies_) {
+  correction_.setZero();
+  for (Body& other : bodies_) other.correction.setZero();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    Body& body = bodies_[b];
     Matrix6 stiffness = body.inertia;
-    for (Body& other : bodies_) other.correction.setZero();
-    for (int k = 0; k < 6; ++k) {
+    linked_blocks_.clear();
+    for (const Link& link : links_) {
+      if (link.body == static_cast<int>(b)) linked_blocks_.push_back(link.node / kNodeBlock);
+    }
+    std::sort(linked_blocks_.begin(), linked_blocks_.end());
+    linked_blocks_.erase(std::unique(linked_blocks_.begin(), linked_blocks_.end()),
+                         linked_blocks_.end());
+    for (int k = 0; k < 6 && !linked_blocks_.empty(); ++k) {
       body.correction = Floats6::Unit(k);
-      correction_.setZero();
       add_motions(&Body::correction, correction_);
-      multiply(correction_, &Body::correction, correction_product_, &Body::correction_product);
+      forces_.multiply(linked_blocks_, inertia_, correction_, correction_product_);
+      body.correction_product = body.inertia.col(k);
+      gather_of(static_cast<int>(b), correction_product_, body.correction_product);
       stiffness.col(k) = body.correction_product;
+      for (const Link& link : links_) correction_.row(link.node).setZero();
     }
     body.correction.setZero();
     body.stiffness.compute((stiffness + stiffness.transpose()) / 2);
+    if (body.stiffness.info() != Eigen::Success) {
+      body.stiffness.compute(Matrix6(stiffness.diagonal().asDiagonal()));
+    }
   }
 }
 
-/// What pushes the body in the present state: nodes, friction, its own inertia.
+// What pushes the bodies in the present state: nodes, friction, their own inertia.
 template <class Scalar>
-typename ImplicitSolver<Scalar>::Floats6 ImplicitSolver<Scalar>::unbalanced_of(int number) const {
-  Vector6 sum = -(bodies_[at(number)].inertia.template cast<Scalar>() * bodies_[at(number)].motion);
+void ImplicitSolver<Scalar>::find_unbalanced(Floats6 Body::*result) {
+  for (Body& body : bodies_) body.*result = -(body.inertia * body.motion.template cast<float>());
   for (const Link& link : links_) {
-    if (link.body != number) continue;
     const Vector3<Scalar> normal = link.normal.template cast<Scalar>();
     Vector3<Scalar> force = at_node(unbalanced_, link.node);
     if (!normal.isZero(0)) {
       force = normal.dot(force) * normal - friction_.col(link.node).template cast<Scalar>();
     }
-    sum.template head<3>() += force;
-    sum.template tail<3>() += link.arm.template cast<Scalar>().cross(force);
+    const Vector3<float> rounded = force.template cast<float>();
+    Floats6& sum = bodies_[at(link.body)].*result;
+    sum.template head<3>() += rounded;
+    sum.template tail<3>() += link.arm.cross(rounded);
   }
-  return sum.template cast<float>();
 }
 
 template <class Scalar>
@@ -119,11 +160,10 @@ void ImplicitSolver<Scalar>::move_bodies(Scalar share) {
 
 /// Of the forces that are left with the last step [J].
 template <class Scalar>
-double ImplicitSolver<Scalar>::work_of_bodies() const {
+double ImplicitSolver<Scalar>::work_of_bodies() {
+  find_unbalanced(&Body::unbalanced);
   double work = 0;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    work += static_cast<double>(unbalanced_of(static_cast<int>(b)).dot(bodies_[b].step));
-  }
+  for (const Body& body : bodies_) work += static_cast<double>(body.unbalanced.dot(body.step));
   return work;
 }
 

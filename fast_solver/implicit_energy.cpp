@@ -45,7 +45,7 @@ void ImplicitSolver<Scalar>::hold_back(double work_before) {
   evaluate();
 }
 
-/// What an implicit step minimises [J], with bodies that are tied to it and with what friction does.
+/// What an implicit step minimises [J], with the bodies that give way to it and with what friction does.
 template <class Scalar>
 double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem, const Nodes& places,
                                       Vector6 Body::*motion) {
@@ -89,7 +89,9 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
   unmoved_ = starts_;
   for (const int node : pinned_) unmoved_.row(node) = targets_.row(node);
-  for (Body& body : bodies_) body.unmoved = -body.motion_alone;
+  for (Body& body : bodies_) {
+    body.unmoved = body.is_linked ? Vector6(-body.motion_alone) : Vector6(Vector6::Zero());
+  }
   for (const LedNode<Scalar>& led : problem.led) {
     Vector3<Scalar> place = led.place;
     if (led.body >= 0) {
@@ -180,23 +182,27 @@ void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterat
   has_friction_ = true;
 }
 
-// What conjugate gradients have left over would push the body, and what is tied to it, as a whole.
+// What conjugate gradients have left over would push the cloth, and the bodies that hang on it, as a whole.
 // Where nothing immovable holds it, a shift of all nodes, which no spring feels, takes that away to
 // rounding. Where something does, what is left over is no error of the whole body's: in a stiff sheet a
 // micrometre is worth many newtons.
 template <class Scalar>
 void ImplicitSolver<Scalar>::balance() {
   if (!pinned_.empty() || links_.size() != held_.size()) return;
-  auto inertia = static_cast<double>(inertia_.template cast<double>().sum());
+  Vector3<double> inertia = Vector3<double>::Constant(inertia_.template cast<double>().sum());
   Vector3<double> left = unbalanced_.template cast<double>().colwise().sum().transpose();
   for (const Body& body : bodies_) {
-    const auto of_body = static_cast<double>(body.inertia(0, 0));
+    if (!body.is_linked) continue;
+    const Vector3<double> of_body =
+        body.inertia.diagonal().template head<3>().template cast<double>();
     inertia += of_body;
-    left -= of_body * body.motion.template head<3>().template cast<double>();
+    left -= of_body.cwiseProduct(body.motion.template head<3>().template cast<double>());
   }
-  const Vector3<Scalar> shift = (left / inertia).template cast<Scalar>();
+  const Vector3<Scalar> shift = left.cwiseQuotient(inertia).template cast<Scalar>();
   places_.topRows(num_nodes()).rowwise() += shift.transpose();
-  for (Body& body : bodies_) body.motion.template head<3>() += shift;
+  for (Body& body : bodies_) {
+    if (body.is_linked) body.motion.template head<3>() += shift;
+  }
 }
 
 template class ImplicitSolver<float>;

@@ -78,6 +78,7 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bo
     normals_.col(led.node).setZero();
     if (led.body >= 0) link(led.node, led.body, turned(led.body, led.arm), Vector3<Scalar>::Zero());
   }
+  release_bodies();
 }
 
 // How far what pushes a node would move it along a normal, if its neighbours stood still [m]. Without springs would
@@ -108,16 +109,19 @@ void ImplicitSolver<Scalar>::project(Floats& vectors) const {
 template <class Scalar>
 bool ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
   const auto is_linked = [&](int node) {
-    return std::any_of(links_.begin(), links_.end(),
-                       [&](const Link& link) { return link.node == node; });
+    const int contact = contact_of_[at(node)];
+    if (contact >= 0) return problem.contacts[at(contact)].body >= 0;
+    return std::any_of(problem.led.begin(), problem.led.end(), [&](const LedNode<Scalar>& led) {
+      return led.node == node && led.body >= 0;
+    });
   };
   bool any = false;
   for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
     const PlaneContact<Scalar>& contact = problem.contacts[c];
     const int i = contact.node;
-    if (!is_free_[at(i)] || contact.body >= 0 || is_linked(i)) continue;
+    if (!is_free_[at(i)] || contact.body >= 0) continue;
     const Scalar gap = contact.normal.dot(at_node(places_, i)) - contact.offset;
-    if (!(gap < 0)) continue;
+    if (!(gap < 0) || is_linked(i)) continue;
     places_.row(i) -= gap * contact.normal.transpose();
     any = true;
     if (holds_[at(i)] != Hold::kFree) continue;

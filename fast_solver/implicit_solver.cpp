@@ -15,8 +15,8 @@ namespace {
 /// together do not overshoot; .5 to .7 converge alike.
 constexpr float kSmoothing = 0.6F;
 
-/// A body that is tied to the cloth gets its forces, and with them what is wrong with them, as impulses:
-/// rounds on top, and the share of the first unbalanced forces that may be left.
+/// What is wrong with a solution moves the rigid bodies that give way to it: rounds on top, and the share of the first
+/// unbalanced forces that may be left.
 constexpr int kTiedRounds = 1;
 constexpr double kTiedResidual = 0.02;
 
@@ -146,6 +146,9 @@ void ImplicitSolver<Scalar>::load(const StepProblem<Scalar>& problem,
     places_.row(led.node) = led.place.transpose();
   }
   load_bodies(problem);
+  for (const LedNode<Scalar>& led : problem.led) {
+    if (led.body >= 0) places_.row(led.node) = place_of(led).transpose();
+  }
   forces_.begin_step(starts_, problem.time_step);
 }
 
@@ -208,14 +211,11 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
   }
   for (const LedNode<Scalar>& led : problem.led) {
     if (led.body < 0) continue;
-    const Vector3<Scalar> way = bodies_[at(led.body)].motion.template head<3>();
-    const Vector3<Scalar> place = led.place + way + turned(led.body, led.arm) - led.arm;
-    step_.row(led.node) = (place - at_node(places_, led.node)).template cast<float>().transpose();
+    step_.row(led.node) =
+        (place_of(led) - at_node(places_, led.node)).template cast<float>().transpose();
     moves_held = true;
   }
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    bodies_[b].residual = unbalanced_of(static_cast<int>(b));
-  }
+  find_unbalanced(&Body::residual);
   if (moves_held) {
     forces_.multiply(inertia_, step_, work_);
     residual_vector_ -= work_;
@@ -293,15 +293,16 @@ void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, int it
 }
 
 template <class Scalar>
-double ImplicitSolver<Scalar>::left_over() const {
+double ImplicitSolver<Scalar>::left_over() {
   double sum = sum_kernel<Scalar>().squares(unbalanced_.data(), unbalanced_.size());
   for (const int i : held_) {
     const Vector3<Scalar> force = at_node(unbalanced_, i);
     sum += static_cast<double>((force + at_node(holding_forces_, i)).squaredNorm()) -
            static_cast<double>(force.squaredNorm());
   }
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    sum += static_cast<double>(unbalanced_of(static_cast<int>(b)).template head<3>().squaredNorm());
+  find_unbalanced(&Body::unbalanced);
+  for (const Body& body : bodies_) {
+    sum += static_cast<double>(body.unbalanced.template head<3>().squaredNorm());
   }
   return std::sqrt(std::max(0.0, sum));
 }

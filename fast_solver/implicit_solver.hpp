@@ -124,6 +124,8 @@ class ImplicitSolver {
     Floats6 step, residual, direction, direction_product;
     Floats6 correction, correction_product, coarse_product;
     Floats6 none = Floats6::Zero();
+    Floats6 unbalanced;
+    bool is_linked = false;  ///< any node, in the present round
   };
 
   /// [m] of the last linear system.
@@ -143,12 +145,17 @@ class ImplicitSolver {
   [[nodiscard]] static Vector3<float> motion_of(const Link& link, const Floats6& motion);
   [[nodiscard]] Vector3<Scalar> motion_with(int body, const Vector3<Scalar>& arm) const;
   [[nodiscard]] Vector3<Scalar> turned(int body, const Vector3<Scalar>& arm) const;
+  /// With the body's motion.
+  [[nodiscard]] Vector3<Scalar> place_of(const LedNode<Scalar>& led) const;
   /// Adds each linked node's part of a motion of its body to its row, or the rows of linked nodes to the force on the body.
   void add_motions(Floats6 Body::*motion, Floats& displacements) const;
   void gather(const Floats& forces, Floats6 Body::*sum);
+  void gather_of(int body, const Floats& forces, Floats6& sum) const;
+  static void add_force(const Link& link, const Floats& forces, Floats6& sum);
+  void release_bodies();
   void factorise_bodies();
-  [[nodiscard]] Floats6 unbalanced_of(int body) const;
-  [[nodiscard]] double work_of_bodies() const;
+  void find_unbalanced(Floats6 Body::*result);
+  [[nodiscard]] double work_of_bodies();
   void multiply(const Floats& displacements, Floats6 Body::*motion, Floats& product,
                 Floats6 Body::*body_product);
   void precondition();
@@ -165,11 +172,11 @@ class ImplicitSolver {
   bool go_downhill(const StepProblem<Scalar>& problem, int iterations);
   void hold_back(double work_before);
   void move_bodies(Scalar share);
-  /// Of the forces that are left with the step, but for nodes with a hold [J].
+  /// Of the forces that are left with the step, at nodes with a hold [J].
   [[nodiscard]] double work_of_held() const;
   void find_holding_forces();
   /// Norm of the forces that nothing balances [N].
-  [[nodiscard]] double left_over() const;
+  [[nodiscard]] double left_over();
   void balance();
   void find_remainders();
   bool clamp(const StepProblem<Scalar>& problem);
@@ -186,8 +193,9 @@ class ImplicitSolver {
   std::vector<int> held_;  ///< nodes with a hold
   std::vector<Link> links_;
   std::vector<Body> bodies_;
-  VectorX<float> inertia_;   ///< m / h'^2 [N/m]; 0 for pinned nodes; filled up with zeros
-  VectorX<Scalar> weights_;  ///< the same in Scalar
+  std::vector<int> linked_blocks_;  ///< of nodes
+  VectorX<float> inertia_;          ///< m / h'^2 [N/m]; 0 for pinned nodes; filled up with zeros
+  VectorX<Scalar> weights_;         ///< the same in Scalar
   // Of the present problem [m].
   Nodes targets_;
   Nodes starts_;

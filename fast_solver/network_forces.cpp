@@ -324,6 +324,16 @@ void NetworkForces<Scalar>::multiply(const VectorX<float>& inertia,
   product.bottomRows(product.rows() - num_nodes()).setZero();
 }
 
+template <class Scalar>
+void NetworkForces<Scalar>::multiply(const std::vector<int>& blocks, const VectorX<float>& inertia,
+                                     const NodeArrays<float>& displacements,
+                                     NodeArrays<float>& product) const {
+  for (const int block : blocks) {
+    network_kernel<Scalar>().multiply(view(), block, block + 1, inertia.data(),
+                                      displacements.data(), product.data());
+  }
+}
+
 template class NetworkForces<float>;
 template class NetworkForces<double>;
 

@@ -53,6 +53,10 @@ class NetworkForces {
   void multiply(const VectorX<float>& inertia, const NodeArrays<float>& displacements,
                 NodeArrays<float>& product) const;
 
+  /// The same at the nodes of some blocks of kNodeBlock only.
+  void multiply(const std::vector<int>& blocks, const VectorX<float>& inertia,
+                const NodeArrays<float>& displacements, NodeArrays<float>& product) const;
+
   /// The 3 x 3 blocks of the diagonal of that stiffness [N/m].
   [[nodiscard]] const BlockArrays& diagonal_blocks() const { return diagonal_; }
 

@@ -1,5 +1,9 @@
 #include <weft/fast_solver/network_kernel.hpp>
 
+#ifdef WEFT_VECTOR_KERNELS
+#include <cpuid.h>
+#endif
+
 namespace weft::fast {
 
 #ifdef WEFT_VECTOR_KERNELS
@@ -25,11 +29,19 @@ constexpr int kVectorBytes = 16;
 #include "vector_kernel_body.inc"
 
 #ifdef WEFT_VECTOR_KERNELS
-bool has_avx512() {
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl");
+// Half precision goes with AVX2 in every processor, but not in every virtual machine; not all compilers know its name.
+bool has_halves() {
+  unsigned eax = 0;
+  unsigned ebx = 0;
+  unsigned ecx = 0;
+  unsigned edx = 0;
+  return __get_cpuid(1, &eax, &ebx, &ecx, &edx) != 0 && (ecx & bit_F16C) != 0;
 }
 bool has_avx2() {
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && has_halves();
+}
+bool has_avx512() {
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && has_avx2();
 }
 #endif
 

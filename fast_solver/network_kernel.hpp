@@ -98,7 +98,7 @@ struct VectorKernel {
 };
 
 /// The fastest that this processor runs. Same results in every call, but not those of another
-/// processor: AVX2 brings fused operations.
+/// processor: AVX2 brings fused operations, and each maker has its own estimate of a root.
 template <class Scalar>
 [[nodiscard]] const NetworkKernel<Scalar>& network_kernel();
 template <class Scalar>

@@ -9,11 +9,13 @@ namespace weft::fast {
 /// A rigid body that gives way to the nodes that touch it or hang on it.
 template <class Scalar>
 struct RigidInertia {
-  Scalar mass = 0;                                    ///< [kg], > 0
+  Vector3<Scalar> mass = Vector3<Scalar>::Zero();     ///< in each direction of the world [kg], > 0
   Matrix3<Scalar> inertia = Matrix3<Scalar>::Zero();  ///< about its centre, in the world [kg m^2]
   /// How it moves during the step if left alone: of its centre [m], about it [rad].
   Vector3<Scalar> motion = Vector3<Scalar>::Zero();
   Vector3<Scalar> turn = Vector3<Scalar>::Zero();
+  /// How far it is expected to give way [m, rad]: of an earlier solution that places start from.
+  Eigen::Matrix<Scalar, 6, 1> guess = Eigen::Matrix<Scalar, 6, 1>::Zero();
 };
 
 /// A node must stay in front of a plane at the end of a step, with Coulomb friction on it.

@@ -40,17 +40,15 @@ TEST(NodePrediction, MovesNodesAsBulletDoes) {
   MovedCloth ours;
   MovedCloth bullets;
   ASSERT_TRUE(is_plain(ours.body()));
-  Matrix3X<btScalar> velocities;
   const auto step = static_cast<btScalar>(kTimeStep);
   for (int k = 0; k < 5; ++k) {
-    predict_nodes(ours.body(), step, Matrix3X<btScalar>(3, 0), velocities);
+    predict_nodes(ours.body(), step, Matrix3X<btScalar>(3, 0));
     bullets.body().predictMotion(step);
     for (int i = 0; i < ours.body().m_nodes.size(); ++i) {
       const btSoftBody::Node& a = ours.body().m_nodes[i];
       const btSoftBody::Node& b = bullets.body().m_nodes[i];
       ASSERT_TRUE(is_equal(a.m_x, b.m_x) && is_equal(a.m_q, b.m_q)) << i;
       ASSERT_TRUE(is_equal(a.m_v, b.m_v) && is_equal(a.m_f, b.m_f)) << i;
-      ASSERT_EQ(velocities(1, i), b.m_v.y());
       ASSERT_TRUE(
           a.m_leaf->volume.Contain(btDbvtVolume::FromCR(a.m_x, static_cast<btScalar>(kMargin))))
           << i;
