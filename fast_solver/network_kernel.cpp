@@ -30,12 +30,16 @@ constexpr int kVectorBytes = 16;
 
 #ifdef WEFT_VECTOR_KERNELS
 // Half precision goes with AVX2 in every processor, but not in every virtual machine; not all compilers know its name.
-bool has_halves() {
+bool ask_for_halves() {
   unsigned eax = 0;
   unsigned ebx = 0;
   unsigned ecx = 0;
   unsigned edx = 0;
   return __get_cpuid(1, &eax, &ebx, &ecx, &edx) != 0 && (ecx & bit_F16C) != 0;
+}
+bool has_halves() {
+  static const bool has = ask_for_halves();  // a question that takes microseconds
+  return has;
 }
 bool has_avx2() {
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && has_halves();
