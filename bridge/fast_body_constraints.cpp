@@ -14,7 +14,7 @@ constexpr btScalar kNoTurn = 100;
 constexpr btScalar kNoWay = 1e4;
 
 /// Of the margin: how far out of a body that gives way a node is led in a step.
-constexpr btScalar kMostWayOut = 2;
+constexpr btScalar kMostWayOut = 1;
 
 /// With what Bullet makes of impulses: in the world, factors included [kg].
 Vector3<btScalar> mass_of(const btRigidBody& rigid) {
