@@ -310,11 +310,11 @@ void FastBody::leave_depths() {
   }
 }
 
-// A body that gives way is not meant: Bullet has moved it before, and moves it next by the impulse that it gets now. To put
-// nodes outside until then would draw out springs.
-void FastBody::stay_outside(btSoftBody& body) const {
+// The solution counts on a body that gives way at once. Bullet has moved it before, and moves it next by the impulse
+// that it gets now: until then nodes stand where it is, with the velocities of the solution.
+void FastBody::stay_outside(btSoftBody& body, bool of_movable) const {
   for (const RigidContact& contact : contacts_) {
-    if (movable(contact.object) != nullptr) continue;
+    if ((movable(contact.object) != nullptr) != of_movable) continue;
     btSoftBody::Node& node = body.m_nodes[contact.node];
     const btScalar gap = btDot(contact.normal, node.m_x) - contact.offset;
     if (gap < 0 && node.m_im > 0) node.m_x -= gap * contact.normal;
@@ -339,7 +339,7 @@ void FastBody::write_places(btSoftBody& body) {
 void FastBody::project_cloth_contacts(btSoftBody& body) {
   may_be_pushed_ = true;
   if (body.m_scontacts.size() > 0) btSoftBody::PSolve_SContacts(&body, 1, 0);
-  stay_outside(body);
+  stay_outside(body, false);
 }
 
 void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
@@ -370,6 +370,7 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
     places_.colwise() += origin_;
     places_.colwise() -= origin_;
   }
+  stay_outside(body, true);
   const bool met_something = !contacts_.empty() || meets_cloth;
   last_step_ = met_something || is_limited ? btScalar(0) : time_step;
 }

@@ -128,7 +128,7 @@ class FastBody {
   void give_impulses(btSoftBody& body, btScalar time_step);
   void keep_out_of_missed(btSoftBody& body, btScalar time_step);
   void leave_depths();
-  void stay_outside(btSoftBody& body) const;
+  void stay_outside(btSoftBody& body, bool of_movable) const;
   [[nodiscard]] bool gets_work_from_outside() const;
   /// True if velocities_ had to be slowed down.
   bool keep_energy(btScalar time_step);

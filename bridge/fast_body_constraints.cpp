@@ -13,9 +13,6 @@ constexpr btScalar kNoTurn = 100;
 /// Over the mass: that in a direction in which a body cannot be moved.
 constexpr btScalar kNoWay = 1e4;
 
-/// Of the margin: how far out of a body that gives way a node is led in a step.
-constexpr btScalar kMostWayOut = 1;
-
 /// With what Bullet makes of impulses: in the world, factors included [kg].
 Vector3<btScalar> mass_of(const btRigidBody& rigid) {
   const btScalar mass = 1 / rigid.getInvMass();
@@ -108,11 +105,6 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     plane.friction = body.m_cfg.kDF * contact.object->getFriction();
     if (const btRigidBody* const rigid = movable(contact.object)) {
       plane.body = number_of(*rigid, time_step, is_again);
-      // A node that is deep inside at the start, for the body has turned over it, is not thrown out in one step.
-      const btScalar depth =
-          plane.normal.dot(starts_.col(contact.node) + plane.motion) - plane.offset;
-      plane.offset +=
-          std::min(btScalar(0), depth + kMostWayOut * body.getCollisionShape()->getMargin());
       // Where the surface holds the node, which is predicted to be deep inside.
       const btVector3& place = body.m_nodes[contact.node].m_x;
       const btScalar gap = btDot(contact.normal, place) - contact.offset;

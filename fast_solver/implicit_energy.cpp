@@ -101,16 +101,11 @@ void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
     unmoved_.row(led.node) = place.transpose();
   }
   for (const PlaneContact<Scalar>& contact : problem.contacts) {
-    if (!is_free_[at(contact.node)]) continue;
-    Vector3<Scalar> with_body = Vector3<Scalar>::Zero();
-    if (contact.body >= 0) {
-      const Vector6& way = bodies_[at(contact.body)].unmoved;
-      with_body = way.template head<3>() + way.template tail<3>().cross(contact.arm);
-    } else if (holds_[at(contact.node)] == Hold::kFixed) {
+    if (!is_free_[at(contact.node)] || contact.body >= 0) continue;
+    if (holds_[at(contact.node)] == Hold::kFixed) {
       unmoved_.row(contact.node) = starts_.row(contact.node) + contact.motion.transpose();
     }
-    const Scalar gap =
-        contact.normal.dot(at_node(unmoved_, contact.node) - with_body) - contact.offset;
+    const Scalar gap = contact.normal.dot(at_node(unmoved_, contact.node)) - contact.offset;
     if (gap < 0) unmoved_.row(contact.node) -= gap * contact.normal.transpose();
   }
 }
