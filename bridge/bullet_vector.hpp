@@ -17,8 +17,8 @@ template <class Scalar = double>
 /// A vector (3, or an expression of that size) as Bullet's, rounded to its precision.
 template <class Derived>
 [[nodiscard]] btVector3 to_bullet(const Eigen::MatrixBase<Derived>& v) {
-  const Vector3<btScalar> rounded = v.template cast<btScalar>();
-  return {rounded[0], rounded[1], rounded[2]};
+  return {static_cast<btScalar>(v.coeff(0)), static_cast<btScalar>(v.coeff(1)),
+          static_cast<btScalar>(v.coeff(2))};
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -38,7 +38,7 @@ void ImplicitSolver<Scalar>::link(int node, int body, const Vector3<Scalar>& arm
 
 template <class Scalar>
 Vector3<float> ImplicitSolver<Scalar>::motion_of(const Link& link, const Floats6& motion) {
-  const Vector3<float> way = motion.template head<3>() + motion.template tail<3>().cross(link.arm);
+  Vector3<float> way = motion.template head<3>() + motion.template tail<3>().cross(link.arm);
   if (link.normal.isZero(0)) return way;
   return link.normal.dot(way) * link.normal;
 }
@@ -107,6 +107,7 @@ void ImplicitSolver<Scalar>::release_bodies() {
 // between two such nodes do not resist. Only at these nodes is anything moved or asked for.
 template <class Scalar>
 void ImplicitSolver<Scalar>::factorise_bodies() {
+  if (bodies_.empty()) return;
   correction_.setZero();
   for (Body& other : bodies_) other.correction.setZero();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
