@@ -47,8 +47,7 @@ Vector3<float> ImplicitSolver<Scalar>::motion_of(const Link& link, const Floats6
 template <class Scalar>
 Vector3<Scalar> ImplicitSolver<Scalar>::motion_with(int body, const Vector3<Scalar>& arm) const {
   if (body < 0) return Vector3<Scalar>::Zero();
-  const Vector6& motion = bodies_[at(body)].motion;
-  return motion.template head<3>() + motion.template tail<3>().cross(arm);
+  return motion_at(bodies_[at(body)].motion, arm);
 }
 
 // An arm that the body has turned: by more than its first order, or what hangs on a body that spins would be drawn out.

@@ -63,8 +63,7 @@ double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem, const 
     const Vector3<Scalar> friction = friction_.col(i).template cast<Scalar>();
     Vector3<Scalar> slip = at_node(places, i) - at_node(starts_, i) - contact.motion;
     if (contact.body >= 0) {
-      const Vector6& way = bodies_[at(contact.body)].*motion;
-      slip -= way.template head<3>() + way.template tail<3>().cross(contact.arm);
+      slip -= motion_at(bodies_[at(contact.body)].*motion, contact.arm);
     } else {
       sum -= static_cast<double>(friction.dot(contact.motion));
     }
@@ -94,10 +93,7 @@ void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
   }
   for (const LedNode<Scalar>& led : problem.led) {
     Vector3<Scalar> place = led.place;
-    if (led.body >= 0) {
-      const Vector6& way = bodies_[at(led.body)].unmoved;
-      place += way.template head<3>() + way.template tail<3>().cross(led.arm);
-    }
+    if (led.body >= 0) place += motion_at(bodies_[at(led.body)].unmoved, led.arm);
     unmoved_.row(led.node) = place.transpose();
   }
   for (const PlaneContact<Scalar>& contact : problem.contacts) {

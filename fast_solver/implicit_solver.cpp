@@ -17,8 +17,8 @@ constexpr float kSmoothing = 0.6F;
 
 /// What is wrong with a solution moves the rigid bodies that give way to it: rounds on top, and the share of the first
 /// unbalanced forces that may be left.
-constexpr int kTiedRounds = 1;
-constexpr double kTiedResidual = 0.02;
+constexpr int kLinkedRounds = 1;
+constexpr double kLinkedResidual = 0.02;
 
 /// An iteration that gains no more than this share of what the first of its round gained is the last of that round:
 /// with short steps inertia outweighs springs, and two are as good as four.
@@ -318,9 +318,9 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const Sol
   for (int round = 0; round < effort.rounds; ++round) {
     do_round(problem, iterations_of(problem, effort, round), round == 0);
   }
-  for (int extra = 0; !links_.empty() && extra < kTiedRounds; ++extra) {
+  for (int extra = 0; !links_.empty() && extra < kLinkedRounds; ++extra) {
     find_holding_forces();
-    if (left_over() <= kTiedResidual * first) break;
+    if (left_over() <= kLinkedResidual * first) break;
     do_round(problem, effort.iterations, false);
   }
   step_energy_ = 0.5 * sums.weighted_distance(weights_.data(), weights_.size(), targets_.data(),

@@ -78,7 +78,7 @@ class ImplicitSolver {
   [[nodiscard]] Vector3<Scalar> holding_force(int node) const {
     return at_node(holding_forces_, node);
   }
-  /// After solve(): what places would need to be on top, if they had more digits, 3 x n [m]; at most the
+  /// After solve(): ways, 3 x n [m] += what places would need to be on top, if they had more digits; at most the
   /// rounding of each. Of a slow motion in short steps it is a good part.
   void add_remainders(Matrix3XRef<Scalar> ways) const;
   /// After solve(): the contact of the problem that holds a node, or -1.
@@ -123,7 +123,7 @@ class ImplicitSolver {
     // Of conjugate gradients, as those of nodes.
     Floats6 step, residual, direction, direction_product;
     Floats6 correction, correction_product, coarse_product;
-    Floats6 none = Floats6::Zero();
+    Floats6 none = Floats6::Zero();  ///< the motion that goes with the global correction
     Floats6 unbalanced;
     bool is_linked = false;  ///< any node, in the present round
   };
@@ -143,12 +143,18 @@ class ImplicitSolver {
   void load_bodies(const StepProblem<Scalar>& problem);
   void link(int node, int body, const Vector3<Scalar>& arm, const Vector3<Scalar>& normal);
   [[nodiscard]] static Vector3<float> motion_of(const Link& link, const Floats6& motion);
+  /// Of what is at the end of an arm, to first order.
+  [[nodiscard]] static Vector3<Scalar> motion_at(const Vector6& motion,
+                                                 const Vector3<Scalar>& arm) {
+    return motion.template head<3>() + motion.template tail<3>().cross(arm);
+  }
   [[nodiscard]] Vector3<Scalar> motion_with(int body, const Vector3<Scalar>& arm) const;
   [[nodiscard]] Vector3<Scalar> turned(int body, const Vector3<Scalar>& arm) const;
   /// With the body's motion.
   [[nodiscard]] Vector3<Scalar> place_of(const LedNode<Scalar>& led) const;
-  /// Adds each linked node's part of a motion of its body to its row, or the rows of linked nodes to the force on the body.
+  /// Adds each linked node's part of a motion of its body to its row.
   void add_motions(Floats6 Body::*motion, Floats& displacements) const;
+  /// Adds the rows of linked nodes to the forces on their bodies: the transpose.
   void gather(const Floats& forces, Floats6 Body::*sum);
   void gather_of(int body, const Floats& forces, Floats6& sum) const;
   static void add_force(const Link& link, const Floats& forces, Floats6& sum);

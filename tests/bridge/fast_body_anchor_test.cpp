@@ -37,10 +37,16 @@ TEST(FastBody, HoldsABoxOnAnchors) {
         EXPECT_LT((anchor.m_node->m_x - place).length(), 0.1) << i << " " << k;
       }
     }
-    if (highest > 0.5) ++num_gains;
     EXPECT_FALSE(scene.solver().blow_up(scene.body()));
+    if (highest > 0.5) {
+      ++num_gains;
+      continue;
+    }
+    // What it may have fallen from its start by then is no more than 0.5 m.
+    EXPECT_LT(load.getLinearVelocity().length(), std::sqrt(2 * 9.81 * 0.5)) << k;
+    EXPECT_GT(load.getCenterOfMassPosition().y(), 0.5) << k;
   }
-  // It swings and is flung about, wrapped in the cloth: of 120 runs 7 gained energy at all.
+  // It swings and is flung about, wrapped in the cloth (docs/fast_solver.md, limits).
   EXPECT_LE(num_gains, 2);
 }
 
