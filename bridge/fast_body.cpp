@@ -374,11 +374,17 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
   last_step_ = met_something || is_limited ? btScalar(0) : time_step;
 }
 
+// More threads than parts would only wait.
+int FastBody::team_size() const {
+  return std::min(num_threads_, fast::NodeParts(static_cast<int>(masses_.size())).count());
+}
+
 void FastBody::solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort,
                      bool is_again) {
   read_constraints(body, time_step, is_again);
+  const fast::ThreadTeam::Scope scope(team_, team_size());
   solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, led_, inertias_},
-                 effort, places_);
+                 effort, places_, team_);
   remember_ways();
 }
 

@@ -15,6 +15,7 @@
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
 #include <weft/fast_solver/implicit_solver.hpp>
+#include <weft/fast_solver/thread_team.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -47,6 +48,9 @@ class FastBody {
   /// (flags), masses of all nodes [kg], the last of which are copies of the origins.
   void tear(const fast::SpringNetwork& springs, const std::vector<char>& is_changed,
             VectorX<double> masses, const std::vector<int>& origins);
+
+  /// That may work on this body at a time, with the one that calls.
+  void set_num_threads(int num_threads) { num_threads_ = num_threads; }
 
   /// A body that sleeps is not to be stepped: only these are called.
   [[nodiscard]] bool is_asleep() const { return sleep_.is_asleep(); }
@@ -110,6 +114,7 @@ class FastBody {
 
  private:
   void solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort, bool is_again);
+  [[nodiscard]] int team_size() const;
   void prepare_solver(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool has_pins_of_solver(const btSoftBody& body) const;
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
@@ -146,6 +151,8 @@ class FastBody {
   Matrix3X<btScalar> weights_;  ///< masses, each thrice [kg]; 0 for pins
   btScalar solver_step_ = 0;    ///< [s] of the steps that solver_ was made for
 
+  fast::ThreadTeam team_;
+  int num_threads_ = 1;
   BodySleep sleep_;
   Vector3<btScalar> origin_ = Vector3<btScalar>::Zero();  ///< that places are counted from [m]
   // Of the present step, 3 x n.

@@ -4,14 +4,17 @@
 #include <utility>
 
 #include <weft/fast_solver/minimum_degree.hpp>
+#include <weft/fast_solver/node_parts.hpp>
 
 namespace weft::fast {
 namespace {
 
-/// Coarse unknowns up to which no coarser ones are looked for: so many, or this share of all. Their factor is
-/// read in a fraction of the time that the other parts of an iteration take, and every further
-/// level leaves out more than one smoothing can do.
-constexpr int kFewEnough = 8000;
+/// Unknowns up to which the inverse takes their factor's place.
+constexpr int kMostDense = 600;
+/// Coarse unknowns up to which no coarser ones are looked for: so many, or this share of all. Every further level leaves
+/// out more than one smoothing can do, but so few are solved for in a fraction of the time that the other parts of an
+/// iteration take.
+constexpr int kFewEnough = kMostDense;
 constexpr double kSmallShare = 0.05;
 /// The next coarser ones must be fewer by this to be worth it.
 constexpr double kLeastGain = 0.7;
@@ -69,6 +72,11 @@ bool CorrectionMaker::advance() {
       break;
     case Part::kFactor:
       result_.factor_ = SparseCholesky(matrix_, std::move(elimination_));
+      part_ = matrix_.size() <= kMostDense ? Part::kInverse : Part::kSums;
+      break;
+    case Part::kInverse:
+      result_.inverse_ = DenseInverse(result_.factor_);
+      result_.factor_ = SparseCholesky();
       part_ = Part::kSums;
       break;
     case Part::kSums:
@@ -83,15 +91,18 @@ bool CorrectionMaker::advance() {
 
 void CorrectionMaker::make_sums() {
   const int num_coarse = matrix_.size();
+  const int num_filled = std::max(num_coarse, result_.inverse_.filled_size());
+  result_.size_ = num_coarse;
   result_.right_.setZero(3, num_coarse);
   result_.solution_.setZero(3, num_coarse);
-  result_.coarse_.setZero(4, num_coarse);
-  result_.coarse_sums_.setZero(4, num_coarse);
+  result_.coarse_.setZero(4, num_filled);
+  result_.coarse_sums_.setZero(4, num_filled);
   result_.num_nodes_ = num_nodes_;
+  result_.num_nodes_made_for_ = num_nodes_;
+  result_.parts_ = NodeParts(num_nodes_);
   result_.nodes_.setZero(4, fill_up(num_nodes_));
-  using Row = std::vector<std::pair<int, float>>;
-  std::vector<Row> of_coarse(at(num_coarse));
-  std::vector<Row> of_node(at(num_nodes_));
+  std::vector<WeightedSums::Row> of_coarse(at(num_coarse));
+  std::vector<WeightedSums::Row> of_node(at(num_nodes_));
   for (int u = 0; u < static_cast<int>(names_.size()); ++u) {
     const int node = names_[at(u)];
     for (int e = total_.starts[at(u)]; e < total_.starts[at(u) + 1]; ++e) {
@@ -100,8 +111,15 @@ void CorrectionMaker::make_sums() {
       of_coarse[at(total_.columns[at(e)])].emplace_back(node, weight);
     }
   }
-  result_.refine_ = GlobalCorrection::make_sums(of_node);
-  result_.coarsen_ = GlobalCorrection::make_sums(of_coarse);
+  const int num_parts = result_.parts_.count();
+  std::vector<int> node_ends;
+  std::vector<int> coarse_ends;
+  for (int part = 0; part < num_parts; ++part) {
+    node_ends.push_back(std::min(result_.parts_[part].end, num_nodes_));
+    coarse_ends.push_back(num_coarse * (part + 1) / num_parts);
+  }
+  result_.refine_ = WeightedSums(of_node, node_ends);
+  result_.coarsen_ = WeightedSums(of_coarse, coarse_ends);
 }
 
 GlobalCorrection CorrectionMaker::take() {

@@ -29,7 +29,7 @@ class CorrectionMaker {
   [[nodiscard]] GlobalCorrection take();
 
  private:
-  enum class Part { kInterpolation, kRows, kElimination, kFactor, kSums, kDone };
+  enum class Part { kInterpolation, kRows, kElimination, kFactor, kInverse, kSums, kDone };
   void begin_level();
   void end_level();
   void make_sums();

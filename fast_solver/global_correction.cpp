@@ -1,23 +1,9 @@
 #include <weft/fast_solver/global_correction.hpp>
 
-#include <algorithm>
-#include <utility>
-
 #include <weft/fast_solver/correction_maker.hpp>
 #include <weft/fast_solver/network_kernel.hpp>
-#include <weft/fast_solver/node_arrays.hpp>
 
 namespace weft::fast {
-namespace {
-
-/// Terms of a sum beyond so many times the mean stand apart.
-constexpr std::size_t kLongSum = 3;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
 
 GlobalCorrection::GlobalCorrection(const SymmetricMatrix& matrix, const std::vector<int>& names,
                                    int num_nodes) {
@@ -28,87 +14,52 @@ GlobalCorrection::GlobalCorrection(const SymmetricMatrix& matrix, const std::vec
 }
 
 void GlobalCorrection::add_copies(const std::vector<int>& origins) {
-  int node = num_nodes_;
-  const auto take_part = [&](int coarse, float weight) {
-    if (weight != 0) coarsen_.rest.push_back({coarse, node, weight});
-  };
   for (const int origin : origins) {
-    for (int k = 0; k < refine_.num_terms; ++k) {
-      const std::size_t term = at(origin * refine_.num_terms + k);
-      const int coarse = refine_.columns[term];
-      const float weight = refine_.weights[term];
-      refine_.columns.push_back(coarse);
-      refine_.weights.push_back(weight);
-      take_part(coarse, weight);
-    }
-    for (std::size_t t = 0, end = refine_.rest.size(); t < end; ++t) {
-      const Sums::Term term = refine_.rest[t];
-      if (term.sum != origin) continue;
-      refine_.rest.push_back({node, term.column, term.weight});
-      take_part(term.column, term.weight);
-    }
-    ++node;
+    const int node = num_nodes_++;
+    refine_.for_each_term(origin, [&](int coarse, float weight) {
+      refine_.add_term(node, coarse, weight);
+      coarsen_.add_term(coarse, node, weight);
+    });
   }
-  num_nodes_ = node;
-  nodes_.setZero(4, fill_up(node));
-}
-
-GlobalCorrection::Sums GlobalCorrection::make_sums(
-    const std::vector<std::vector<std::pair<int, float>>>& rows) {
-  Sums sums;
-  std::size_t longest = 0;
-  std::size_t all = 0;
-  for (const auto& row : rows) {
-    longest = std::max(longest, row.size());
-    all += row.size();
-  }
-  const std::size_t common = kLongSum * all / std::max<std::size_t>(rows.size(), 1) + 1;
-  sums.num_terms = static_cast<int>(std::min(longest, common));
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const auto& row = rows[r];
-    for (std::size_t k = 0; k < std::max(row.size(), at(sums.num_terms)); ++k) {
-      const auto [column, weight] = k < row.size() ? row[k] : std::pair{0, 0.0F};
-      if (k >= at(sums.num_terms)) {
-        sums.rest.push_back({static_cast<int>(r), column, weight});
-        continue;
-      }
-      sums.columns.push_back(column);
-      sums.weights.push_back(weight);
-    }
-  }
-  return sums;
+  nodes_.setZero(4, fill_up(num_nodes_));
 }
 
 std::size_t GlobalCorrection::num_bytes() const {
-  const std::size_t num_weights = coarsen_.weights.size() + refine_.weights.size();
-  return factor_.num_bytes() + num_weights * (sizeof(int) + sizeof(float));
+  return factor_.num_bytes() + inverse_.num_bytes() + coarsen_.num_bytes() + refine_.num_bytes();
 }
 
-void GlobalCorrection::add_up(const Sums& sums, const Fours& values, Fours& results) {
-  const int* columns = sums.columns.data();
-  const float* weights = sums.weights.data();
-  const auto num_sums = sums.num_terms > 0
-                            ? static_cast<Eigen::Index>(sums.weights.size()) / sums.num_terms
-                            : Eigen::Index{0};
-  for (Eigen::Index row = 0; row < num_sums; ++row) {
-    Eigen::Vector4f sum = Eigen::Vector4f::Zero();
-    for (int k = 0; k < sums.num_terms; ++k) sum += *weights++ * values.col(*columns++);
-    results.col(row) = sum;
-  }
-  for (const Sums::Term& term : sums.rest) {
-    results.col(term.sum) += term.weight * values.col(term.column);
-  }
+void GlobalCorrection::set_residual(NodeRange nodes, const NodeArrays<float>& a,
+                                    const NodeArrays<float>& b) {
+  vector_kernel().to_fours(a.data(), b.data(), static_cast<int>(a.rows()), nodes, nodes_.data());
 }
 
-// Four numbers for a node, of which the last is not used: what a processor loads and adds at once.
-void GlobalCorrection::solve(const NodeArrays<float>& residual, NodeArrays<float>& correction) {
-  vector_kernel().to_fours(residual.data(), residual.rows(), nodes_.data());
-  add_up(coarsen_, nodes_, coarse_sums_);
+void GlobalCorrection::solve(ThreadTeam& team) {
+  team.run(coarsen_.num_parts(), [&](int part) { coarsen_.multiply(part, nodes_, coarse_sums_); });
+  coarsen_.add_late_terms(nodes_, coarse_sums_);
+  if (inverse_.size() > 0) {
+    inverse_.multiply(coarse_sums_, coarse_, team);
+    return;
+  }
   right_ = coarse_sums_.topRows<3>();
-  factor_.solve(right_, solution_);
+  factor_.solve(right_, solution_, team);
   coarse_.topRows<3>() = solution_;
-  add_up(refine_, coarse_, nodes_);
-  vector_kernel().from_fours(nodes_.data(), correction.rows(), correction.data());
+}
+
+// The last part has the copies, which come behind all nodes.
+NodeRange GlobalCorrection::nodes_of(int part) const {
+  NodeRange nodes = parts_[part];
+  if (part == parts_.count() - 1) nodes.end = fill_up(num_nodes_);
+  return nodes;
+}
+
+void GlobalCorrection::interpolate(int part, NodeArrays<float>& correction) {
+  refine_.multiply(part, coarse_, nodes_);
+  if (part == parts_.count() - 1) {
+    nodes_.middleCols(num_nodes_made_for_, num_nodes_ - num_nodes_made_for_).setZero();
+    refine_.add_late_terms(coarse_, nodes_);
+  }
+  vector_kernel().from_fours(nodes_.data(), static_cast<int>(correction.rows()), nodes_of(part),
+                             correction.data());
 }
 
 }  // namespace weft::fast

@@ -1,11 +1,14 @@
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include <weft/fast_solver/coarse_nodes.hpp>
+#include <weft/fast_solver/dense_inverse.hpp>
 #include <weft/fast_solver/node_arrays.hpp>
+#include <weft/fast_solver/node_parts.hpp>
 #include <weft/fast_solver/sparse_cholesky.hpp>
+#include <weft/fast_solver/thread_team.hpp>
+#include <weft/fast_solver/weighted_sums.hpp>
 
 namespace weft::fast {
 
@@ -25,43 +28,38 @@ class GlobalCorrection {
   void add_copies(const std::vector<int>& origins);
 
   /// Coarse unknowns.
-  [[nodiscard]] int size() const { return factor_.size(); }
-  /// Memory that solve() reads [bytes].
+  [[nodiscard]] int size() const { return size_; }
+  /// Memory that a correction reads [bytes].
   [[nodiscard]] std::size_t num_bytes() const;
 
-  /// correction = P (P^T A P)^-1 P^T residual; 0 at nodes that are not unknowns.
-  void solve(const NodeArrays<float>& residual, NodeArrays<float>& correction);
+  // correction = P (P^T A P)^-1 P^T residual, 0 at nodes that are not unknowns, in three parts:
+
+  /// residual = a - b, of some nodes. Several calls may run at once.
+  void set_residual(NodeRange nodes, const NodeArrays<float>& a, const NodeArrays<float>& b);
+  /// For coarse unknowns, after the residual of all nodes.
+  void solve(ThreadTeam& team);
+  /// From coarse unknowns to the nodes of each of num_parts() parts. Several calls may run at once.
+  void interpolate(int part, NodeArrays<float>& correction);
+  [[nodiscard]] int num_parts() const { return parts_.count(); }
+  [[nodiscard]] NodeRange nodes_of(int part) const;
 
  private:
-  using Fours = Eigen::Matrix<float, 4, Eigen::Dynamic>;
-  /// Weighted sums, all of equally many terms, so that the processor foresees where each ends. A few may be much
-  /// longer, as that of a node to which all others are tied: the rest of their terms stands apart.
-  struct Sums {
-    struct Term {
-      int sum;
-      int column;
-      float weight;
-    };
-    int num_terms = 0;
-    std::vector<int> columns;  ///< num_terms for each sum
-    std::vector<float> weights;
-    std::vector<Term> rest;
-  };
-  [[nodiscard]] static Sums make_sums(const std::vector<std::vector<std::pair<int, float>>>& rows);
-  static void add_up(const Sums& sums, const Fours& values, Fours& results);
-
   friend class CorrectionMaker;
   GlobalCorrection() = default;
 
-  Sums coarsen_;  ///< P^T: of each coarse unknown, nodes
-  Sums refine_;   ///< P: of each node, coarse unknowns
-  SparseCholesky factor_;
+  int size_ = 0;
   int num_nodes_ = 0;
-  Matrix3X<float> right_;
+  int num_nodes_made_for_ = 0;  ///< without copies
+  NodeParts parts_;
+  WeightedSums coarsen_;   ///< P^T: of each coarse unknown, nodes
+  WeightedSums refine_;    ///< P: of each node, coarse unknowns
+  DenseInverse inverse_;   ///< of few unknowns
+  SparseCholesky factor_;  ///< of more
+  Matrix3X<float> right_;  ///< for the factor
   Matrix3X<float> solution_;
-  Fours nodes_;  ///< filled up
-  Fours coarse_;
-  Fours coarse_sums_;
+  Fours nodes_;        ///< filled up
+  Fours coarse_;       ///< filled up
+  Fours coarse_sums_;  ///< filled up
 };
 
 }  // namespace weft::fast

@@ -167,16 +167,6 @@ double ImplicitSolver<Scalar>::work_of_bodies() {
   return work;
 }
 
-// Rows of linked nodes hold their own motion across the normal, if any, and get that of the body.
-template <class Scalar>
-void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body::*motion,
-                                      Floats& product, Floats6 Body::*body_product) {
-  forces_.multiply(inertia_, displacements, product);
-  for (Body& body : bodies_) body.*body_product = body.inertia * (body.*motion);
-  gather(product, body_product);
-  project(product);
-}
-
 template class ImplicitSolver<float>;
 template class ImplicitSolver<double>;
 

@@ -32,9 +32,7 @@ std::size_t at(int i) {
 // straight line between the two is zero.
 template <class Scalar>
 void ImplicitSolver<Scalar>::hold_back(double work_before) {
-  const double work_after =
-      sum_kernel<Scalar>().dot(unbalanced_.data(), step_.data(), step_.size()) - work_of_held() +
-      work_of_bodies();
+  const double work_after = work_left_ - work_of_held() + work_of_bodies();
   if (!(work_before > 0 && work_after < -0.5 * work_before)) return;
   const double share = std::max(kSmallestShare, work_before / (work_before - work_after));
   const auto excess = static_cast<Scalar>(1.0 - share);
@@ -49,9 +47,12 @@ void ImplicitSolver<Scalar>::hold_back(double work_before) {
 template <class Scalar>
 double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem, const Nodes& places,
                                       Vector6 Body::*motion) {
-  double sum = forces_.potential(places);
-  sum += 0.5 * sum_kernel<Scalar>().weighted_distance(weights_.data(), weights_.size(),
-                                                      places.data(), targets_.data());
+  const auto stride = static_cast<int>(weights_.size());
+  double sum = sum_over_parts([&](NodeRange nodes) {
+    return forces_.potential(nodes, places) +
+           0.5 * sum_kernel<Scalar>().weighted_distance(weights_.data(), stride, nodes,
+                                                        places.data(), targets_.data());
+  });
   for (const Body& body : bodies_) {
     const Vector6& way = body.*motion;
     sum += 0.5 * static_cast<double>(way.dot(body.inertia.template cast<Scalar>() * way));
@@ -75,10 +76,16 @@ double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem, const 
 // A contact may have stretched springs; without one, more motion than without springs, or forces that are left over
 // and could do as much work as the step's motion is worth: springs may have pulled, or the solution may be off.
 template <class Scalar>
-bool ImplicitSolver<Scalar>::is_suspicious(const StepProblem<Scalar>& problem) const {
+bool ImplicitSolver<Scalar>::is_suspicious(const StepProblem<Scalar>& problem) {
   if (!held_.empty()) return true;
-  const auto [moved, left] = sum_kernel<Scalar>().motion(
-      masses_.data(), masses_.size(), places_.data(), starts_.data(), unbalanced_.data());
+  const auto stride = static_cast<int>(masses_.size());
+  const SumKernel<Scalar>& sums = sum_kernel<Scalar>();
+  const double moved = sum_over_parts([&](NodeRange nodes) {
+    return sums.weighted_distance(masses_.data(), stride, nodes, places_.data(), starts_.data());
+  });
+  const double left = sum_over_parts([&](NodeRange nodes) {
+    return sums.possible_work(stride, nodes, places_.data(), starts_.data(), unbalanced_.data());
+  });
   const auto h = static_cast<double>(problem.inertia_step);
   return !(moved <= 2 * h * h * kMostMotion * step_energy_ && left <= kMostWork * step_energy_);
 }

@@ -70,13 +70,14 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bo
     if (candidate.body >= 0) {
       link(i, candidate.body, candidate.arm, sticks ? Vector3<Scalar>::Zero().eval() : normal);
     }
-    held_.push_back(i);
   }
   for (const LedNode<Scalar>& led : problem.led) {
-    held_.push_back(led.node);
     friction_.col(led.node).setZero();
     normals_.col(led.node).setZero();
     if (led.body >= 0) link(led.node, led.body, turned(led.body, led.arm), Vector3<Scalar>::Zero());
+  }
+  for (int i = 0; i < num_nodes(); ++i) {
+    if (holds_[at(i)] != Hold::kFree) held_.push_back(i);
   }
   release_bodies();
 }
@@ -94,9 +95,9 @@ Scalar ImplicitSolver<Scalar>::first_push(int node, const Vector3<Scalar>& norma
 }
 
 template <class Scalar>
-void ImplicitSolver<Scalar>::project(Floats& vectors) const {
-  for (const int i : pinned_) vectors.row(i).setZero();
-  for (const int i : held_) {
+void ImplicitSolver<Scalar>::project(NodeRange nodes, Floats& vectors) const {
+  for (const int i : in_range(pinned_, nodes)) vectors.row(i).setZero();
+  for (const int i : in_range(held_, nodes)) {
     if (holds_[at(i)] == Hold::kFixed) {
       vectors.row(i).setZero();
     } else if (holds_[at(i)] == Hold::kOnPlane) {

@@ -66,7 +66,8 @@ GlobalCorrection correction_of(const SpringNetwork& network, const VectorX<doubl
 template <class Scalar>
 ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const VectorX<double>& masses,
                                        const std::vector<bool>& is_free, double inertia_step)
-    : forces_(network, static_cast<int>(masses.size())),
+    : parts_(static_cast<int>(masses.size())),
+      forces_(network, static_cast<int>(masses.size())),
       global_(correction_of(network, masses, is_free, inertia_step)),
       inertia_step_(inertia_step) {
   set_nodes(masses, is_free);
@@ -77,6 +78,7 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
                                        const std::vector<bool>& is_free) {
   is_free_ = is_free;
   const Eigen::Index n = masses.size();
+  parts_ = NodeParts(static_cast<int>(n));
   pinned_.clear();
   for (int i = 0; i < static_cast<int>(n); ++i) {
     if (!is_free_[at(i)]) pinned_.push_back(i);
@@ -94,6 +96,7 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
   masses_.setZero(n_filled);
   masses_.head(n) = masses.cast<Scalar>();
   inertia_.setZero(n_filled);
+  weights_.setZero(n_filled);
   if (blocks_.rows() == n_filled) return;  // the others keep no number from one step to the next
   blocks_.setZero(n_filled, 6);
   for (Floats* vectors : {&step_, &residual_vector_, &direction_, &direction_product_, &correction_,
@@ -133,15 +136,21 @@ void ImplicitSolver<Scalar>::renew(const ChangedNetwork& network, const VectorX<
 template <class Scalar>
 void ImplicitSolver<Scalar>::load(const StepProblem<Scalar>& problem,
                                   ConstMatrix3XRef<Scalar> guess) {
-  to_arrays<Scalar>(problem.targets, targets_);
-  to_arrays<Scalar>(problem.starts, starts_);
-  to_arrays<Scalar>(guess, places_);
-  inertia_ = (masses_ / (problem.inertia_step * problem.inertia_step)).template cast<float>();
-  for (const int node : pinned_) {
-    inertia_[node] = 0;
-    places_.row(node) = targets_.row(node);
-  }
-  weights_ = inertia_.template cast<Scalar>();
+  forces_.set_time_step(problem.time_step);
+  const Scalar squared_step = problem.inertia_step * problem.inertia_step;
+  for_each_part([&](NodeRange nodes) {
+    to_arrays<Scalar>(problem.targets, nodes, targets_);
+    to_arrays<Scalar>(problem.starts, nodes, starts_);
+    to_arrays<Scalar>(guess, nodes, places_);
+    for (int i = nodes.begin; i < nodes.end; ++i) {
+      inertia_[i] = static_cast<float>(masses_[i] / squared_step);
+    }
+    for (const int node : in_range(pinned_, nodes)) {
+      inertia_[node] = 0;
+      places_.row(node) = targets_.row(node);
+    }
+    for (int i = nodes.begin; i < nodes.end; ++i) weights_[i] = static_cast<Scalar>(inertia_[i]);
+  });
   for (const LedNode<Scalar>& led : problem.led) {
     places_.row(led.node) = led.place.transpose();
   }
@@ -149,51 +158,112 @@ void ImplicitSolver<Scalar>::load(const StepProblem<Scalar>& problem,
   for (const LedNode<Scalar>& led : problem.led) {
     if (led.body >= 0) places_.row(led.node) = place_of(led).transpose();
   }
-  forces_.begin_step(starts_, problem.time_step);
+  const auto stride = static_cast<int>(weights_.size());
+  step_energy_ = 0.5 * sum_over_parts([&](NodeRange nodes) {
+                   forces_.begin_step(nodes, starts_);
+                   return sum_kernel<Scalar>().weighted_distance(weights_.data(), stride, nodes,
+                                                                 targets_.data(), starts_.data());
+                 });
 }
 
+// Forces at the present places, and what they would do along the last step.
 template <class Scalar>
-void ImplicitSolver<Scalar>::evaluate() {
-  for (int axis = 0; axis < 3; ++axis) {
-    unbalanced_.col(axis) = weights_.cwiseProduct(targets_.col(axis) - places_.col(axis));
-  }
-  forces_.add_forces(places_, unbalanced_);
-  for (const int node : pinned_) unbalanced_.row(node).setZero();
+void ImplicitSolver<Scalar>::evaluate(bool linearises) {
+  const auto stride = static_cast<int>(weights_.size());
+  work_left_ = sum_over_parts([&](NodeRange nodes) {
+    const int count = nodes.end - nodes.begin;
+    for (int axis = 0; axis < 3; ++axis) {
+      unbalanced_.col(axis).segment(nodes.begin, count) =
+          weights_.segment(nodes.begin, count)
+              .cwiseProduct(targets_.col(axis).segment(nodes.begin, count) -
+                            places_.col(axis).segment(nodes.begin, count));
+    }
+    forces_.add_forces(nodes, places_, unbalanced_, linearises);
+    for (const int node : in_range(pinned_, nodes)) unbalanced_.row(node).setZero();
+    return sum_kernel<Scalar>().dot(unbalanced_.data(), step_.data(), stride, nodes);
+  });
 }
 
+// The body's own blocks of the diagonal, which say most about motion across the sheet.
 template <class Scalar>
-void ImplicitSolver<Scalar>::invert_blocks() {
-  blocks_ = forces_.diagonal_blocks();
-  vector_kernel().invert_blocks(inertia_.data(), kSmoothing, static_cast<int>(blocks_.rows()),
-                                blocks_.data());
+void ImplicitSolver<Scalar>::smooth(NodeRange nodes) {
+  const auto stride = static_cast<int>(blocks_.rows());
+  vector_kernel().multiply_blocks(blocks_.data(), stride, nodes, residual_vector_.data(),
+                                  correction_.data());
+  project(nodes, correction_);
 }
 
+// Rows of linked nodes hold their own motion across the normal, if any, and get that of the body.
 template <class Scalar>
-void ImplicitSolver<Scalar>::smooth(const Floats& residual, Floats& correction) const {
-  const auto n = static_cast<int>(residual.rows());
-  vector_kernel().multiply_blocks(blocks_.data(), n, residual.data(), correction.data());
-  project(correction);
+template <class Next>
+void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body::*motion,
+                                      Floats& product, Floats6 Body::*body_product,
+                                      const Next& and_then) {
+  const bool is_linked = !links_.empty();
+  const auto finish = [&](NodeRange nodes, int part) {
+    project(nodes, product);
+    and_then(nodes, part);
+  };
+  team_->run(parts_.count(), [&](int part) {
+    forces_.multiply(parts_[part], inertia_, displacements, product);
+    if (!is_linked) finish(parts_[part], part);
+  });
+  for (Body& body : bodies_) body.*body_product = body.inertia * (body.*motion);
+  if (!is_linked) return;
+  gather(product, body_product);
+  team_->run(parts_.count(), [&](int part) { finish(parts_[part], part); });
 }
 
-// correction + coarse = P residual, each with its product with the stiffness.
+// correction_ = P residual, with its product with the stiffness.
 template <class Scalar>
-void ImplicitSolver<Scalar>::precondition() {
-  smooth(residual_vector_, correction_);
+typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition() {
   for (Body& body : bodies_) body.correction = body.stiffness.solve(body.residual);
   add_motions(&Body::correction, correction_);
-  multiply(correction_, &Body::correction, correction_product_, &Body::correction_product);
-  vector_kernel().subtract(residual_vector_.data(), correction_product_.data(), work_.size(),
-                           work_.data());
-  global_.solve(work_, coarse_);
-  project(coarse_);
-  multiply(coarse_, &Body::none, coarse_product_, &Body::coarse_product);
+  multiply(correction_, &Body::correction, correction_product_, &Body::correction_product,
+           [&](NodeRange nodes, int) {
+             global_.set_residual(nodes, residual_vector_, correction_product_);
+           });
+  global_.solve(*team_);
+  team_->run(global_.num_parts(), [&](int part) {
+    global_.interpolate(part, coarse_);
+    project(global_.nodes_of(part), coarse_);
+  });
+  std::array<VectorKernel::Products, ThreadTeam::kMostParts> of_part;
+  multiply(coarse_, &Body::none, coarse_product_, &Body::coarse_product,
+           [&](NodeRange nodes, int part) {
+             of_part[at(part)] = vector_kernel().add_correction(
+                 coarse_.data(), coarse_product_.data(), residual_vector_.data(),
+                 direction_product_.data(), static_cast<int>(coarse_.rows()), nodes,
+                 correction_.data(), correction_product_.data());
+           });
+  Overlaps sum{0, 0, 0};
+  for (int part = 0; part < parts_.count(); ++part) {
+    sum.by_residual += of_part[at(part)].by_residual;
+    sum.by_direction += of_part[at(part)].by_direction;
+    sum.by_product += of_part[at(part)].by_product;
+  }
+  for (Body& body : bodies_) {
+    body.correction_product += body.coarse_product;
+    sum.by_residual += body.correction.dot(body.residual);
+    sum.by_direction += body.correction.dot(body.direction_product);
+    sum.by_product += body.correction.dot(body.correction_product);
+  }
+  return sum;
 }
 
 // The right-hand side, and in step_ what holds demand of nodes before anything is solved for.
 template <class Scalar>
 void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
-  step_.setZero();
-  residual_vector_ = unbalanced_.template cast<float>();
+  for_each_part([&](NodeRange nodes) {
+    const int count = nodes.end - nodes.begin;
+    for (Floats* vectors : {&step_, &direction_, &direction_product_}) {
+      vectors->middleRows(nodes.begin, count).setZero();
+    }
+    residual_vector_.middleRows(nodes.begin, count) =
+        unbalanced_.middleRows(nodes.begin, count).template cast<float>();
+    vector_kernel().invert_blocks(inertia_.data(), kSmoothing, static_cast<int>(blocks_.rows()),
+                                  nodes, forces_.diagonal_blocks().data(), blocks_.data());
+  });
   bool moves_held = false;
   for (const int i : held_) {
     if (contact_of_[at(i)] < 0) continue;
@@ -217,26 +287,27 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
   }
   find_unbalanced(&Body::residual);
   if (moves_held) {
-    forces_.multiply(inertia_, step_, work_);
-    residual_vector_ -= work_;
+    for_each_part([&](NodeRange nodes) {
+      const int count = nodes.end - nodes.begin;
+      forces_.multiply(nodes, inertia_, step_, work_);
+      residual_vector_.middleRows(nodes.begin, count) -= work_.middleRows(nodes.begin, count);
+    });
     for (Body& body : bodies_) body.coarse_product.setZero();
     gather(work_, &Body::coarse_product);
     for (Body& body : bodies_) body.residual -= body.coarse_product;
   }
-  project(residual_vector_);
 }
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem, int iterations) {
-  invert_blocks();
   start_linear(problem);
   factorise_bodies();
+  for_each_part([&](NodeRange nodes) {
+    project(nodes, residual_vector_);
+    smooth(nodes);
+  });
   // Flexible conjugate gradients (Notay 2000): the preconditioner is not symmetric, for a second
   // smoothing costs more than it gains, so that a direction is made conjugate explicitly.
-  const VectorKernel& vectors = vector_kernel();
-  const long size = residual_vector_.size();
-  direction_.setZero();
-  direction_product_.setZero();
   for (Body& body : bodies_) {
     for (Floats6* vector : {&body.step, &body.direction, &body.direction_product})
       vector->setZero();
@@ -244,57 +315,65 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem, in
   float curvature = 1;
   float first_gain = 0;
   for (int k = 0; k < iterations; ++k) {
-    precondition();
-    auto [gain, overlap] = vectors.add_correction(
-        coarse_.data(), coarse_product_.data(), residual_vector_.data(), direction_product_.data(),
-        size, correction_.data(), correction_product_.data());
-    for (Body& body : bodies_) {
-      body.correction_product += body.coarse_product;
-      gain += body.correction.dot(body.residual);
-      overlap += body.correction.dot(body.direction_product);
-    }
+    const Overlaps overlaps = precondition();
+    // The residual has nothing of the last direction any more.
+    const float gain = overlaps.by_residual;
     if (!(gain > 0)) break;
-    const float share = overlap / curvature;
-    auto [new_curvature, descent] =
-        vectors.turn(correction_.data(), correction_product_.data(), residual_vector_.data(), share,
-                     size, direction_.data(), direction_product_.data());
+    const float share = overlaps.by_direction / curvature;
+    curvature = overlaps.by_product - share * overlaps.by_direction;
+    if (!(curvature > 0)) break;
+    const float length = gain / curvature;
+    if (k == 0) first_gain = gain;
+    const bool is_last = k + 1 == iterations || gain <= kLastGain * first_gain;
+    for_each_part([&](NodeRange nodes) {
+      vector_kernel().advance(correction_.data(), correction_product_.data(), share, length,
+                              static_cast<int>(step_.rows()), nodes, direction_.data(),
+                              direction_product_.data(), step_.data(), residual_vector_.data());
+      if (!is_last) smooth(nodes);
+    });
     for (Body& body : bodies_) {
       body.direction = body.correction - share * body.direction;
       body.direction_product = body.correction_product - share * body.direction_product;
-      new_curvature += body.direction.dot(body.direction_product);
-      descent += body.direction.dot(body.residual);
-    }
-    if (!(new_curvature > 0)) break;
-    curvature = new_curvature;
-    const float length = descent / curvature;
-    vectors.advance(direction_.data(), direction_product_.data(), length, size, step_.data(),
-                    residual_vector_.data());
-    for (Body& body : bodies_) {
       body.step += length * body.direction;
       body.residual -= length * body.direction_product;
     }
-    if (k == 0) first_gain = gain;
-    if (gain <= kLastGain * first_gain) break;
+    if (is_last) break;
   }
 }
 
 template <class Scalar>
+void ImplicitSolver<Scalar>::move() {
+  const auto stride = static_cast<int>(step_.rows());
+  work_done_ = sum_over_parts([&](NodeRange nodes) {
+    return sum_kernel<Scalar>().move(unbalanced_.data(), step_.data(), stride, nodes,
+                                     places_.data());
+  });
+  move_bodies(1);
+}
+
+template <class Scalar>
 void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, int iterations,
-                                      bool is_first) {
+                                      bool is_first, bool linearises) {
   decide_holds(problem, is_first);
   solve_linear(problem, iterations);
   const double of_others = work_of_bodies() - work_of_held();
-  const double work =
-      sum_kernel<Scalar>().move(unbalanced_.data(), step_.data(), step_.size(), places_.data());
-  move_bodies(1);
-  evaluate();
-  hold_back(work + of_others);
-  if (clamp(problem)) evaluate();
+  move();
+  evaluate(linearises);
+  hold_back(work_done_ + of_others);
+  if (clamp(problem)) evaluate(linearises);
+}
+
+template <class Scalar>
+double ImplicitSolver<Scalar>::unbalanced_squares() {
+  const auto stride = static_cast<int>(unbalanced_.rows());
+  return sum_over_parts([&](NodeRange nodes) {
+    return sum_kernel<Scalar>().squares(unbalanced_.data(), stride, nodes);
+  });
 }
 
 template <class Scalar>
 double ImplicitSolver<Scalar>::left_over() {
-  double sum = sum_kernel<Scalar>().squares(unbalanced_.data(), unbalanced_.size());
+  double sum = unbalanced_squares();
   for (const int i : held_) {
     const Vector3<Scalar> force = at_node(unbalanced_, i);
     sum += static_cast<double>((force + at_node(holding_forces_, i)).squaredNorm()) -
@@ -309,47 +388,48 @@ double ImplicitSolver<Scalar>::left_over() {
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const SolverEffort& effort,
-                                   Matrix3XRef<Scalar> places) {
+                                   Matrix3XRef<Scalar> places, ThreadTeam& team) {
   const TraceScope trace("implicit solve");
-  const SumKernel<Scalar>& sums = sum_kernel<Scalar>();
+  team_ = &team;
   load(problem, places);
   evaluate();
-  const double first = std::sqrt(sums.squares(unbalanced_.data(), unbalanced_.size()));
+  const double first = std::sqrt(unbalanced_squares());
   for (int round = 0; round < effort.rounds; ++round) {
-    do_round(problem, iterations_of(problem, effort, round), round == 0);
+    const bool is_last = round == effort.rounds - 1 && problem.bodies.empty();
+    do_round(problem, iterations_of(problem, effort, round), round == 0, !is_last);
   }
   for (int extra = 0; !links_.empty() && extra < kLinkedRounds; ++extra) {
     find_holding_forces();
     if (left_over() <= kLinkedResidual * first) break;
     do_round(problem, effort.iterations, false);
   }
-  step_energy_ = 0.5 * sums.weighted_distance(weights_.data(), weights_.size(), targets_.data(),
-                                              starts_.data());
   if (is_suspicious(problem)) tame(problem, effort.iterations);
   find_holding_forces();
   residual_ = first > 0 ? left_over() / first : 0.0;
   balance();
-  find_remainders();
-  from_arrays<Scalar>(places_, places);
+  for_each_part([&](NodeRange nodes) {
+    find_remainders(nodes);
+    from_arrays<Scalar>(places_, nodes, places);
+  });
+  for (const int i : held_) {
+    if (holds_[at(i)] != Hold::kOnPlane) remainders_.row(i).setZero();
+  }
+  team_ = nullptr;
 }
 
 // One step of Jacobi's method for the forces that are left, which places on their grid cannot follow.
 template <class Scalar>
-void ImplicitSolver<Scalar>::find_remainders() {
+void ImplicitSolver<Scalar>::find_remainders(NodeRange nodes) {
   constexpr Scalar kHalfRounding = std::numeric_limits<Scalar>::epsilon() / 2;
   const BlockArrays& blocks = forces_.diagonal_blocks();
-  const Eigen::Index n = weights_.size();
   for (int axis = 0; axis < 3; ++axis) {
-    for (Eigen::Index i = 0; i < n; ++i) {
+    for (int i = nodes.begin; i < nodes.end; ++i) {
       const Scalar stiffness = Scalar(inertia_[i] + blocks(i, axis));
       const Scalar left = unbalanced_(i, axis) + holding_forces_(i, axis);
       const Scalar most = kHalfRounding * std::abs(places_(i, axis));
       const Scalar way = left / (stiffness > 0 ? stiffness : Scalar(1));
       remainders_(i, axis) = way > most ? most : way < -most ? -most : way;
     }
-  }
-  for (const int i : held_) {
-    if (holds_[at(i)] != Hold::kOnPlane) remainders_.row(i).setZero();
   }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <array>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -11,27 +11,13 @@
 #include <weft/fast_solver/global_correction.hpp>
 #include <weft/fast_solver/network_forces.hpp>
 #include <weft/fast_solver/node_arrays.hpp>
-#include <weft/fast_solver/node_constraints.hpp>
+#include <weft/fast_solver/node_parts.hpp>
 #include <weft/fast_solver/solver_effort.hpp>
 #include <weft/fast_solver/spring_network.hpp>
+#include <weft/fast_solver/step_problem.hpp>
+#include <weft/fast_solver/thread_team.hpp>
 
 namespace weft::fast {
-
-/// One implicit step: find x with
-///
-///   m_i (x_i - y_i) / h'^2 = f_i(x) + contact_i         for free nodes
-///
-/// f of a SpringNetwork, y where the node would go without f. Implicit Euler has h' = h.
-template <class Scalar>
-struct StepProblem {
-  Eigen::Ref<const Matrix3X<Scalar>> targets;  ///< y, 3 x n [m]; of pinned nodes: where they go
-  Eigen::Ref<const Matrix3X<Scalar>> starts;   ///< q, 3 x n [m] at the start of the step
-  Scalar time_step;                            ///< h [s]: of dampers
-  Scalar inertia_step;                         ///< h' [s]
-  std::span<const PlaneContact<Scalar>> contacts = {};
-  std::span<const LedNode<Scalar>> led = {};
-  std::span<const RigidInertia<Scalar>> bodies = {};
-};
 
 /// Newton's method, each linear system by a few conjugate gradients. Their preconditioner joins two
 /// halves that a cloth needs. The prefactored matrix of a network that resists equally in all
@@ -72,7 +58,13 @@ class ImplicitSolver {
 
   /// places: 3 x n [m], in: a guess; out: the solution.
   void solve(const StepProblem<Scalar>& problem, const SolverEffort& effort,
-             Matrix3XRef<Scalar> places);
+             Matrix3XRef<Scalar> places) {
+    ThreadTeam alone;
+    solve(problem, effort, places, alone);
+  }
+  /// The same by a team.
+  void solve(const StepProblem<Scalar>& problem, const SolverEffort& effort,
+             Matrix3XRef<Scalar> places, ThreadTeam& team);
 
   /// After solve(): what a node is pushed with by contacts, or a led node by what leads it [N]; zero for others.
   [[nodiscard]] Vector3<Scalar> holding_force(int node) const {
@@ -94,8 +86,8 @@ class ImplicitSolver {
   [[nodiscard]] double step_energy() const { return step_energy_; }
   /// What springs store at places, and what dampers take away on the way there from the start of the step [J].
   [[nodiscard]] double spring_energy(ConstMatrix3XRef<Scalar> places) {
-    to_arrays<Scalar>(places, unmoved_);
-    return forces_.potential(unmoved_);
+    to_arrays<Scalar>(places, forces_.all_nodes(), unmoved_);
+    return forces_.potential(forces_.all_nodes(), unmoved_);
   }
   /// After solve(): root mean square of the unbalanced forces over that of the step's first guess [-].
   [[nodiscard]] double residual() const { return residual_; }
@@ -114,9 +106,8 @@ class ImplicitSolver {
   };
   /// Motions and forces of a rigid body: of its centre, and about it.
   struct Body {
-    Vector6 motion = Vector6::Zero();  ///< beyond that of the body left alone [m, rad]
-    Vector6 unmoved =
-        Vector6::Zero();  ///< the same where nothing has moved since the start of the step
+    Vector6 motion = Vector6::Zero();   ///< beyond that of the body left alone [m, rad]
+    Vector6 unmoved = Vector6::Zero();  ///< the same where nothing has moved in the step
     Vector6 motion_alone = Vector6::Zero();
     Matrix6 inertia = Matrix6::Zero();  ///< over h'^2
     Eigen::LLT<Matrix6> stiffness;      ///< with what is linked to it
@@ -133,13 +124,27 @@ class ImplicitSolver {
     return step_.row(node).transpose().template cast<Scalar>();
   }
   void set_nodes(const VectorX<double>& masses, const std::vector<bool>& is_free);
+  /// work(nodes) for each part of the nodes.
+  template <class Work>
+  void for_each_part(const Work& work) {
+    team_->run(parts_.count(), [&](int part) { work(parts_[part]); });
+  }
+  /// Sum of term(nodes) over the parts, in order.
+  template <class Term>
+  [[nodiscard]] double sum_over_parts(const Term& term) {
+    std::array<double, ThreadTeam::kMostParts> sums;
+    team_->run(parts_.count(),
+               [&](int part) { sums[static_cast<std::size_t>(part)] = term(parts_[part]); });
+    double sum = 0;
+    for (int part = 0; part < parts_.count(); ++part) sum += sums[static_cast<std::size_t>(part)];
+    return sum;
+  }
   void load(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> guess);
-  void evaluate();
+  void evaluate(bool linearises = true);
   void decide_holds(const StepProblem<Scalar>& problem, bool is_first);
   [[nodiscard]] Scalar first_push(int node, const Vector3<Scalar>& normal) const;
-  void invert_blocks();
-  void project(Floats& vectors) const;
-  void smooth(const Floats& residual, Floats& correction) const;
+  void project(NodeRange nodes, Floats& vectors) const;
+  void smooth(NodeRange nodes);
   void load_bodies(const StepProblem<Scalar>& problem);
   void link(int node, int body, const Vector3<Scalar>& arm, const Vector3<Scalar>& normal);
   [[nodiscard]] static Vector3<float> motion_of(const Link& link, const Floats6& motion);
@@ -162,15 +167,25 @@ class ImplicitSolver {
   void factorise_bodies();
   void find_unbalanced(Floats6 Body::*result);
   [[nodiscard]] double work_of_bodies();
+  /// product = P (inertia + stiffness) displacements, and what follows from it for bodies; then and_then(nodes, part).
+  template <class Next>
   void multiply(const Floats& displacements, Floats6 Body::*motion, Floats& product,
-                Floats6 Body::*body_product);
-  void precondition();
+                Floats6 Body::*body_product, const Next& and_then);
   void start_linear(const StepProblem<Scalar>& problem);
   void solve_linear(const StepProblem<Scalar>& problem, int iterations);
-  void do_round(const StepProblem<Scalar>& problem, int iterations, bool is_first);
+  /// Of a correction c and the direction d before it, with their products: c . r, c . A d and c . A c.
+  struct Overlaps {
+    float by_residual;
+    float by_direction;
+    float by_product;
+  };
+  [[nodiscard]] Overlaps precondition();
+  void move();
+  void do_round(const StepProblem<Scalar>& problem, int iterations, bool is_first,
+                bool linearises = true);
   [[nodiscard]] double energy(const StepProblem<Scalar>& problem, const Nodes& places,
                               Vector6 Body::*motion);
-  [[nodiscard]] bool is_suspicious(const StepProblem<Scalar>& problem) const;
+  [[nodiscard]] bool is_suspicious(const StepProblem<Scalar>& problem);
   void stay_at_start(const StepProblem<Scalar>& problem);
   void go_back();
   bool descend(const StepProblem<Scalar>& problem);
@@ -181,12 +196,16 @@ class ImplicitSolver {
   /// Of the forces that are left with the step, at nodes with a hold [J].
   [[nodiscard]] double work_of_held() const;
   void find_holding_forces();
+  /// Of all forces at nodes [N^2].
+  [[nodiscard]] double unbalanced_squares();
   /// Norm of the forces that nothing balances [N].
   [[nodiscard]] double left_over();
   void balance();
-  void find_remainders();
+  void find_remainders(NodeRange nodes);
   bool clamp(const StepProblem<Scalar>& problem);
 
+  ThreadTeam* team_ = nullptr;  ///< during solve()
+  NodeParts parts_;
   NetworkForces<Scalar> forces_;
   GlobalCorrection global_;
   double inertia_step_;                           ///< [s] of the global correction
@@ -196,7 +215,7 @@ class ImplicitSolver {
   VectorX<Scalar> masses_;                        ///< [kg], filled up with zeros
   std::vector<bool> is_free_;
   std::vector<int> pinned_;
-  std::vector<int> held_;  ///< nodes with a hold
+  std::vector<int> held_;  ///< nodes with a hold, in order while linear systems are solved
   std::vector<Link> links_;
   std::vector<Body> bodies_;
   std::vector<int> linked_blocks_;  ///< of nodes
@@ -218,6 +237,8 @@ class ImplicitSolver {
   BlockArrays blocks_;             ///< inverse of the diagonal's
   Floats step_, residual_vector_, direction_, direction_product_;
   Floats correction_, correction_product_, work_, coarse_, coarse_product_;
+  double work_left_ = 0;  ///< unbalanced_ . step_ [J]
+  double work_done_ = 0;  ///< the same before the step was taken [J]
   double residual_ = 0;
   double step_energy_ = 0;
   bool has_friction_ = true;

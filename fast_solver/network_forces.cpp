@@ -4,16 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
-
-#include <tbb/parallel_for.h>
 
 namespace weft::fast {
 namespace {
 
-/// Blocks of nodes of a task at least: 1280 nodes, some 5 to 20 us. Tasks of one network are alike, so that
-/// threads end together.
-constexpr int kFewestBlocks = 75;
 /// Memory for more slots than there are, over theirs: nothing is touched until blocks grow.
 constexpr double kRoom = 2.0;
 /// Slots that a block which has grown may grow by again.
@@ -108,7 +102,6 @@ void NetworkForces<Scalar>::resize_arrays() {
   const int num_rows = fill_up(num_nodes());
   if (starts_.rows() != num_rows) starts_.setZero(num_rows, 3);
   if (diagonal_.rows() != num_rows) diagonal_.setZero(num_rows, 6);
-  task_sums_.resize(at(std::max(1, slots_.num_blocks() / kFewestBlocks)));
 }
 
 template <class Scalar>
@@ -149,7 +142,8 @@ void NetworkForces<Scalar>::replace(const SpringNetwork& springs,
     }
   }
   slots_.num_nodes = num_nodes;
-  slots_.blocks.resize(blocks.size(), SlotRange{slots_.num_slots(), 0, 0});
+  const int end = slots_.num_slots();
+  slots_.blocks.resize(blocks.size(), SlotRange{end, end, end});
   room_.resize(blocks.size(), 0);
   for (int block = 0; block < static_cast<int>(blocks.size()); ++block) {
     if (blocks[at(block)] != 0) lay_out(block, of_block[at(block)]);
@@ -161,7 +155,7 @@ void NetworkForces<Scalar>::replace(const SpringNetwork& springs,
 template <class Scalar>
 std::vector<char> NetworkForces<Scalar>::blocks_to_change(
     const SpringNetwork& springs, const std::vector<char>& is_changed) const {
-  std::vector<char> blocks((is_changed.size() + kNodeBlock - 1) / kNodeBlock, 0);
+  std::vector<char> blocks(at(fill_up(static_cast<int>(is_changed.size())) / kNodeBlock), 0);
   for (std::size_t node = 0; node < is_changed.size(); ++node) {
     if (is_changed[node] != 0) blocks[node / kNodeBlock] = 1;
   }
@@ -263,65 +257,43 @@ NetworkView<Scalar> NetworkForces<Scalar>::view() const {
 }
 
 template <class Scalar>
-template <class Run>
-void NetworkForces<Scalar>::for_each_task(const Run& run) const {
-  const auto num_tasks = static_cast<int>(task_sums_.size());
-  const auto first_block = [&](int task) {
-    return static_cast<int>(std::int64_t{slots_.num_blocks()} * task / num_tasks);
-  };
-  const auto run_task = [&](int task) { run(task, first_block(task), first_block(task + 1)); };
-  if (num_tasks == 1) {
-    run_task(0);
-  } else {
-    tbb::parallel_for(0, num_tasks, run_task);
-  }
-}
-
-template <class Scalar>
-void NetworkForces<Scalar>::begin_step(const NodeArrays<Scalar>& starts, Scalar time_step) {
-  starts_ = starts;
+void NetworkForces<Scalar>::set_time_step(Scalar time_step) {
+  time_step_ = time_step;
   choose_scale(static_cast<double>(time_step));
-  if (!has_damping_) return;
-  const std::size_t block = kNodeBlock;
-  for (int b = 0; b < slots_.num_blocks(); ++b) {
-    const SlotRange& range = slots_.blocks[at(b)];
-    for (std::size_t place = at(range.begin) * block; place < at(range.end) * block; ++place) {
-      const int node = std::min(b * kNodeBlock + static_cast<int>(place % block), num_nodes() - 1);
-      Scalar* const damper = dampers_.data() + place / block * 2 * block + place % block;
-      damper[0] = damping_[place] / time_step;
-      damper[block] = (at_node(starts, slots_.others[place]) - at_node(starts, node)).norm();
-    }
+}
+
+template <class Scalar>
+void NetworkForces<Scalar>::begin_step(NodeRange nodes, const NodeArrays<Scalar>& starts) {
+  if (has_stabiliser_) {
+    const int count = nodes.end - nodes.begin;
+    starts_.middleRows(nodes.begin, count) = starts.middleRows(nodes.begin, count);
   }
+  if (!has_damping_) return;
+  network_kernel<Scalar>().note_lengths(view(), nodes, starts.data(), damping_.data(), time_step_,
+                                        dampers_.data());
 }
 
 template <class Scalar>
-void NetworkForces<Scalar>::add_forces(const NodeArrays<Scalar>& places,
-                                       NodeArrays<Scalar>& forces) {
-  for_each_task([&](int, int begin, int end) {
-    network_kernel<Scalar>().forces(view(), begin, end, places.data(), starts_.data(),
-                                    forces.data(), diagonal_.data());
-  });
+void NetworkForces<Scalar>::add_forces(NodeRange nodes, const NodeArrays<Scalar>& places,
+                                       NodeArrays<Scalar>& forces, bool linearises) {
+  network_kernel<Scalar>().forces(view(), nodes, places.data(), starts_.data(), forces.data(),
+                                  linearises ? diagonal_.data() : nullptr);
 }
 
 template <class Scalar>
-double NetworkForces<Scalar>::potential(const NodeArrays<Scalar>& places) {
-  for_each_task([&](int task, int begin, int end) {
-    task_sums_[at(task)] =
-        network_kernel<Scalar>().energy(view(), begin, end, places.data(), starts_.data());
-  });
-  return std::accumulate(task_sums_.begin(), task_sums_.end(), 0.0);
+double NetworkForces<Scalar>::potential(NodeRange nodes, const NodeArrays<Scalar>& places) const {
+  return network_kernel<Scalar>().energy(view(), nodes, places.data(), starts_.data());
 }
 
 template <class Scalar>
-void NetworkForces<Scalar>::multiply(const VectorX<float>& inertia,
+void NetworkForces<Scalar>::multiply(NodeRange nodes, const VectorX<float>& inertia,
                                      const NodeArrays<float>& displacements,
                                      NodeArrays<float>& product) const {
-  for_each_task([&](int, int begin, int end) {
-    network_kernel<Scalar>().multiply(view(), begin, end, inertia.data(), displacements.data(),
-                                      product.data());
-  });
+  network_kernel<Scalar>().multiply(view(), nodes, inertia.data(), displacements.data(),
+                                    product.data());
   // What is not a number must not get stuck behind the nodes.
-  product.bottomRows(product.rows() - num_nodes()).setZero();
+  const int num_beyond = nodes.end - std::max(nodes.begin, num_nodes());
+  if (num_beyond > 0) product.middleRows(nodes.end - num_beyond, num_beyond).setZero();
 }
 
 template <class Scalar>
@@ -329,8 +301,8 @@ void NetworkForces<Scalar>::multiply(const std::vector<int>& blocks, const Vecto
                                      const NodeArrays<float>& displacements,
                                      NodeArrays<float>& product) const {
   for (const int block : blocks) {
-    network_kernel<Scalar>().multiply(view(), block, block + 1, inertia.data(),
-                                      displacements.data(), product.data());
+    network_kernel<Scalar>().multiply(view(), {block * kNodeBlock, (block + 1) * kNodeBlock},
+                                      inertia.data(), displacements.data(), product.data());
   }
 }
 

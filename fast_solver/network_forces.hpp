@@ -16,8 +16,8 @@ namespace weft::fast {
 /// and t = max(0, f / l) + w across: the part that a compressed spring takes away is left out, so that
 /// the matrix stays positive definite (Choi and Ko 2002).
 /// Scalar: of places and forces. Products are in single precision, for they only make corrections.
-/// Threads  one object from one thread at a time; inside it runs on oneTBB, with the same bits for any
-///          number of threads. Allocates nothing after construction.
+/// Threads  what takes nodes may run for several parts of them at once; all else from one thread at a time. Allocates
+///          nothing after construction.
 template <class Scalar>
 class NetworkForces {
  public:
@@ -34,24 +34,29 @@ class NetworkForces {
   /// Share of the slots that no block uses any more [-].
   [[nodiscard]] double unused_share() const;
 
-  /// Lengths at the start of a step of time_step [s], > 0; starts: q [m].
-  void begin_step(const NodeArrays<Scalar>& starts, Scalar time_step);
+  [[nodiscard]] NodeRange all_nodes() const { return {0, fill_up(num_nodes())}; }
+
+  /// To be called before begin_step() of each part: the time step of dampers [s], > 0.
+  void set_time_step(Scalar time_step);
+  /// Notes what the rest of the step needs of its start; starts: q of all nodes [m].
+  void begin_step(NodeRange nodes, const NodeArrays<Scalar>& starts);
 
   /// From the next add_forces() on t is at least this share of s, 0 to 1. With 1 no spring can store more than its
   /// linearisation says, so that a step that the linear system thinks good is good (as the global step of Bouaziz et
   /// al. 2014); with 0 steps of Newton's method are as large as they can be.
   void set_least_across(Scalar share) { least_across_ = share; }
 
-  /// forces += those of the network at places x [N], and linearises there.
-  void add_forces(const NodeArrays<Scalar>& places, NodeArrays<Scalar>& forces);
+  /// forces += those of the network at places x of all nodes [N], and linearises there unless told not to.
+  void add_forces(NodeRange nodes, const NodeArrays<Scalar>& places, NodeArrays<Scalar>& forces,
+                  bool linearises = true);
 
-  /// What add_forces() is minus the gradient of [J].
-  [[nodiscard]] double potential(const NodeArrays<Scalar>& places);
+  /// What add_forces() is minus the gradient of, the nodes' part [J].
+  [[nodiscard]] double potential(NodeRange nodes, const NodeArrays<Scalar>& places) const;
 
   /// product = inertia displacements + stiffness displacements [N], with the stiffness of the last
-  /// add_forces(). inertia: fill_up(n) [N/m].
-  void multiply(const VectorX<float>& inertia, const NodeArrays<float>& displacements,
-                NodeArrays<float>& product) const;
+  /// linearisation. inertia: fill_up(n) [N/m].
+  void multiply(NodeRange nodes, const VectorX<float>& inertia,
+                const NodeArrays<float>& displacements, NodeArrays<float>& product) const;
 
   /// The same at the nodes of some blocks of kNodeBlock only.
   void multiply(const std::vector<int>& blocks, const VectorX<float>& inertia,
@@ -82,26 +87,24 @@ class NetworkForces {
                     std::vector<Spring>& result) const;
   void lay_out(int block, std::vector<Spring>& springs);
   void write(std::size_t place, const Spring& spring);
-  template <class Run>
-  void for_each_task(const Run& run) const;
 
   EdgeSlots slots_;
   std::vector<int> room_;  ///< of each block: slots from its first one on
   SlotMaker maker_;
-  std::vector<Scalar> springs_;
+  AlignedVector<Scalar> springs_;
   bool has_damping_ = false;  ///< without: no array
   bool has_stabiliser_ = false;
-  std::vector<Scalar> damping_;  ///< of each lane [N s/m]
-  std::vector<Scalar> dampers_;
-  std::vector<Scalar> stabilisers_;
+  AlignedVector<Scalar> damping_;  ///< of each lane [N s/m]
+  AlignedVector<Scalar> dampers_;
+  AlignedVector<Scalar> stabilisers_;
   Scalar least_across_ = 0;
   double stiffest_ = 0;     ///< [N/m]
   double most_damped_ = 0;  ///< [N s/m]
-  mutable std::vector<std::uint16_t> linear_;
+  mutable AlignedVector<std::uint16_t> linear_;
   float root_scale_ = 1;
-  NodeArrays<Scalar> starts_;
+  Scalar time_step_ = 1;       ///< [s]
+  NodeArrays<Scalar> starts_;  ///< of networks with stabilisers
   BlockArrays diagonal_;
-  std::vector<double> task_sums_;
 };
 
 extern template class NetworkForces<float>;

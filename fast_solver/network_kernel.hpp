@@ -2,6 +2,12 @@
 
 namespace weft::fast {
 
+/// Nodes begin ... end - 1, both multiples of kNodeBlock.
+struct NodeRange {
+  int begin;
+  int end;
+};
+
 /// One neighbour for each node of a block (edge_slots.hpp).
 struct EdgeSlot {
   int offset;         ///< neighbour minus node; 0 if scattered
@@ -34,68 +40,89 @@ struct NetworkView {
   unsigned short* linear;
 };
 
-/// The inner loops over the blocks begin ... end - 1. What they write: these blocks' nodes only.
+/// The inner loops over some nodes. What they write: these nodes only.
 template <class Scalar>
 struct NetworkKernel {
-  /// forces += those at places; linearises there. diagonal, six arrays: the blocks of the stiffness.
-  void (*forces)(const NetworkView<Scalar>& network, int begin, int end, const Scalar* places,
+  /// dampers = damping / time step and length of each lane.
+  void (*note_lengths)(const NetworkView<Scalar>& network, NodeRange nodes, const Scalar* starts,
+                       const Scalar* damping, Scalar time_step, Scalar* dampers);
+  /// forces += those at places; linearises there. diagonal, six arrays: the blocks of the stiffness; without them
+  /// the linearisation stays as it was.
+  void (*forces)(const NetworkView<Scalar>& network, NodeRange nodes, const Scalar* places,
                  const Scalar* starts, Scalar* forces, float* diagonal);
   /// product = inertia displacements + stiffness displacements
-  void (*multiply)(const NetworkView<Scalar>& network, int begin, int end, const float* inertia,
+  void (*multiply)(const NetworkView<Scalar>& network, NodeRange nodes, const float* inertia,
                    const float* displacements, float* product);
   /// [J]
-  double (*energy)(const NetworkView<Scalar>& network, int begin, int end, const Scalar* places,
+  double (*energy)(const NetworkView<Scalar>& network, NodeRange nodes, const Scalar* places,
                    const Scalar* starts);
 };
 
-/// Sums over arrays of nodes, in double precision but for short pieces.
+/// Sums over some nodes, in double precision but for short pieces. Arrays of nodes have `stride` numbers per
+/// component.
 template <class Scalar>
 struct SumKernel {
-  struct Sums {
-    double first;
-    double second;
-  };
-  /// a . a over `size` numbers, a multiple of kNodeBlock.
-  double (*squares)(const Scalar* a, long size);
-  /// a . step over `size` numbers.
-  double (*dot)(const Scalar* a, const float* step, long size);
+  /// a . a
+  double (*squares)(const Scalar* a, int stride, NodeRange nodes);
+  /// a . step
+  double (*dot)(const Scalar* a, const float* step, int stride, NodeRange nodes);
   /// The same, and places += step.
-  double (*move)(const Scalar* a, const float* step, long size, Scalar* places);
-  /// Sum of weight |a - b|^2 over the nodes of arrays of `stride`.
-  double (*weighted_distance)(const Scalar* weights, long stride, const Scalar* a, const Scalar* b);
-  /// Sums of weight |a - b|^2 and of |a - b| |forces|.
-  Sums (*motion)(const Scalar* weights, long stride, const Scalar* a, const Scalar* b,
-                 const Scalar* forces);
+  double (*move)(const Scalar* a, const float* step, int stride, NodeRange nodes, Scalar* places);
+  /// Sum of weight |a - b|^2.
+  double (*weighted_distance)(const Scalar* weights, int stride, NodeRange nodes, const Scalar* a,
+                              const Scalar* b);
+  /// Sum of |a - b| |forces|.
+  double (*possible_work)(int stride, NodeRange nodes, const Scalar* a, const Scalar* b,
+                          const Scalar* forces);
 };
 
-/// Loops of conjugate gradients over arrays of `size` numbers, a multiple of kNodeBlock.
+/// Rows of a sparse matrix that have equally many terms, one row after the other.
+struct RowsOfTerms {
+  const int* rows;
+  long num_rows;
+  long num_terms;
+  const int* columns;
+  const float* weights;
+};
+
+/// Loops of conjugate gradients over some nodes.
 struct VectorKernel {
   struct Products {
-    float first;
-    float second;
+    float by_residual;
+    float by_direction;
+    float by_product;
   };
-  /// blocks = share (blocks + inertia)^-1, node by node; 0 where there is none.
-  void (*invert_blocks)(const float* inertia, float share, int stride, float* blocks);
-  /// result = blocks vectors, node by node: 3 arrays from 6, of `stride` nodes each.
-  void (*multiply_blocks)(const float* blocks, int stride, const float* vectors, float* result);
-  /// result = a - b
-  void (*subtract)(const float* a, const float* b, long size, float* result);
-  /// correction += more, product += more_product. Returns correction . residual and
-  /// correction . direction_product.
+  /// inverse = share (blocks + inertia)^-1, node by node; 0 where there is none.
+  void (*invert_blocks)(const float* inertia, float share, int stride, NodeRange nodes,
+                        const float* blocks, float* inverse);
+  /// result = blocks vectors, node by node: 3 arrays from 6.
+  void (*multiply_blocks)(const float* blocks, int stride, NodeRange nodes, const float* vectors,
+                          float* result);
+  /// correction += more, product += more_product. Returns correction . residual, correction . direction_product
+  /// and correction . product.
   Products (*add_correction)(const float* more, const float* more_product, const float* residual,
-                             const float* direction_product, long size, float* correction,
-                             float* product);
-  /// direction = correction - share direction, the same for its product. Returns direction . product and
-  /// direction . residual.
-  Products (*turn)(const float* correction, const float* correction_product, const float* residual,
-                   float share, long size, float* direction, float* product);
-  /// step += length direction, residual -= length product
-  void (*advance)(const float* direction, const float* product, float length, long size,
-                  float* step, float* residual);
-  /// x, y, z and a zero of each node in a row, from arrays of `stride` nodes, and back.
-  void (*to_fours)(const float* arrays, long stride, float* fours);
-  void (*from_fours)(const float* fours, long stride, float* arrays);
+                             const float* direction_product, int stride, NodeRange nodes,
+                             float* correction, float* product);
+  /// direction = correction - share direction, the same for its product; step += length direction,
+  /// residual -= length direction_product
+  void (*advance)(const float* correction, const float* correction_product, float share,
+                  float length, int stride, NodeRange nodes, float* direction,
+                  float* direction_product, float* step, float* residual);
+  /// result of each row = sum of its weights times values of its columns; all in fours
+  void (*sum_terms)(const RowsOfTerms& rows, const float* values, float* result);
+  /// In half precision; size: a multiple of kNodeBlock, numbers below 65504.
+  void (*to_halves)(const float* values, int size, unsigned short* halves);
+  /// result = scale times kDenseRows rows of a matrix, column after column, times `size` vectors, a multiple of
+  /// kDenseRows; vectors in fours.
+  void (*multiply_dense)(const unsigned short* matrix, int size, float scale, const float* fours,
+                         float* result);
+  /// x, y, z and a zero of a - b of each node in a row, and back.
+  void (*to_fours)(const float* a, const float* b, int stride, NodeRange nodes, float* fours);
+  void (*from_fours)(const float* fours, int stride, NodeRange nodes, float* arrays);
 };
+
+/// Rows of a dense matrix that are multiplied together.
+inline constexpr int kDenseRows = 32;
 
 /// The fastest that this processor runs. Same results in every call, but not those of another
 /// processor: AVX2 brings fused operations, and each maker has its own estimate of a root.

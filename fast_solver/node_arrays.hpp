@@ -1,48 +1,56 @@
 #pragma once
 
+#include <algorithm>
+
 #include <Eigen/Core>
 
 #include <weft/custom_forces/core/types.hpp>
+#include <weft/fast_solver/aligned_matrix.hpp>
+#include <weft/fast_solver/network_kernel.hpp>
 
 namespace weft::fast {
 
-/// Nodes that are computed together. Arrays of nodes are filled up with zeros to a multiple of it.
+/// Nodes that are computed together.
 inline constexpr int kNodeBlock = 16;
+/// Arrays of nodes are filled up with zeros to a multiple of it: a thread's nodes begin with a line of the cache in all
+/// of them, and in the one before there is nothing of it.
+inline constexpr int kNodeLine = 64;
 
 [[nodiscard]] constexpr int fill_up(int num_nodes) {
-  return (num_nodes + kNodeBlock - 1) / kNodeBlock * kNodeBlock;
+  return (num_nodes + kNodeLine - 1) / kNodeLine * kNodeLine;
 }
 
 /// x, y and z of all nodes, one array after the other, fill_up(number of nodes) x 3: so that a vector
 /// of the processor holds one component of several nodes.
 template <class Scalar>
-using NodeArrays = Eigen::Matrix<Scalar, Eigen::Dynamic, 3>;
+using NodeArrays = AlignedMatrix<Scalar, Eigen::Dynamic, 3>;
 
 /// xx, yy, zz, xy, yz, zx of a symmetric 3 x 3 matrix for each node, in arrays as well.
-using BlockArrays = Eigen::Matrix<float, Eigen::Dynamic, 6>;
+using BlockArrays = AlignedMatrix<float, Eigen::Dynamic, 6>;
 
-/// arrays = vectors, 3 x n, and zeros behind them.
+/// arrays = vectors, 3 x n, and zeros behind them; of some nodes.
 template <class Scalar>
-void to_arrays(ConstMatrix3XRef<Scalar> vectors, NodeArrays<Scalar>& arrays) {
-  const Eigen::Index n = vectors.cols();
+void to_arrays(ConstMatrix3XRef<Scalar> vectors, NodeRange nodes, NodeArrays<Scalar>& arrays) {
+  const Eigen::Index end = std::min<Eigen::Index>(nodes.end, vectors.cols());
   Scalar* const x = arrays.data();
   Scalar* const y = x + arrays.rows();
   Scalar* const z = y + arrays.rows();
-  for (Eigen::Index i = 0; i < n; ++i) {
+  for (Eigen::Index i = nodes.begin; i < end; ++i) {
     x[i] = vectors(0, i);
     y[i] = vectors(1, i);
     z[i] = vectors(2, i);
   }
-  arrays.bottomRows(arrays.rows() - n).setZero();
+  if (end < nodes.end) arrays.middleRows(end, nodes.end - end).setZero();
 }
 
-/// vectors, 3 x n = the first n of arrays.
+/// vectors, 3 x n = the first n of arrays, of some nodes.
 template <class Scalar>
-void from_arrays(const NodeArrays<Scalar>& arrays, Matrix3XRef<Scalar> vectors) {
+void from_arrays(const NodeArrays<Scalar>& arrays, NodeRange nodes, Matrix3XRef<Scalar> vectors) {
+  const Eigen::Index end = std::min<Eigen::Index>(nodes.end, vectors.cols());
   const Scalar* const x = arrays.data();
   const Scalar* const y = x + arrays.rows();
   const Scalar* const z = y + arrays.rows();
-  for (Eigen::Index i = 0; i < vectors.cols(); ++i) {
+  for (Eigen::Index i = nodes.begin; i < end; ++i) {
     vectors(0, i) = x[i];
     vectors(1, i) = y[i];
     vectors(2, i) = z[i];

@@ -92,8 +92,8 @@ void SparseCholesky::lay_out() {
   for (std::size_t s = 0; s < nodes.size(); ++s) {
     if (nodes[s].parent >= 0) children_[at(next[at(nodes[s].parent)]++)] = static_cast<int>(s);
   }
-  panels_ = AlignedFloats(num_panel);
-  vectors_ = AlignedFloats(num_vector);
+  panels_.assign(num_panel, 0.0F);
+  vectors_.assign(num_vector, 0.0F);
   scratch_stride_ = 3 * at(longest);
 }
 
@@ -121,7 +121,7 @@ void SparseCholesky::divide_work() {
   }
   std::reverse(subtrees_.begin(), subtrees_.end());
   std::reverse(top_.begin(), top_.end());
-  scratch_ = AlignedFloats(scratch_stride_ * (subtrees_.size() + 1));
+  scratch_.assign(scratch_stride_ * (subtrees_.size() + 1), 0.0F);
 }
 
 void SparseCholesky::factorize(const SymmetricMatrix& matrix) {
@@ -244,19 +244,26 @@ void SparseCholesky::go_down(int s, Matrix3XRef<float> result, float* scratch) {
   }
 }
 
-void SparseCholesky::solve(ConstMatrix3XRef<float> right, Matrix3XRef<float> result) {
+void SparseCholesky::solve(ConstMatrix3XRef<float> right, Matrix3XRef<float> result,
+                           ThreadTeam& team) {
   float* const top_scratch = scratch_.data() + scratch_stride_ * subtrees_.size();
   const auto scratch = [&](std::size_t t) { return scratch_.data() + scratch_stride_ * t; };
-  const auto go_up_subtree = [&](std::size_t t) {
+  const int num_parts = std::min(static_cast<int>(subtrees_.size()), ThreadTeam::kMostParts);
+  const auto for_each_subtree = [&](const auto& work) {
+    team.run(num_parts, [&](int part) {
+      const std::size_t begin = subtrees_.size() * at(part) / at(num_parts);
+      const std::size_t end = subtrees_.size() * at(part + 1) / at(num_parts);
+      for (std::size_t t = begin; t < end; ++t) work(t);
+    });
+  };
+  for_each_subtree([&](std::size_t t) {
     for (int s = subtrees_[t].begin; s < subtrees_[t].end; ++s) go_up(s, right, scratch(t));
-  };
-  const auto go_down_subtree = [&](std::size_t t) {
-    for (int s = subtrees_[t].end - 1; s >= subtrees_[t].begin; --s) go_down(s, result, scratch(t));
-  };
-  tbb::parallel_for(std::size_t{0}, subtrees_.size(), go_up_subtree);
+  });
   for (const int s : top_) go_up(s, right, top_scratch);
   for (auto s = top_.rbegin(); s != top_.rend(); ++s) go_down(*s, result, top_scratch);
-  tbb::parallel_for(std::size_t{0}, subtrees_.size(), go_down_subtree);
+  for_each_subtree([&](std::size_t t) {
+    for (int s = subtrees_[t].end - 1; s >= subtrees_[t].begin; --s) go_down(s, result, scratch(t));
+  });
 }
 
 }  // namespace weft::fast

@@ -4,9 +4,10 @@
 #include <vector>
 
 #include <weft/custom_forces/core/types.hpp>
-#include <weft/fast_solver/aligned_floats.hpp>
+#include <weft/fast_solver/aligned_matrix.hpp>
 #include <weft/fast_solver/elimination.hpp>
 #include <weft/fast_solver/sparse_matrix.hpp>
+#include <weft/fast_solver/thread_team.hpp>
 
 namespace weft::fast {
 
@@ -16,8 +17,8 @@ namespace weft::fast {
 /// Every supernode is one dense panel G = [L11^-1; L21 L11^-1], so that both passes are products of
 /// panels with vectors. A supernode hands its part to its parent in a vector of its own, as in a
 /// multifrontal factorisation: sums have one order, and subtrees run in parallel with the same bits.
-/// Threads  solve() of one object from one thread at a time, for it works in memory of the object;
-///          inside it runs on oneTBB. Allocates nothing.
+/// Threads  solve() of one object from one thread at a time, for it works in memory of the object, and on a team.
+///          Allocates nothing.
 class SparseCholesky {
  public:
   SparseCholesky() = default;
@@ -37,7 +38,7 @@ class SparseCholesky {
   [[nodiscard]] std::size_t num_bytes() const;
 
   /// result = A^-1 right, both 3 x the number of names. Columns that no unknown has are left alone.
-  void solve(ConstMatrix3XRef<float> right, Matrix3XRef<float> result);
+  void solve(ConstMatrix3XRef<float> right, Matrix3XRef<float> result, ThreadTeam& team);
 
  private:
   /// Places of a supernode's parts in the arrays.
@@ -69,9 +70,9 @@ class SparseCholesky {
   std::vector<int> into_parent_;
   std::vector<Range> subtrees_;  ///< supernodes that depend on nothing outside, one task each
   std::vector<int> top_;         ///< the others
-  AlignedFloats panels_;
-  AlignedFloats vectors_;
-  AlignedFloats scratch_;  ///< one vector per subtree and one for the top
+  AlignedVector<float> panels_;
+  AlignedVector<float> vectors_;
+  AlignedVector<float> scratch_;  ///< one vector per subtree and one for the top
   std::size_t scratch_stride_ = 0;
   std::size_t num_entries_ = 0;
 };

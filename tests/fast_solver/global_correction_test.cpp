@@ -66,6 +66,15 @@ TEST(Interpolation, GoesThroughTwoLevelsAtOnce) {
   EXPECT_LT((dense(composed(first, second)) - dense(first) * dense(second)).norm(), 1e-13);
 }
 
+void correct(GlobalCorrection& correction, const NodeArrays<float>& residual,
+             NodeArrays<float>& result) {
+  ThreadTeam alone;
+  const auto rows = static_cast<int>(residual.rows());
+  correction.set_residual({0, rows}, residual, NodeArrays<float>::Zero(rows, 3));
+  correction.solve(alone);
+  for (int part = 0; part < correction.num_parts(); ++part) correction.interpolate(part, result);
+}
+
 TEST(GlobalCorrection, SolvesOnTheCoarseNodes) {
   const int n = 15;
   const SymmetricMatrix matrix = hung_grid(n, 0.3);
@@ -77,14 +86,14 @@ TEST(GlobalCorrection, SolvesOnTheCoarseNodes) {
   NodeArrays<float> residual = NodeArrays<float>::Zero(rows, 3);
   residual.topRows(n * n + 5).setRandom();
   NodeArrays<float> result = NodeArrays<float>::Ones(rows, 3);
-  correction.solve(residual, result);
+  correct(correction, residual, result);
   const Eigen::MatrixXd p = dense(make_interpolation(matrix));
   const Eigen::MatrixXd right = residual.middleRows(5, n * n).cast<double>();
   const Eigen::MatrixXd expected =
       p * (p.transpose() * dense(matrix) * p).llt().solve(p.transpose() * right);
   const Eigen::MatrixXd found = result.middleRows(5, n * n).cast<double>();
-  // Single precision times a condition number of about 100.
-  EXPECT_LT((found - expected).norm(), 100 * 6e-8 * expected.norm());
+  // The inverse of few coarse unknowns is kept in half precision, 2^-11.
+  EXPECT_LT((found - expected).norm(), 5e-4 * expected.norm());
   EXPECT_TRUE(result.topRows(5).isZero(0));
   EXPECT_TRUE(result.bottomRows(rows - n * n - 5).isZero(0));
 }
@@ -110,7 +119,7 @@ TEST(GlobalCorrection, TakesASmoothErrorAway) {
       residual(i, 0) = static_cast<float>(sum);
     }
     NodeArrays<float> result(rows, 3);
-    correction.solve(residual, result);
+    correct(correction, residual, result);
     // Interpolation is exact for a shift; of this plane, with a kink at the corners, 0.20 and 0.22 are left.
     EXPECT_LT((result - error).norm(), 0.3F * error.norm()) << n;
     if (n == 170) {

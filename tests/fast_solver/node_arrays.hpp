@@ -8,19 +8,27 @@ namespace weft::fast {
 /// vectors, 3 x n, as the solver keeps them.
 template <class Scalar>
 [[nodiscard]] NodeArrays<Scalar> arrays_of(const Matrix3X<Scalar>& vectors) {
-  NodeArrays<Scalar> arrays(fill_up(static_cast<int>(vectors.cols())), 3);
-  to_arrays<Scalar>(vectors, arrays);
+  const int rows = fill_up(static_cast<int>(vectors.cols()));
+  NodeArrays<Scalar> arrays(rows, 3);
+  to_arrays<Scalar>(vectors, {0, rows}, arrays);
   return arrays;
+}
+
+/// starts: q, 3 x n [m].
+template <class Scalar>
+void begin_step(NetworkForces<Scalar>& network, const Matrix3X<Scalar>& starts, Scalar time_step) {
+  network.set_time_step(time_step);
+  network.begin_step(network.all_nodes(), arrays_of(starts));
 }
 
 /// Of a network at places x, 3 x n [N].
 template <class Scalar>
-[[nodiscard]] Matrix3X<Scalar> forces_at(NetworkForces<Scalar>& network,
-                                         const Matrix3X<Scalar>& x) {
+[[nodiscard]] Matrix3X<Scalar> forces_at(NetworkForces<Scalar>& network, const Matrix3X<Scalar>& x,
+                                         bool linearises = true) {
   NodeArrays<Scalar> forces = NodeArrays<Scalar>::Zero(fill_up(network.num_nodes()), 3);
-  network.add_forces(arrays_of(x), forces);
+  network.add_forces(network.all_nodes(), arrays_of(x), forces, linearises);
   Matrix3X<Scalar> result(3, x.cols());
-  from_arrays<Scalar>(forces, result);
+  from_arrays<Scalar>(forces, network.all_nodes(), result);
   return result;
 }
 

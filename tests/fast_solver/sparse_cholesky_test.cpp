@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 #include <Eigen/Cholesky>
 
 #include <weft/custom_forces/core/error.hpp>
@@ -37,6 +36,11 @@ std::vector<int> natural_order(int n) {
   return order;
 }
 
+void solve(SparseCholesky& cholesky, const Matrix3X<float>& right, Matrix3X<float>& result) {
+  ThreadTeam alone;
+  cholesky.solve(right, result, alone);
+}
+
 // Tolerance: single precision times a condition number of about 200.
 constexpr double kTolerance = 200 * 6e-8;
 
@@ -48,7 +52,7 @@ TEST(SparseCholesky, SolvesWhatADenseFactorisationSolves) {
     for (const auto& order : {natural_order(n * n), minimum_degree_order(matrix)}) {
       SparseCholesky cholesky(matrix, order);
       Matrix3X<float> result(3, n * n);
-      cholesky.solve(right, result);
+      solve(cholesky, right, result);
       EXPECT_LT((result.cast<double>().transpose() - expected).norm(), kTolerance * expected.norm())
           << n << " x " << n;
     }
@@ -63,7 +67,7 @@ TEST(SparseCholesky, SolvesParts) {
   Matrix3X<float> right = Matrix3X<float>::Zero(3, 5);
   right.row(1) << 3, 0, 8, 8, 0;
   Matrix3X<float> result(3, 5);
-  cholesky.solve(right, result);
+  solve(cholesky, right, result);
   const Eigen::Matrix<float, 1, 5> expected(2, 1, 2, 3, -1);
   EXPECT_LT((result.row(1) - expected).norm(), 1e-5F);
   EXPECT_EQ(result.row(0).norm(), 0.0F);
@@ -74,7 +78,7 @@ TEST(SparseCholesky, LeavesColumnsWithoutAnUnknownAlone) {
   SparseCholesky cholesky(matrix, natural_order(2), {3, 1});
   const Matrix3X<float> right = Matrix3X<float>::Constant(3, 4, 8);
   Matrix3X<float> result = Matrix3X<float>::Constant(3, 4, -5);
-  cholesky.solve(right, result);
+  solve(cholesky, right, result);
   const Eigen::Matrix<float, 1, 4> expected(-5, 2, -5, 4);
   EXPECT_LT((result.row(2) - expected).norm(), 1e-6F);
   EXPECT_EQ(result(2, 0), -5);
@@ -83,15 +87,15 @@ TEST(SparseCholesky, LeavesColumnsWithoutAnUnknownAlone) {
 TEST(SparseCholesky, ThreadsChangeNoBit) {
   const SymmetricMatrix matrix = grid_matrix(60, 0.1);
   const Matrix3X<float> right = Matrix3X<float>::Random(3, 3600);
-  const auto solve = [&](int num_threads) {
-    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(num_threads));
+  const auto solve_by = [&](int num_threads) {
+    ThreadTeam team;
+    const ThreadTeam::Scope scope(team, num_threads);
     SparseCholesky cholesky(matrix, minimum_degree_order(matrix));
     Matrix3X<float> result(3, 3600);
-    cholesky.solve(right, result);
+    cholesky.solve(right, result, team);
     return result;
   };
-  EXPECT_EQ(solve(1), solve(4));
+  EXPECT_EQ(solve_by(1), solve_by(4));
 }
 
 TEST(SparseCholesky, RefusesAMatrixThatIsNotPositiveDefinite) {

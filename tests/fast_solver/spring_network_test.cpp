@@ -41,7 +41,7 @@ TEST(SpringNetwork, HasTheForcesOfTheLaws) {
   const Matrix3X<double> q = places(mesh, 0.05);
   const Matrix3X<double> x = places(mesh, 0.08);
   NetworkForces<double> network(make_network(mesh, {kTension, kStretch}), mesh.num_nodes());
-  network.begin_step(arrays_of(q), h);
+  begin_step(network, q, h);
   const Matrix3X<double> forces = forces_at(network, x);
   forces::LawSet<double> laws;
   for (const auto& law : {kTension, kStretch}) laws.add(forces::make_law<double>(law, mesh));
@@ -59,7 +59,7 @@ TEST(SpringNetwork, DampsTheChangeOfLength) {
   const Matrix3X<double> x = places(mesh, 0.05);
   const Matrix3X<double> q = x - h * v;
   NetworkForces<double> network(make_network(mesh, {kDamping}), mesh.num_nodes());
-  network.begin_step(arrays_of(q), h);
+  begin_step(network, q, h);
   const Matrix3X<double> forces = forces_at(network, x);
   forces::LawSet<double> laws;
   laws.add(forces::make_law<double>(kDamping, mesh));
@@ -74,7 +74,7 @@ TEST(SpringNetwork, ItsProductIsTheDerivativeWhereSpringsAreStretched) {
   const Matrix3X<double> x = 1.3 * places(mesh, 0.01);  // every spring is longer than at rest
   NetworkForces<double> network(make_network(mesh, {kTension, kDamping}), mesh.num_nodes());
   const double h = 0.02;
-  network.begin_step(arrays_of<double>(mesh.rest_positions), h);
+  begin_step<double>(network, mesh.rest_positions, h);
   const Matrix3X<double> d = Matrix3X<double>::Random(3, mesh.num_nodes());
   const auto forces_after = [&](double by) { return forces_at<double>(network, x + by * d); };
   const double by = 1e-5;
@@ -82,9 +82,9 @@ TEST(SpringNetwork, ItsProductIsTheDerivativeWhereSpringsAreStretched) {
   (void)forces_after(0);
   const int rows = fill_up(mesh.num_nodes());
   NodeArrays<float> displacements(rows, 3);
-  to_arrays<float>(d.cast<float>(), displacements);
+  to_arrays<float>(d.cast<float>(), network.all_nodes(), displacements);
   NodeArrays<float> product(rows, 3);
-  network.multiply(VectorX<float>::Zero(rows), displacements, product);
+  network.multiply(network.all_nodes(), VectorX<float>::Zero(rows), displacements, product);
   const NodeArrays<double> result = product.cast<double>();
   // Each number of a linearisation is stored in half precision, and two are multiplied: 2 x 2^-11.
   EXPECT_LT((result.topRows(mesh.num_nodes()).transpose() - expected).norm(),
@@ -95,7 +95,7 @@ TEST(SpringNetwork, ItsBlocksAreThoseOfTheProduct) {
   const ClothMesh mesh = cloth();
   NetworkForces<float> network(make_network(mesh, {kTension, kBending}), mesh.num_nodes());
   const Matrix3X<float> x = places(mesh, 0.05).cast<float>();
-  network.begin_step(arrays_of(x), 0.01F);
+  begin_step(network, x, 0.01F);
   (void)forces_at(network, x);
   const int rows = fill_up(mesh.num_nodes());
   const BlockArrays& blocks = network.diagonal_blocks();
@@ -105,7 +105,7 @@ TEST(SpringNetwork, ItsBlocksAreThoseOfTheProduct) {
       NodeArrays<float> d = NodeArrays<float>::Zero(rows, 3);
       d(node, axis) = 1;
       NodeArrays<float> product(rows, 3);
-      network.multiply(VectorX<float>::Zero(rows), d, product);
+      network.multiply(network.all_nodes(), VectorX<float>::Zero(rows), d, product);
       // Each number of a linearisation is stored in half precision for products: 2 x 2^-11.
       const float bound = 1e-3F * blocks.row(node).head<3>().maxCoeff();
       for (int row = 0; row < 3; ++row) {

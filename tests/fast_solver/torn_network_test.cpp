@@ -63,22 +63,23 @@ void expect_same_forces(NetworkForces<double>& a, NetworkForces<double>& b, int 
   std::srand(5);  // Eigen's Random
   const Matrix3X<double> q = Matrix3X<double>::Random(3, num_nodes);
   const Matrix3X<double> x = q + 0.1 * Matrix3X<double>::Random(3, num_nodes);
-  a.begin_step(arrays_of(q), 0.01);
-  b.begin_step(arrays_of(q), 0.01);
+  begin_step(a, q, 0.01);
+  begin_step(b, q, 0.01);
   const Matrix3X<double> of_a = forces_at(a, x);
   const Matrix3X<double> of_b = forces_at(b, x);
   // Sums of some fifty springs in another order.
   EXPECT_LT((of_a - of_b).norm(), 1e-14 * of_b.norm());
   const NodeArrays<double> places = arrays_of(x);
-  EXPECT_NEAR(a.potential(places), b.potential(places), 1e-14 * b.potential(places));
+  EXPECT_NEAR(a.potential(a.all_nodes(), places), b.potential(b.all_nodes(), places),
+              1e-14 * b.potential(b.all_nodes(), places));
   const int rows = fill_up(num_nodes);
   NodeArrays<float> d = NodeArrays<float>::Random(rows, 3);
   d.bottomRows(rows - num_nodes).setZero();
   NodeArrays<float> product_a(rows, 3);
   NodeArrays<float> product_b(rows, 3);
   const VectorX<float> inertia = VectorX<float>::Ones(rows);
-  a.multiply(inertia, d, product_a);
-  b.multiply(inertia, d, product_b);
+  a.multiply(a.all_nodes(), inertia, d, product_a);
+  b.multiply(b.all_nodes(), inertia, d, product_b);
   EXPECT_LT((product_a - product_b).norm(), 1e-6F * product_b.norm());
 }
 

@@ -1,0 +1,181 @@
+// What a solver does in each step.
+#include <weft/bridge/solver.hpp>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <weft/bridge/attachment.hpp>
+#include <weft/bridge/position_limits.hpp>
+#include <weft/bridge/torn_laws.hpp>
+#include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/core/tear.hpp>
+#include <weft/custom_forces/core/trace.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+void SoftBodySolver::predictMotion(btScalar time_step) {
+  const TraceScope trace("predict motion");
+  time_step_ = time_step;
+  attachments_->hulls.begin_step();
+  for (const auto& entry : attachments_->contacts) entry->contact.begin_step();
+  for (const auto& attachment : attachments_->list) {
+    if (attachment->fast && attachment->was_in_world)
+      attachment->fast->begin_step(*attachment->body);
+  }
+  for_bodies([&](btSoftBody& body, Attachment* attachment) {
+    if (!attachment) return;
+    attachment->add_forces(time_step);
+    attachment->rigid_response.begin_step();
+    if (attachment->fast && !attachment->blow_up) {
+      attachment->fast->predict(body, time_step, attachment->positions, attachment->velocities);
+    }
+  });
+  for (int i = 0; i < m_softBodySet.size(); ++i) {
+    btSoftBody& body = *m_softBodySet[i];
+    if (!body.isActive() || is_still(body)) continue;  // the forces may have exploded
+    const Attachment* const attachment = find(body);
+    if (attachment && attachment->fast) {
+      FastBody::publish_bounds(body);
+    } else {
+      body.predictMotion(time_step);
+    }
+  }
+}
+
+// What touches only the body: several at the same time. Each is one task, whose bits depend on no other.
+void SoftBodySolver::for_bodies(const std::function<void(btSoftBody&, Attachment*)>& work) {
+  tbb::parallel_for(0, m_softBodySet.size(), [&](int i) {
+    btSoftBody& body = *m_softBodySet[i];
+    if (body.isActive() && !is_still(body)) work(body, find(body));
+  });
+}
+
+void SoftBodySolver::solve_fast_bodies() {
+  std::vector<Attachment*>& bodies = attachments_->stepped;
+  bodies.clear();
+  for (const auto& attachment : attachments_->list) {
+    const bool is_stepped = attachment->was_in_world && attachment->body->isActive();
+    if (attachment->fast && is_stepped && attachment->fast->is_predicted() &&
+        !is_still(*attachment->body)) {
+      bodies.push_back(attachment.get());
+    }
+  }
+  const auto in_parallel = [&](const std::vector<Attachment*>& list, const auto& work) {
+    const int num_each = std::max(
+        1, tbb::this_task_arena::max_concurrency() / std::max(1, static_cast<int>(list.size())));
+    for (Attachment* one : list) one->fast->set_num_threads(num_each);
+    tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) { work(*list[i]); });
+  };
+  std::vector<const btRigidBody*>& pushed = attachments_->pushed;
+  const auto list_pushed = [&] {
+    pushed.clear();
+    for (const Attachment* one : bodies) one->fast->list_pushed(*one->body, pushed);
+    std::sort(pushed.begin(), pushed.end());
+  };
+  list_pushed();
+  in_parallel(bodies,
+              [&](Attachment& one) { one.fast->begin_solve(*one.body, time_step_, pushed); });
+  std::vector<Attachment*>& asked = attachments_->asked;
+  asked.assign(bodies.begin(), bodies.end());
+  for (int look = 0; look < FastBody::kMostLooks && !asked.empty(); ++look) {
+    in_parallel(asked, [&](Attachment& one) {
+      if (one.fast->looks_alone()) one.fast->look_again(*one.body, time_step_);
+    });
+    for (Attachment* one : asked) {
+      if (!one->fast->looks_alone()) one->fast->look_again(*one->body, time_step_);
+    }
+    std::erase_if(asked, [](const Attachment* one) { return !one->fast->is_contact_missing(); });
+    list_pushed();
+    in_parallel(asked,
+                [&](Attachment& one) { one.fast->solve_again(*one.body, time_step_, pushed); });
+  }
+  for (Attachment* one : bodies) one->fast->place(*one->body, time_step_);
+  // Where springs have led the nodes, not where they would fly without them: in steps of 1/100 s layers that were found there
+  // threw each other about.
+  in_parallel(bodies, [&](Attachment& one) {
+    if (ClothContact* contact = find_contact(*one.body)) {
+      contact->add_self_contacts(*one.body, time_step_);
+    }
+  });
+  const bool meet = std::any_of(bodies.begin(), bodies.end(), [](const Attachment* one) {
+    return one->body->m_scontacts.size() > 0;
+  });
+  for (int sweep = 0; meet && sweep < FastBody::kClothContactSweeps; ++sweep) {
+    for (Attachment* one : bodies) one->fast->project_cloth_contacts(*one->body);
+  }
+  in_parallel(bodies, [&](Attachment& one) { one.fast->end_solve(*one.body, time_step_); });
+}
+
+void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
+  const TraceScope trace("solve constraints");
+  // Velocities decay over the step that predictMotion was given. The argument here is the same time
+  // before Bullet rounds it to single precision; to use it would mix two clocks in one step.
+  solve_fast_bodies();
+  for (const auto& entry : attachments_->contacts) {
+    const bool may_be_pushed = entry->was_in_world && entry->contact.settings().with_others;
+    if (may_be_pushed && is_fast(*entry->body)) entry->remember_solution();
+  }
+  for (int i = 0; i < m_softBodySet.size(); ++i) {
+    btSoftBody& body = *m_softBodySet[i];
+    if (!body.isActive() || is_still(body) || is_fast(body)) continue;
+    ContactEntry* const entry = find_contact_entry(body);
+    if (entry) entry->contact.add_self_contacts(body, time_step_);
+    Attachment* const attachment = find(body);
+    if (attachment && attachment->has_coulomb_contacts()) {
+      attachment->rigid_response.solve(body);
+    } else {
+      body.solveConstraints();
+    }
+    if (entry && entry->contact.settings().with_others && attachment) entry->remember_solution();
+  }
+  settle_contact_velocities();
+  for_bodies([&](btSoftBody& body, Attachment* attachment) {
+    if (!attachment) return;
+    apply_position_limits(attachment->limits, static_cast<double>(time_step_), body);
+    attachment->damp_velocities(attachment->fast ? attachment->fast->velocity_step() : time_step_);
+  });
+  for (const auto& attachment : attachments_->list) {
+    if (attachment->was_in_world) attachment->time += static_cast<double>(time_step_);
+  }
+}
+
+// A contact of a later body moves the nodes of an earlier one, whose velocities Bullet has derived by
+// then: without this their momentum would be lost.
+void SoftBodySolver::settle_contact_velocities() {
+  for (const auto& entry : attachments_->contacts) {
+    btSoftBody& body = *entry->body;
+    if (!entry->was_in_world || !entry->contact.settings().with_others) continue;
+    if (!body.isActive() || is_still(body)) continue;
+    const Attachment* const attachment = find(body);
+    if (attachment && (attachment->fast || attachment->has_coulomb_contacts())) {
+      entry->add_later_motion();
+    } else {
+      entry->derive_velocities();
+    }
+  }
+}
+
+// The last thing that Bullet does in a step: positions and velocities are final.
+void SoftBodySolver::updateSoftBodies() {
+  const TraceScope trace("update soft bodies");
+  for_bodies([&](btSoftBody& body, Attachment* attachment) {
+    body.integrateMotion();
+    if (!attachment || !attachment->fast) return;
+    if (attachment->limits.is_empty()) attachment->fast->end_step(body, time_step_);
+  });
+  if (!is_deferred_) return;
+  for_bodies([&](btSoftBody&, Attachment* attachment) {
+    if (attachment) attachment->begin_forces();
+  });
+}
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

@@ -1,0 +1,124 @@
+#include <weft/fast_solver/thread_team.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <thread>
+
+namespace weft::fast {
+namespace {
+
+/// Looks before a thread lets others have the processor, and before the caller does what a helper ought to: some 20 us,
+/// longer than what a solve does between two loops, or a part takes.
+constexpr int kLooks = 400;
+
+/// Tells the processor that this thread only waits.
+void pause() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
+
+class Patience {
+ public:
+  /// True if it has an end.
+  bool wait() {
+    if (++looks_ <= kLooks) {
+      pause();
+      return false;
+    }
+    std::this_thread::yield();
+    return true;
+  }
+
+ private:
+  int looks_ = 0;
+};
+
+}  // namespace
+
+void ThreadTeam::open(int num_threads) {
+  num_threads_ = std::clamp(num_threads, 1, kMostParts);
+  if (num_threads_ == 1) return;
+  num_helpers_.store(0, std::memory_order_relaxed);
+  is_open_.store(true, std::memory_order_release);
+  for (int helper = 1; helper < num_threads_; ++helper) {
+    helpers_.run([this] { help(); });
+  }
+}
+
+void ThreadTeam::close() {
+  if (num_threads_ == 1) return;
+  is_open_.store(false, std::memory_order_release);
+  helpers_.wait();
+  num_threads_ = 1;
+}
+
+void ThreadTeam::run_shared(int num_parts, Call call, const void* job) {
+  const std::uint64_t loop = loop_.load(std::memory_order_relaxed) + 1;
+  const int num_members = 1 + num_helpers_.load(std::memory_order_acquire);
+  Loop& next = loops_[loop % 2];
+  next.call.store(call, std::memory_order_release);
+  next.job.store(job, std::memory_order_release);
+  next.num_parts.store(num_parts, std::memory_order_release);
+  next.num_members.store(num_members, std::memory_order_release);
+  num_done_.store(0, std::memory_order_relaxed);
+  loop_.store(loop, std::memory_order_release);
+  int num_left = num_parts;
+  const auto take = [&](int begin, int end) {
+    for (int part = begin; part < end; ++part) {
+      if (!take_part(loop, part)) continue;
+      call(job, part);
+      --num_left;
+    }
+  };
+  take(0, num_parts / num_members);
+  Patience patience;
+  while (num_done_.load(std::memory_order_acquire) != num_left) {
+    if (patience.wait()) take(0, num_parts);
+  }
+}
+
+void ThreadTeam::help() {
+  std::uint64_t last = loop_.load(std::memory_order_acquire);  // which does not count on this one
+  const int member = 1 + num_helpers_.fetch_add(1, std::memory_order_acq_rel);
+  Patience patience;
+  while (is_open_.load(std::memory_order_acquire)) {
+    const std::uint64_t loop = loop_.load(std::memory_order_acquire);
+    if (loop == last) {
+      patience.wait();
+      continue;
+    }
+    last = loop;
+    help_with(loop, member);
+    patience = {};
+  }
+}
+
+// A loop that is over by now has no part left.
+void ThreadTeam::help_with(std::uint64_t loop, int member) {
+  const Loop& present = loops_[loop % 2];
+  const Call call = present.call.load(std::memory_order_acquire);
+  const void* const job = present.job.load(std::memory_order_acquire);
+  const int num_parts = present.num_parts.load(std::memory_order_acquire);
+  const int num_members = present.num_members.load(std::memory_order_acquire);
+  // What was read may be of the loop after the next only if that has begun, and so this one's number has changed.
+  if (loop_.load(std::memory_order_acquire) != loop || member >= num_members) return;
+  int num_done = 0;
+  for (int part = num_parts * member / num_members; part < num_parts * (member + 1) / num_members;
+       ++part) {
+    if (!take_part(loop, part)) continue;
+    call(job, part);
+    ++num_done;
+  }
+  if (num_done > 0) num_done_.fetch_add(num_done, std::memory_order_release);
+}
+
+bool ThreadTeam::take_part(std::uint64_t loop, int part) {
+  std::atomic<std::uint64_t>& ticket = tickets_[static_cast<std::size_t>(part)].loop;
+  std::uint64_t taken = ticket.load(std::memory_order_relaxed);
+  return taken < loop && ticket.compare_exchange_strong(taken, loop, std::memory_order_relaxed);
+}
+
+}  // namespace weft::fast

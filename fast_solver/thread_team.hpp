@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <type_traits>
+
+#include <tbb/task_group.h>
+
+namespace weft::fast {
+
+/// Threads that go through the loops of one solve together. Such a loop takes ten microseconds, less than a task of
+/// oneTBB takes to be found by another thread, so that helpers wait for the next loop without sleeping.
+///
+/// Helpers are tasks of oneTBB: they come when they find the time, and without any the caller does everything. A loop
+/// has parts, and each thread has the same ones in every loop, which are in its cache; the caller takes those of a
+/// helper that does not begin. What a part computes may not depend on who does it.
+class ThreadTeam {
+ public:
+  /// Parts of a loop at most.
+  static constexpr int kMostParts = 64;
+
+  ThreadTeam() = default;
+  ThreadTeam(const ThreadTeam&) = delete;
+  ThreadTeam& operator=(const ThreadTeam&) = delete;
+  ThreadTeam(ThreadTeam&&) = delete;
+  ThreadTeam& operator=(ThreadTeam&&) = delete;
+  ~ThreadTeam() { close(); }
+
+  /// Calls for helpers; only one thread at a time may use a team. num_threads: with the caller's.
+  void open(int num_threads);
+  /// Sends them away. Without effect on a team that is not open.
+  void close();
+  /// Open as long as the result exists.
+  class Scope {
+   public:
+    Scope(ThreadTeam& team, int num_threads) : team_(team) { team_.open(num_threads); }
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+    Scope(Scope&&) = delete;
+    Scope& operator=(Scope&&) = delete;
+    ~Scope() { team_.close(); }
+
+   private:
+    ThreadTeam& team_;
+  };
+
+  [[nodiscard]] int num_threads() const { return num_threads_; }
+
+  /// work(part) for each of num_parts parts, at most kMostParts, which must not throw; returns when all are done.
+  template <class Work>
+  void run(int num_parts, const Work& work) {
+    if (num_threads_ <= 1 || num_parts <= 1) {
+      for (int part = 0; part < num_parts; ++part) work(part);
+      return;
+    }
+    run_shared(
+        num_parts, [](const void* job, int part) { (*static_cast<const Work*>(job))(part); },
+        &work);
+  }
+
+ private:
+  using Call = void (*)(const void* job, int part);
+  /// One loop. Two of them in turn: who reads an old one finds out by the number of the present loop.
+  struct Loop {
+    std::atomic<Call> call{nullptr};
+    std::atomic<const void*> job{nullptr};
+    std::atomic<int> num_parts{0};
+    std::atomic<int> num_members{1};
+  };
+  /// Of a part: the last loop in which somebody has taken it. Each has a cache line.
+  struct alignas(64) Ticket {
+    std::atomic<std::uint64_t> loop{0};
+  };
+
+  void run_shared(int num_parts, Call call, const void* job);
+  void help();
+  void help_with(std::uint64_t loop, int member);
+  bool take_part(std::uint64_t loop, int part);
+
+  alignas(64) std::atomic<std::uint64_t> loop_{0};  ///< number of the present one
+  std::atomic<bool> is_open_{false};
+  std::atomic<int> num_helpers_{0};  ///< that have come
+  std::array<Loop, 2> loops_;
+  alignas(64) std::atomic<int> num_done_{0};  ///< parts of the present loop, by helpers
+  std::array<Ticket, kMostParts> tickets_;
+  int num_threads_ = 1;
+  tbb::task_group helpers_;
+};
+
+}  // namespace weft::fast

@@ -1,0 +1,72 @@
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <weft/fast_solver/thread_team.hpp>
+
+namespace weft::fast {
+namespace {
+
+// Each loop reads what all parts of the one before have written.
+std::vector<long> chain(ThreadTeam& team, int num_parts, int num_loops) {
+  const auto n = static_cast<std::size_t>(num_parts);
+  std::array<std::vector<long>, 2> values = {std::vector<long>(n, 1), std::vector<long>(n, 0)};
+  for (int loop = 0; loop < num_loops; ++loop) {
+    const std::vector<long>& from = values[static_cast<std::size_t>(loop % 2)];
+    std::vector<long>& to = values[static_cast<std::size_t>(1 - loop % 2)];
+    team.run(num_parts, [&](int part) {
+      const auto p = static_cast<std::size_t>(part);
+      to[p] = (from[p] + 3 * from[(p + 1) % n] + 7 * from[(p + n / 2) % n]) % 1000003;
+    });
+  }
+  return values[static_cast<std::size_t>(num_loops % 2)];
+}
+
+TEST(ThreadTeam, DoesEachPartOnceAndLoopsInOrder) {
+  ThreadTeam alone;
+  for (const int num_parts : {1, 2, 3, 7, 64}) {
+    const std::vector<long> expected = chain(alone, num_parts, 3000);
+    for (const int num_threads : {1, 2, 3, 8}) {
+      ThreadTeam team;
+      const ThreadTeam::Scope scope(team, num_threads);
+      EXPECT_EQ(chain(team, num_parts, 3000), expected) << num_threads << " threads";
+    }
+  }
+}
+
+TEST(ThreadTeam, CanBeOpenedAgain) {
+  ThreadTeam alone;
+  const std::vector<long> expected = chain(alone, 4, 5);
+  ThreadTeam team;
+  for (int time = 0; time < 500; ++time) {
+    const ThreadTeam::Scope scope(team, 1 + time % 3);
+    ASSERT_EQ(chain(team, 4, 5), expected) << time;
+  }
+}
+
+TEST(ThreadTeam, NeedsNoHelper) {
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  ThreadTeam team;
+  const ThreadTeam::Scope scope(team, 4);
+  ThreadTeam alone;
+  EXPECT_EQ(chain(team, 8, 100), chain(alone, 8, 100));
+}
+
+TEST(ThreadTeam, ManyWorkAtTheSameTime) {
+  ThreadTeam alone;
+  const std::vector<long> expected = chain(alone, 6, 300);
+  std::array<std::vector<long>, 10> results;
+  tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
+    ThreadTeam team;
+    const ThreadTeam::Scope scope(team, 3);
+    results[i] = chain(team, 6, 300);
+  });
+  for (const std::vector<long>& result : results) EXPECT_EQ(result, expected);
+}
+
+}  // namespace
+}  // namespace weft::fast
