@@ -114,16 +114,21 @@ void FastBody::choose_origin(const btSoftBody& body) {
 
 void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btScalar>& positions,
                        const Matrix3X<btScalar>& velocities) {
+  const fast::ThreadTeam::Scope scope(team_, team_size());
   last_starts_.swap(starts_);
   last_velocities_.swap(start_velocities_);
   choose_origin(body);
-  starts_ = positions.colwise() - origin_;
-  start_velocities_ = velocities;
+  starts_.resize(3, positions.cols());
+  start_velocities_.resize(3, positions.cols());
+  for_nodes([&](int begin, int count) {
+    starts_.middleCols(begin, count) = positions.middleCols(begin, count).colwise() - origin_;
+    start_velocities_.middleCols(begin, count) = velocities.middleCols(begin, count);
+  });
   contacts_.clear();
   obstacles_.clear();
   ways_.outdate();
   if (is_plain(body)) {
-    predict_nodes(body, time_step, last_velocities_);
+    predict_nodes(body, time_step, last_velocities_, team_);
   } else {
     // Bullet would tell the broadphase, which all bodies share.
     btBroadphaseProxy* const proxy = body.getBroadphaseHandle();
@@ -138,11 +143,17 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
 // Of now: somebody may have pushed or pinned nodes since predict().
 void FastBody::read_prediction(const btSoftBody& body) {
   predicted_.resize(3, body.m_nodes.size());
+  is_pinned_.resize(static_cast<std::size_t>(body.m_nodes.size()));
+  for_nodes([&](int begin, int count) {
+    for (int i = begin; i < begin + count; ++i) {
+      const btSoftBody::Node& node = body.m_nodes[i];
+      predicted_.col(i) << node.m_v.x(), node.m_v.y(), node.m_v.z();
+      is_pinned_[static_cast<std::size_t>(i)] = node.m_im <= 0 ? 1 : 0;
+    }
+  });
   pins_.clear();
   for (int i = 0; i < body.m_nodes.size(); ++i) {
-    const btSoftBody::Node& node = body.m_nodes[i];
-    predicted_.col(i) << node.m_v.x(), node.m_v.y(), node.m_v.z();
-    if (node.m_im <= 0) pins_.push_back(i);
+    if (is_pinned_[static_cast<std::size_t>(i)] != 0) pins_.push_back(i);
   }
 }
 
@@ -268,8 +279,8 @@ bool FastBody::keep_energy(btScalar time_step) {
   // Springs are only asked when motion does not tell.
   if (now <= given && contacts_.empty() && excess_ == 0) return false;
   const double slack = kEnergySlack * solver_->step_energy();
-  const double stored = solver_->spring_energy(places_);
-  const double most = given + solver_->spring_energy(starts_) - excess_ + slack - stored;
+  const double stored = solver_->spring_energy(places_, team_);
+  const double most = given + solver_->spring_energy(starts_, team_) - excess_ + slack - stored;
   const bool is_limited = now > most;
   if (is_limited) {
     limit_energy(weights_, most, contacts_.empty() && pins_.empty(), velocities_);
@@ -320,69 +331,83 @@ void FastBody::stay_outside(btSoftBody& body, bool of_movable) const {
   }
 }
 
-void FastBody::place(btSoftBody& body, btScalar time_step) {
+void FastBody::place(btSoftBody& body, btScalar time_step, bool is_looked_at) {
   keep_out_of_missed(body, time_step);
   leave_depths();
   give_impulses(body, time_step);
-  write_places(body);
+  is_placed_ = is_looked_at;
+  if (is_looked_at) write_places(body);
 }
 
 // Pinned nodes are where their leader has put them, to the last bit.
 void FastBody::write_places(btSoftBody& body) {
-  may_be_pushed_ = false;
   for (int i = 0; i < body.m_nodes.size(); ++i) {
     if (body.m_nodes[i].m_im > 0) body.m_nodes[i].m_x = in_world(i);
   }
 }
 
 void FastBody::project_cloth_contacts(btSoftBody& body) {
-  may_be_pushed_ = true;
   if (body.m_scontacts.size() > 0) btSoftBody::PSolve_SContacts(&body, 1, 0);
   stay_outside(body, false);
 }
 
-void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
-  const TraceScope trace("write back");
-  is_predicted_ = false;
-  bool meets_cloth = body.m_scontacts.size() > 0;
-  for (int i = 0; may_be_pushed_ && i < body.m_nodes.size(); ++i) {
+// What has moved nodes since they were put to their places: other cloth.
+bool FastBody::take_pushed_places(const btSoftBody& body) {
+  bool any = false;
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
     const btSoftBody::Node& node = body.m_nodes[i];
     if (node.m_im <= 0 || node.m_x == in_world(i)) continue;
-    meets_cloth = true;  // another body's contact has moved it
+    any = true;
     places_.col(i) = from_bullet<btScalar>(node.m_x) - origin_;
   }
-  velocities_ = places_ - origins_;
-  solver_->add_remainders(velocities_);
-  velocities_ /= inertia_step_;
+  return any;
+}
+
+void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
+  const TraceScope trace("write back");
+  const fast::ThreadTeam::Scope scope(team_, team_size());
+  is_predicted_ = false;
+  const bool is_pushed = is_placed_ && take_pushed_places(body);
+  const bool meets_cloth = body.m_scontacts.size() > 0 || is_pushed;
+  velocities_.resize(3, places_.cols());
+  for_nodes([&](int begin, int count) {
+    auto velocities = velocities_.middleCols(begin, count);
+    velocities = places_.middleCols(begin, count) - origins_.middleCols(begin, count);
+    solver_->add_remainders(begin, velocities);
+    velocities /= inertia_step_;
+  });
   if (meets_cloth) excess_ = 0;
   const bool is_limited = !meets_cloth && keep_energy(time_step);
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    btSoftBody::Node& node = body.m_nodes[i];
-    node.m_f.setZero();
-    if (node.m_im > 0) {
-      node.m_v = (1 - body.m_cfg.kDP) * to_bullet(velocities_.col(i));
-    } else {
-      node.m_v = (node.m_x - node.m_q) / time_step;
+  for_nodes([&](int begin, int count) {
+    for (int i = begin; i < begin + count; ++i) {
+      btSoftBody::Node& node = body.m_nodes[i];
+      node.m_f.setZero();
+      if (node.m_im > 0) {
+        if (!is_placed_) node.m_x = in_world(i);
+        node.m_v = (1 - body.m_cfg.kDP) * to_bullet(velocities_.col(i));
+      } else {
+        node.m_v = (node.m_x - node.m_q) / time_step;
+      }
     }
-  }
-  if (!origin_.isZero(0)) {  // with Bullet's rounding
-    places_.colwise() += origin_;
-    places_.colwise() -= origin_;
-  }
+    if (origin_.isZero(0)) return;
+    auto places = places_.middleCols(begin, count);  // with Bullet's rounding
+    places.colwise() += origin_;
+    places.colwise() -= origin_;
+  });
   stay_outside(body, true);
   const bool met_something = !contacts_.empty() || meets_cloth;
   last_step_ = met_something || is_limited ? btScalar(0) : time_step;
 }
 
-// More threads than parts would only wait.
+// What threads gain with one part each, they lose waiting for one another.
 int FastBody::team_size() const {
-  return std::min(num_threads_, fast::NodeParts(static_cast<int>(masses_.size())).count());
+  const int num_parts = fast::NodeParts(static_cast<int>(masses_.size())).count();
+  return std::clamp(num_parts / 2, 1, num_threads_);
 }
 
 void FastBody::solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort,
                      bool is_again) {
   read_constraints(body, time_step, is_again);
-  const fast::ThreadTeam::Scope scope(team_, team_size());
   solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, led_, inertias_},
                  effort, places_, team_);
   remember_ways();
@@ -391,27 +416,32 @@ void FastBody::solve(btSoftBody& body, btScalar time_step, const fast::SolverEff
 void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
                            std::span<const btRigidBody* const> pushed) {
   const TraceScope trace("fast body");
+  const fast::ThreadTeam::Scope scope(team_, team_size());
   all_pushed_.assign(pushed.begin(), pushed.end());
   read_prediction(body);
   prepare_solver(body, time_step);
   // Bullet has predicted velocities v + h a; what it would do to nodes without springs.
   const bool uses_history = may_use_history(body, time_step);
   inertia_step_ = uses_history ? time_step * 2 / 3 : time_step;
-  if (uses_history) {
-    origins_ = (4 * starts_ - last_starts_) / 3;
-  } else {
-    origins_ = starts_;
+  for (Matrix3X<btScalar>* vectors : {&origins_, &targets_, &places_}) {
+    vectors->resize(3, starts_.cols());
   }
-  if (uses_history) {
-    targets_ = origins_ + inertia_step_ * ((4 * start_velocities_ - last_velocities_) / 3 +
-                                           (predicted_ - start_velocities_) * btScalar(2) / 3);
-  } else {
-    targets_ = origins_ + inertia_step_ * predicted_;
-  }
+  for_nodes([&](int begin, int count) {
+    const auto of = [&](Matrix3X<btScalar>& vectors) { return vectors.middleCols(begin, count); };
+    if (uses_history) {
+      of(origins_) = (4 * of(starts_) - of(last_starts_)) / 3;
+      of(targets_) = of(origins_) +
+                     inertia_step_ * ((4 * of(start_velocities_) - of(last_velocities_)) / 3 +
+                                      (of(predicted_) - of(start_velocities_)) * btScalar(2) / 3);
+    } else {
+      of(origins_) = of(starts_);
+      of(targets_) = of(origins_) + inertia_step_ * of(predicted_);
+    }
+    of(places_) = of(starts_) + time_step * of(start_velocities_);
+  });
   for (const int pin : pins_) {
     targets_.col(pin) = from_bullet<btScalar>(body.m_nodes[pin].m_x) - origin_;
   }
-  places_ = starts_ + time_step * start_velocities_;
   const btScalar least_surprise = kSurpriseShare * body.getCollisionShape()->getMargin();
   for (RigidContact& contact : contacts_) follow_object(contact, time_step, least_surprise);
   solve(body, time_step, settings_.effort, false);
@@ -431,6 +461,7 @@ bool FastBody::looks_alone() const {
 void FastBody::solve_again(btSoftBody& body, btScalar time_step,
                            std::span<const btRigidBody* const> pushed) {
   const TraceScope trace("fast body");
+  const fast::ThreadTeam::Scope scope(team_, team_size());
   all_pushed_.assign(pushed.begin(), pushed.end());
   solve(body, time_step, {1, settings_.effort.iterations}, true);
 }

@@ -15,6 +15,7 @@
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
 #include <weft/fast_solver/implicit_solver.hpp>
+#include <weft/fast_solver/node_parts.hpp>
 #include <weft/fast_solver/thread_team.hpp>
 
 namespace weft::bridge {
@@ -96,9 +97,9 @@ class FastBody {
   [[nodiscard]] bool looks_alone() const;
   void solve_again(btSoftBody& body, btScalar time_step,
                    std::span<const btRigidBody* const> pushed);
-  /// Writes the solution to m_x. Contacts with cloth are projected then, over all bodies, as often as
+  /// Writes the solution to m_x, if anybody looks at it before end_solve(). Contacts with cloth are projected then, over all bodies, as often as
   /// kClothContactSweeps says, for what one body does to another would be lost otherwise.
-  void place(btSoftBody& body, btScalar time_step);
+  void place(btSoftBody& body, btScalar time_step, bool is_looked_at);
   void project_cloth_contacts(btSoftBody& body);
   static constexpr int kClothContactSweeps = 16;
   /// Velocities from m_x.
@@ -115,6 +116,13 @@ class FastBody {
  private:
   void solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort, bool is_again);
   [[nodiscard]] int team_size() const;
+  /// work(first node, number of nodes) for each part of the nodes.
+  template <class Work>
+  void for_nodes(const Work& work) {
+    fast::run_parts(team_, static_cast<int>(masses_.size()),
+                    [&](int, int begin, int end) { work(begin, end - begin); });
+  }
+  [[nodiscard]] bool take_pushed_places(const btSoftBody& body);
   void prepare_solver(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool has_pins_of_solver(const btSoftBody& body) const;
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
@@ -146,8 +154,9 @@ class FastBody {
   VectorX<double> masses_;
   FastSettings settings_;
   std::unique_ptr<fast::ImplicitSolver<btScalar>> solver_;
-  std::vector<bool> is_free_;   ///< that solver_ was made for
-  std::vector<int> pins_;       ///< of the present step
+  std::vector<bool> is_free_;  ///< that solver_ was made for
+  std::vector<int> pins_;      ///< of the present step
+  std::vector<char> is_pinned_;
   Matrix3X<btScalar> weights_;  ///< masses, each thrice [kg]; 0 for pins
   btScalar solver_step_ = 0;    ///< [s] of the steps that solver_ was made for
 
@@ -169,7 +178,7 @@ class FastBody {
   btScalar inertia_step_ = 0;  ///< [s] of the present step
   btScalar last_step_ = 0;     ///< [s]; 0: no history
   bool is_predicted_ = false;
-  bool may_be_pushed_ = false;       ///< since places were written
+  bool is_placed_ = false;           ///< before end_solve()
   double excess_ = 0;                ///< energy in springs that nothing has put in [J]
   bool is_contact_missing_ = false;  ///< in the present solution, for all that is known
   std::vector<Obstacle> obstacles_;  ///< of this step

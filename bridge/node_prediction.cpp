@@ -3,6 +3,7 @@
 #include <array>
 
 #include <weft/bridge/bullet_vector.hpp>
+#include <weft/fast_solver/node_parts.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -30,13 +31,19 @@ bool has_air(const btSoftBody::Config& settings) {
   return settings.kLF > 0 || settings.kDG > 0 || settings.kPR != 0 || settings.kVC > 0;
 }
 
-void integrate(btSoftBody& body, btScalar time_step) {
+struct Box {
+  Four low;
+  Four high;
+};
+
+/// Of the nodes begin ... end - 1; the box that they start from and end in.
+Box integrate(btSoftBody& body, btScalar time_step, int begin, int end) {
   const btVector3 gravity = body.m_worldInfo->m_gravity * time_step;
   const Four fall(gravity.x(), gravity.y(), gravity.z(), 0);
   const btScalar most = body.m_worldInfo->m_maxDisplacement / time_step;
-  Four low = four(body.m_nodes[0].m_x);
+  Four low = four(body.m_nodes[begin].m_x);
   Four high = low;
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
+  for (int i = begin; i < end; ++i) {
     btSoftBody::Node& node = body.m_nodes[i];
     const Four start = four(node.m_x);
     const Four push = (four(node.m_f) * node.m_im * time_step).min(most).max(-most);
@@ -51,8 +58,23 @@ void integrate(btSoftBody& body, btScalar time_step) {
     low = low.min(start).min(place);
     high = high.max(start).max(place);
   }
-  body.m_bounds[0] = vector_of(low - body.m_sst.radmrg);
-  body.m_bounds[1] = vector_of(high + body.m_sst.radmrg);
+  return {low, high};
+}
+
+void integrate(btSoftBody& body, btScalar time_step, fast::ThreadTeam& team) {
+  const fast::NodeParts parts(body.m_nodes.size());
+  std::array<Box, fast::ThreadTeam::kMostParts> boxes;
+  boxes.fill({Four::Zero(), Four::Zero()});
+  fast::run_parts(team, body.m_nodes.size(), [&](int part, int begin, int end) {
+    boxes[static_cast<std::size_t>(part)] = integrate(body, time_step, begin, end);
+  });
+  Box all = boxes[0];
+  for (int part = 1; part < parts.count(); ++part) {
+    all.low = all.low.min(boxes[static_cast<std::size_t>(part)].low);
+    all.high = all.high.max(boxes[static_cast<std::size_t>(part)].high);
+  }
+  body.m_bounds[0] = vector_of(all.low - body.m_sst.radmrg);
+  body.m_bounds[1] = vector_of(all.high + body.m_sst.radmrg);
 }
 
 btDbvtVolume box_of(const btSoftBody::Node& node, btScalar margin) {
@@ -68,10 +90,11 @@ bool refit(btDbvtNode* node, int depth) {
   return true;
 }
 
-void cover_ways(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities) {
+void cover_ways(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities,
+                fast::ThreadTeam& team) {
   const bool has_last = last_velocities.cols() == body.m_nodes.size();
   const btScalar ahead = kCoveredSteps * body.m_sst.sdt + body.m_sst.velmrg;
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
+  const auto cover = [&](int i) {
     btSoftBody::Node& node = body.m_nodes[i];
     btDbvtVolume box = box_of(node, body.m_sst.radmrg);
     box.SignedExpand(node.m_v * ahead);
@@ -82,11 +105,15 @@ void cover_ways(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities) {
     }
     box.Expand(bend);
     node.m_leaf->volume = box;
-  }
+  };
+  fast::run_parts(team, body.m_nodes.size(), [&](int, int begin, int end) {
+    for (int i = begin; i < end; ++i) cover(i);
+  });
   if (!refit(body.m_ndbvt.m_root, 0)) body.m_ndbvt.optimizeTopDown();
 }
 
-void update_tree(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities) {
+void update_tree(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities,
+                 fast::ThreadTeam& team) {
   if (body.m_ndbvt.m_root == nullptr) return;
   const btScalar margin = body.m_sst.radmrg;
   const int few = body.m_nodes.size() / kFewShare;
@@ -96,7 +123,7 @@ void update_tree(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities) {
     if (!node.m_leaf->volume.Contain(box_of(node, margin))) ++num_left;
   }
   if (num_left > few) {
-    cover_ways(body, last_velocities);
+    cover_ways(body, last_velocities, team);
   } else if (num_left > 0) {
     for (int i = 0; i < body.m_nodes.size(); ++i) {
       btSoftBody::Node& node = body.m_nodes[i];
@@ -127,15 +154,15 @@ bool is_plain(const btSoftBody& body) {
          body.m_cfg.timescale == btScalar(1) && !has_air(body.m_cfg) && body.m_nodes.size() > 0;
 }
 
-void predict_nodes(btSoftBody& body, btScalar time_step,
-                   ConstMatrix3XRef<btScalar> last_velocities) {
+void predict_nodes(btSoftBody& body, btScalar time_step, ConstMatrix3XRef<btScalar> last_velocities,
+                   fast::ThreadTeam& team) {
   body.m_sst.sdt = time_step;
   body.m_sst.isdt = 1 / time_step;
   body.m_sst.velmrg = 3 * time_step;
   body.m_sst.radmrg = body.getCollisionShape()->getMargin();
   body.m_sst.updmrg = body.m_sst.radmrg * btScalar(0.25);
-  integrate(body, time_step);
-  update_tree(body, last_velocities);
+  integrate(body, time_step, team);
+  update_tree(body, last_velocities, team);
   update_face_tree(body);
   body.m_rcontacts.resizeNoInitialize(0);
   body.m_scontacts.resizeNoInitialize(0);

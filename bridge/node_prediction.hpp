@@ -4,6 +4,7 @@
 
 #include <weft/bridge/precision.hpp>
 #include <weft/custom_forces/core/types.hpp>
+#include <weft/fast_solver/thread_team.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -19,8 +20,9 @@ inline namespace WEFT_BULLET_PRECISION {
 /// Bullet does it; if many have, all boxes grow to hold the ways of the next steps instead, which costs less by far:
 /// neighbours in a cloth stay neighbours, so that the tree stays good.
 /// last_velocities: at the start of the step before, 3 x n [m/s], or of another size if not known: how fast ways bend.
-void predict_nodes(btSoftBody& body, btScalar time_step,
-                   ConstMatrix3XRef<btScalar> last_velocities);
+/// By a team, with the same bits for any.
+void predict_nodes(btSoftBody& body, btScalar time_step, ConstMatrix3XRef<btScalar> last_velocities,
+                   fast::ThreadTeam& team);
 
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

@@ -97,7 +97,10 @@ void SoftBodySolver::solve_fast_bodies() {
     in_parallel(asked,
                 [&](Attachment& one) { one.fast->solve_again(*one.body, time_step_, pushed); });
   }
-  for (Attachment* one : bodies) one->fast->place(*one->body, time_step_);
+  const bool may_meet = std::any_of(bodies.begin(), bodies.end(), [&](const Attachment* one) {
+    return one->body->m_scontacts.size() > 0 || find_contact(*one->body) != nullptr;
+  });
+  for (Attachment* one : bodies) one->fast->place(*one->body, time_step_, may_meet);
   // Where springs have led the nodes, not where they would fly without them: in steps of 1/100 s layers that were found there
   // threw each other about.
   in_parallel(bodies, [&](Attachment& one) {

@@ -434,8 +434,19 @@ void ImplicitSolver<Scalar>::find_remainders(NodeRange nodes) {
 }
 
 template <class Scalar>
-void ImplicitSolver<Scalar>::add_remainders(Matrix3XRef<Scalar> ways) const {
-  for (Eigen::Index i = 0; i < ways.cols(); ++i) ways.col(i) += at_node(remainders_, i);
+void ImplicitSolver<Scalar>::add_remainders(int first_node, Matrix3XRef<Scalar> ways) const {
+  for (Eigen::Index i = 0; i < ways.cols(); ++i)
+    ways.col(i) += at_node(remainders_, first_node + i);
+}
+
+template <class Scalar>
+double ImplicitSolver<Scalar>::spring_energy(ConstMatrix3XRef<Scalar> places, ThreadTeam& team) {
+  team_ = &team;
+  for_each_part([&](NodeRange nodes) { to_arrays<Scalar>(places, nodes, unmoved_); });
+  const double energy =
+      sum_over_parts([&](NodeRange nodes) { return forces_.potential(nodes, unmoved_); });
+  team_ = nullptr;
+  return energy;
 }
 
 template class ImplicitSolver<float>;

@@ -70,9 +70,9 @@ class ImplicitSolver {
   [[nodiscard]] Vector3<Scalar> holding_force(int node) const {
     return at_node(holding_forces_, node);
   }
-  /// After solve(): ways, 3 x n [m] += what places would need to be on top, if they had more digits; at most the
+  /// After solve(): ways of some nodes in a row, 3 x their number [m] += what places would need to be on top, if they had more digits; at most the
   /// rounding of each. Of a slow motion in short steps it is a good part.
-  void add_remainders(Matrix3XRef<Scalar> ways) const;
+  void add_remainders(int first_node, Matrix3XRef<Scalar> ways) const;
   /// After solve(): the contact of the problem that holds a node, or -1.
   [[nodiscard]] int contact_of(int node) const {
     return contact_of_[static_cast<std::size_t>(node)];
@@ -85,10 +85,7 @@ class ImplicitSolver {
   /// After solve(): m |y - q|^2 / (2 h'^2), the energy of the motion without springs [J].
   [[nodiscard]] double step_energy() const { return step_energy_; }
   /// What springs store at places, and what dampers take away on the way there from the start of the step [J].
-  [[nodiscard]] double spring_energy(ConstMatrix3XRef<Scalar> places) {
-    to_arrays<Scalar>(places, forces_.all_nodes(), unmoved_);
-    return forces_.potential(forces_.all_nodes(), unmoved_);
-  }
+  [[nodiscard]] double spring_energy(ConstMatrix3XRef<Scalar> places, ThreadTeam& team);
   /// After solve(): root mean square of the unbalanced forces over that of the step's first guess [-].
   [[nodiscard]] double residual() const { return residual_; }
 

@@ -35,6 +35,14 @@ class NodeParts {
   int count_ = 1;
 };
 
+/// work(part, begin, end) for each part of some nodes begin ... end - 1, by a team.
+template <class Work>
+void run_parts(ThreadTeam& team, int num_nodes, const Work& work) {
+  const NodeParts parts(num_nodes);
+  team.run(parts.count(),
+           [&](int part) { work(part, parts[part].begin, std::min(parts[part].end, num_nodes)); });
+}
+
 /// Those of some nodes in ascending order that are in a range.
 [[nodiscard]] inline std::span<const int> in_range(const std::vector<int>& sorted,
                                                    NodeRange nodes) {

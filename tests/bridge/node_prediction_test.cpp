@@ -29,7 +29,7 @@ class MovedCloth {
 
  private:
   static ClothMesh mesh() {
-    ClothMesh mesh = cloth(7, 1, 1);
+    ClothMesh mesh = cloth(40, 1, 1);  // three parts for threads
     mesh.pinned = {0, 3};
     return mesh;
   }
@@ -41,8 +41,10 @@ TEST(NodePrediction, MovesNodesAsBulletDoes) {
   MovedCloth bullets;
   ASSERT_TRUE(is_plain(ours.body()));
   const auto step = static_cast<btScalar>(kTimeStep);
+  fast::ThreadTeam team;
+  const fast::ThreadTeam::Scope scope(team, 2);
   for (int k = 0; k < 5; ++k) {
-    predict_nodes(ours.body(), step, Matrix3X<btScalar>(3, 0));
+    predict_nodes(ours.body(), step, Matrix3X<btScalar>(3, 0), team);
     bullets.body().predictMotion(step);
     for (int i = 0; i < ours.body().m_nodes.size(); ++i) {
       const btSoftBody::Node& a = ours.body().m_nodes[i];
