@@ -206,7 +206,7 @@ void add_threads(const Name& name, ResultFile& times, ResultFile& phases) {
 
 void bench_threads(const Settings& settings) {
   ResultFile times(
-      "a step of 1/60 s of whole worlds by the clock, in turn: the fast solver (2 x 3) on one and "
+      "a step of 1/60 s of whole worlds by the clock, in turn: the fast solver (2 x 4) on one and "
       "two threads, Bullet "
       "with 10 iterations on one; crowd: 100 cloths of 20 x 20 on a plane; speed-up of minima",
       {"workload", "nodes", "one_thread_ms", "two_threads_ms", "bullet_10_ms", "least_one_ms",

@@ -52,10 +52,10 @@ std::vector<Contender> contenders(const Workload& workload) {
     int rounds, iterations, num_steps, substeps = 1;
   };
   for (const Effort& e :
-       {Effort{1, 1, 1}, {1, 2, 1},    {1, 4, 1},    {2, 2, 1},   {2, 4, 1},    {2, 8, 1},
-        {4, 8, 1},       {8, 16, 1},   {1, 2, 2},    {2, 4, 2},   {1, 2, 3},    {1, 2, 4},
-        {2, 4, 4},       {1, 2, 8},    {1, 4, 8},    {1, 2, 12},  {1, 4, 1, 2}, {1, 4, 1, 3},
-        {2, 4, 1, 2},    {3, 4, 1, 2}, {2, 3, 1, 3}, {2, 4, 1, 4}}) {
+       {Effort{1, 1, 1}, {1, 2, 1},    {1, 4, 1},    {1, 6, 1},    {2, 2, 1},   {2, 4, 1},
+        {2, 8, 1},       {4, 8, 1},    {8, 16, 1},   {1, 2, 2},    {2, 4, 2},   {1, 2, 3},
+        {1, 2, 4},       {2, 4, 4},    {1, 2, 8},    {1, 4, 8},    {1, 2, 12},  {1, 4, 1, 2},
+        {1, 4, 1, 3},    {2, 4, 1, 2}, {3, 4, 1, 2}, {2, 3, 1, 3}, {2, 4, 1, 4}}) {
     for (const bool is_second_order : {true, false}) {
       std::string name = std::to_string(e.rounds) + "x" + std::to_string(e.iterations);
       if (e.num_steps > 1) name += " each " + std::to_string(e.num_steps) + " steps";

@@ -23,6 +23,7 @@ int run(int argc, char** argv) {
   benches["fast"] = bench_fast;
   benches["drape"] = bench_drape;
   benches["scaling"] = bench_scaling;
+  benches["stretch"] = bench_stretch;
   benches["tear"] = bench_tear;
   benches["threads"] = bench_threads;
   benches["explosions"] = bench_explosions;

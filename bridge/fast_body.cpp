@@ -44,6 +44,13 @@ void check(const FastSettings& settings) {
   require(settings.effort.iterations, "iterations");
 }
 
+/// Bullet tells of one obstacle after the other. What does not move before the solution can be looked at then, when
+/// several bodies can at the same time.
+bool can_wait(const Obstacle& obstacle) {
+  return movable(obstacle.object) == nullptr &&
+         !needs_distance_field(*obstacle.shape, obstacle.facets);
+}
+
 void include_in_bounds(const Matrix3X<btScalar>& positions, btSoftBody& body) {
   body.m_bounds[0].setMin(to_bullet(positions.rowwise().minCoeff()));
   body.m_bounds[1].setMax(to_bullet(positions.rowwise().maxCoeff()));
@@ -170,8 +177,13 @@ void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& o
   obstacles_.push_back({object.getCollisionObject(), object.getCollisionShape(),
                         object.getWorldTransform(), hulls.find(*object.getCollisionShape()),
                         static_cast<int>(obstacles_.size())});
-  ways_.update(body);
-  add_rigid_contacts(body, ways_, obstacles_.back(), time_step, PinnedNodes::kLeftOut, contacts_);
+  if (!can_wait(obstacles_.back())) find_contacts(body, obstacles_.back(), time_step, contacts_);
+}
+
+void FastBody::find_contacts(const btSoftBody& body, const Obstacle& obstacle, btScalar time_step,
+                             std::vector<RigidContact>& contacts) {
+  ways_.update(body, &team_);
+  add_rigid_contacts(body, ways_, obstacle, time_step, PinnedNodes::kLeftOut, contacts, &team_);
 }
 
 // Those that are known again, and those that the solution keeps to anyway, are left out.
@@ -182,10 +194,7 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
   write_places(body);
   found_.clear();
   ways_.outdate();
-  ways_.update(body);
-  for (const Obstacle& obstacle : obstacles_) {
-    add_rigid_contacts(body, ways_, obstacle, time_step, PinnedNodes::kLeftOut, found_);
-  }
+  for (const Obstacle& obstacle : obstacles_) find_contacts(body, obstacle, time_step, found_);
   const btScalar depth = kDepthShare * body.getCollisionShape()->getMargin();
   std::erase_if(found_, [&](const RigidContact& found) {
     const btScalar gap = btDot(found.normal, body.m_nodes[found.node].m_x) - found.offset;
@@ -418,6 +427,9 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
   const TraceScope trace("fast body");
   const fast::ThreadTeam::Scope scope(team_, team_size());
   all_pushed_.assign(pushed.begin(), pushed.end());
+  for (const Obstacle& obstacle : obstacles_) {
+    if (can_wait(obstacle)) find_contacts(body, obstacle, time_step, contacts_);
+  }
   read_prediction(body);
   prepare_solver(body, time_step);
   // Bullet has predicted velocities v + h a; what it would do to nodes without springs.
@@ -449,6 +461,7 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
 
 void FastBody::look_again(btSoftBody& body, btScalar time_step) {
   const TraceScope trace("look again");
+  const fast::ThreadTeam::Scope scope(team_, team_size());
   is_contact_missing_ = find_missed_contacts(body, time_step);
 }
 

@@ -52,6 +52,8 @@ class FastBody {
 
   /// That may work on this body at a time, with the one that calls.
   void set_num_threads(int num_threads) { num_threads_ = num_threads; }
+  /// They stay as long as the result exists: between the parts of a solve too.
+  [[nodiscard]] fast::ThreadTeam::Scope hold_threads() { return {team_, team_size()}; }
 
   /// A body that sleeps is not to be stepped: only these are called.
   [[nodiscard]] bool is_asleep() const { return sleep_.is_asleep(); }
@@ -77,7 +79,7 @@ class FastBody {
                const Matrix3X<btScalar>& velocities);
   /// After predict(): tells the broadphase of the bounds, which hold the whole way of each node.
   static void publish_bounds(btSoftBody& body);
-  /// In place of btSoftBody::defaultCollisionHandler.
+  /// In place of btSoftBody::defaultCollisionHandler: notes the object.
   void collide(const btSoftBody& body, const btCollisionObjectWrapper& object, HullTable& hulls,
                btScalar time_step);
   /// Whether predict() was called in this step. A body that is woken up in between is to be left alone.
@@ -126,6 +128,8 @@ class FastBody {
   void prepare_solver(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool has_pins_of_solver(const btSoftBody& body) const;
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
+  void find_contacts(const btSoftBody& body, const Obstacle& obstacle, btScalar time_step,
+                     std::vector<RigidContact>& contacts);
   /// Contacts that the solution would need, and that nobody looked for where Bullet had predicted the
   /// nodes. True if there are any.
   [[nodiscard]] bool find_missed_contacts(btSoftBody& body, btScalar time_step);

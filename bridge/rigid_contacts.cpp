@@ -91,24 +91,34 @@ btRigidBody* movable(const btCollisionObject* object) {
   return rigid != nullptr && !rigid->isStaticOrKinematicObject() ? rigid : nullptr;
 }
 
-void NodeWays::update(const btSoftBody& body) {
+void NodeWays::update(const btSoftBody& body, fast::ThreadTeam* team) {
   if (is_of_now_) return;
   is_of_now_ = true;
   if (groups_.num_nodes() != body.m_nodes.size()) groups_.arrange(body);
   boxes_.resize(groups_.size());
-  all_ = MotionBox::nowhere();
-  for (std::size_t g = 0; g < boxes_.size(); ++g) {
-    boxes_[g] = MotionBox::nowhere();
-    for (const int i : groups_[g]) {
-      boxes_[g].include(MotionBox::of(body.m_nodes[i], btVector3(0, 0, 0)));
+  const auto enclose = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g) {
+      boxes_[g] = MotionBox::nowhere();
+      for (const int i : groups_[g]) {
+        boxes_[g].include(MotionBox::of(body.m_nodes[i], btVector3(0, 0, 0)));
+      }
     }
-    all_.include(boxes_[g]);
+  };
+  if (const std::size_t num_parts = num_parts_for(team); num_parts > 1) {
+    team->run(static_cast<int>(num_parts), [&](int part) {
+      const auto p = static_cast<std::size_t>(part);
+      enclose(boxes_.size() * p / num_parts, boxes_.size() * (p + 1) / num_parts);
+    });
+  } else {
+    enclose(0, boxes_.size());
   }
+  all_ = MotionBox::nowhere();
+  for (const MotionBox& box : boxes_) all_.include(box);
 }
 
-void add_rigid_contacts(const btSoftBody& body, const NodeWays& ways, const Obstacle& obstacle,
-                        btScalar time_step, PinnedNodes pinned,
-                        std::vector<RigidContact>& contacts) {
+void add_rigid_contacts(const btSoftBody& body, NodeWays& ways, const Obstacle& obstacle,
+                        btScalar time_step, PinnedNodes pinned, std::vector<RigidContact>& contacts,
+                        fast::ThreadTeam* team) {
   if (!obstacle.object->hasContactResponse()) return;
   const btRigidBody* rigid = btRigidBody::upcast(obstacle.object);
   const btRigidBody* const dynamic = movable(obstacle.object);
@@ -130,7 +140,7 @@ void add_rigid_contacts(const btSoftBody& body, const NodeWays& ways, const Obst
   const bool looks_at_pinned =
       pinned == PinnedNodes::kWithDynamicObjects && !obstacle.object->isStaticOrKinematicObject();
   const bool needs_field = needs_distance_field(*obstacle.shape, obstacle.facets);
-  const auto look_at = [&](int i) {
+  const auto look_at = [&](int i, std::vector<RigidContact>& found) {
     const btSoftBody::Node& node = body.m_nodes[i];
     if ((node.m_im <= 0 && !looks_at_pinned) || node.m_battach != 0) return;
     btVector3 motion(0, 0, 0);
@@ -163,12 +173,17 @@ void add_rigid_contacts(const btSoftBody& body, const NodeWays& ways, const Obst
       contact->met_by_object = dynamic->getWorldTransform().invXform(node.m_x);
     }
     if (is_still_to_move) contact->offset += btDot(contact->normal, motion);
-    contacts.push_back(*contact);
+    found.push_back(*contact);
   };
-  for (std::size_t g = 0; g < ways.boxes().size(); ++g) {
-    if (!meet(ways.boxes()[g], reached)) continue;
-    for (const int i : ways.group(g)) look_at(i);
-  }
+  const auto look_at_groups = [&](std::size_t begin, std::size_t end,
+                                  std::vector<RigidContact>& found) {
+    for (std::size_t g = begin; g < end; ++g) {
+      if (!meet(ways.boxes()[g], reached)) continue;
+      for (const int i : ways.group(g)) look_at(i, found);
+    }
+  };
+  // Bullet's field is made as it is asked.
+  ways.collect(look_at_groups, needs_field ? nullptr : team, contacts);
 }
 
 void follow_object(RigidContact& contact, btScalar time_step, btScalar least_surprise) {

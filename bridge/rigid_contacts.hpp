@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include <weft/bridge/face_tree.hpp>
 #include <weft/bridge/precision.hpp>
 #include <weft/bridge/surface_distance.hpp>
+#include <weft/fast_solver/thread_team.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -44,17 +46,42 @@ class NodeWays {
   /// The ways are others than at the last update().
   void outdate() { is_of_now_ = false; }
   /// Does nothing unless outdate() was called. Takes new memory only if the number of nodes is another.
-  void update(const btSoftBody& body);
+  void update(const btSoftBody& body, fast::ThreadTeam* team = nullptr);
   /// Boxes of groups of nodes, as NodeGroups has them.
   [[nodiscard]] const std::vector<MotionBox>& boxes() const { return boxes_; }
   [[nodiscard]] std::span<const int> group(std::size_t g) const { return groups_[g]; }
   [[nodiscard]] const MotionBox& all() const { return all_; }
 
+  /// work(first group, group behind the last, contacts) for parts of the groups, by a team; appends what each adds, in
+  /// order.
+  template <class Work>
+  void collect(const Work& work, fast::ThreadTeam* team, std::vector<RigidContact>& contacts) {
+    const std::size_t num_parts = num_parts_for(team);
+    if (num_parts == 1) return work(std::size_t{0}, boxes_.size(), contacts);
+    found_.resize(std::max(found_.size(), num_parts));
+    team->run(static_cast<int>(num_parts), [&](int part) {
+      const auto p = static_cast<std::size_t>(part);
+      found_[p].clear();
+      work(boxes_.size() * p / num_parts, boxes_.size() * (p + 1) / num_parts, found_[p]);
+    });
+    for (std::size_t p = 0; p < num_parts; ++p) {
+      contacts.insert(contacts.end(), found_[p].begin(), found_[p].end());
+    }
+  }
+
  private:
+  /// Groups of a part: some microseconds.
+  static constexpr std::size_t kGroups = 32;
+  [[nodiscard]] std::size_t num_parts_for(const fast::ThreadTeam* team) const {
+    if (team == nullptr || team->num_threads() == 1) return 1;
+    return std::clamp<std::size_t>(boxes_.size() / kGroups, 1, fast::ThreadTeam::kMostParts);
+  }
+
   NodeGroups groups_;
   std::vector<MotionBox> boxes_;
   MotionBox all_ = MotionBox::nowhere();
   bool is_of_now_ = false;
+  std::vector<std::vector<RigidContact>> found_;  ///< of each part
 };
 
 /// Which pinned nodes (without a mass of their own) have contacts.
@@ -69,10 +96,10 @@ enum class PinnedNodes {
 /// Nodes are looked up at the predicted place, up to twice the collision margin: exactly (surface_distance()), or in
 /// Bullet's distance field of the shape, as Bullet does. A node that travels farther than the margin is followed along
 /// its way, relative to the object, and stopped at the surface that it meets first: however thin the
-/// object, it is not shot through. Anchored nodes are left out.
-void add_rigid_contacts(const btSoftBody& body, const NodeWays& ways, const Obstacle& obstacle,
-                        btScalar time_step, PinnedNodes pinned,
-                        std::vector<RigidContact>& contacts);
+/// object, it is not shot through. Anchored nodes are left out. By a team, in the same order for any.
+void add_rigid_contacts(const btSoftBody& body, NodeWays& ways, const Obstacle& obstacle,
+                        btScalar time_step, PinnedNodes pinned, std::vector<RigidContact>& contacts,
+                        fast::ThreadTeam* team = nullptr);
 
 /// Once Bullet has moved dynamic objects: they may have come elsewhere than their velocities told when the contact was
 /// found, for they have met each other since. Offset and motion become those of where the object is, if that is farther from where

@@ -180,6 +180,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   void tell_of_each_other(btSoftBody& body, btSoftBody& other);
   void for_bodies(const std::function<void(btSoftBody&, Attachment*)>& work);
   void solve_fast_bodies();
+  void solve_listed_bodies();
   /// Has exploded or is suspended.
   [[nodiscard]] bool is_still(const btSoftBody& body) const;
 

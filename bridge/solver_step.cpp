@@ -68,10 +68,20 @@ void SoftBodySolver::solve_fast_bodies() {
       bodies.push_back(attachment.get());
     }
   }
+  const int num_each = std::max(
+      1, tbb::this_task_arena::max_concurrency() / std::max(1, static_cast<int>(bodies.size())));
+  for (Attachment* one : bodies) one->fast->set_num_threads(num_each);
+  if (bodies.size() == 1) {
+    const auto threads = bodies[0]->fast->hold_threads();
+    solve_listed_bodies();
+  } else {
+    solve_listed_bodies();
+  }
+}
+
+void SoftBodySolver::solve_listed_bodies() {
+  std::vector<Attachment*>& bodies = attachments_->stepped;
   const auto in_parallel = [&](const std::vector<Attachment*>& list, const auto& work) {
-    const int num_each = std::max(
-        1, tbb::this_task_arena::max_concurrency() / std::max(1, static_cast<int>(list.size())));
-    for (Attachment* one : list) one->fast->set_num_threads(num_each);
     tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) { work(*list[i]); });
   };
   std::vector<const btRigidBody*>& pushed = attachments_->pushed;

@@ -31,18 +31,23 @@ class ThreadTeam {
   void open(int num_threads);
   /// Sends them away. Without effect on a team that is not open.
   void close();
-  /// Open as long as the result exists.
+  /// Open as long as the result exists; without effect on a team that is open already.
   class Scope {
    public:
-    Scope(ThreadTeam& team, int num_threads) : team_(team) { team_.open(num_threads); }
+    Scope(ThreadTeam& team, int num_threads) : team_(team), opens_(team.num_threads() == 1) {
+      if (opens_) team_.open(num_threads);
+    }
     Scope(const Scope&) = delete;
     Scope& operator=(const Scope&) = delete;
     Scope(Scope&&) = delete;
     Scope& operator=(Scope&&) = delete;
-    ~Scope() { team_.close(); }
+    ~Scope() {
+      if (opens_) team_.close();
+    }
 
    private:
     ThreadTeam& team_;
+    bool opens_;
   };
 
   [[nodiscard]] int num_threads() const { return num_threads_; }
