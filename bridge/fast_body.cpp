@@ -422,6 +422,14 @@ void FastBody::solve(btSoftBody& body, btScalar time_step, const fast::SolverEff
   remember_ways();
 }
 
+void FastBody::prepare(const btSoftBody& body, btScalar time_step) {
+  {
+    const fast::ThreadTeam::Scope scope(team_, team_size());
+    read_prediction(body);
+  }
+  prepare_solver(body, time_step);  // by tasks of oneTBB
+}
+
 void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
                            std::span<const btRigidBody* const> pushed) {
   const TraceScope trace("fast body");
@@ -430,8 +438,6 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
   for (const Obstacle& obstacle : obstacles_) {
     if (can_wait(obstacle)) find_contacts(body, obstacle, time_step, contacts_);
   }
-  read_prediction(body);
-  prepare_solver(body, time_step);
   // Bullet has predicted velocities v + h a; what it would do to nodes without springs.
   const bool uses_history = may_use_history(body, time_step);
   inertia_step_ = uses_history ? time_step * 2 / 3 : time_step;

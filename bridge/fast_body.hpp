@@ -52,7 +52,7 @@ class FastBody {
 
   /// That may work on this body at a time, with the one that calls.
   void set_num_threads(int num_threads) { num_threads_ = num_threads; }
-  /// They stay as long as the result exists: between the parts of a solve too.
+  /// They stay as long as the result exists: between the parts of a solve too, but for prepare().
   [[nodiscard]] fast::ThreadTeam::Scope hold_threads() { return {team_, team_size()}; }
 
   /// A body that sleeps is not to be stepped: only these are called.
@@ -86,10 +86,11 @@ class FastBody {
   [[nodiscard]] bool is_predicted() const { return is_predicted_; }
   /// Appends the rigid bodies that this one may push in this step, each once.
   void list_pushed(const btSoftBody& body, std::vector<const btRigidBody*>& list) const;
-  /// In place of btSoftBody::solveConstraints, in parts. begin_solve() and solve_again() touch only the body, so that
+  /// In place of btSoftBody::solveConstraints, in parts. prepare(), begin_solve() and solve_again() touch only the body, so that
   /// those of several bodies may run at the same time; the others look things up in the world and push rigid bodies.
   /// pushed: those of all bodies, in order. Each of several that push one rigid body has a part of its inertia: they are
   /// solved apart, and each alone would stop it.
+  void prepare(const btSoftBody& body, btScalar time_step);
   void begin_solve(btSoftBody& body, btScalar time_step,
                    std::span<const btRigidBody* const> pushed);
   /// Looks for contacts that the solution needs: is_contact_missing() says whether it found any.

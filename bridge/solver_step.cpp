@@ -58,6 +58,17 @@ void SoftBodySolver::for_bodies(const std::function<void(btSoftBody&, Attachment
   });
 }
 
+namespace {
+
+/// A single one by the calling thread: its team may be open, which must not wait for tasks.
+template <class Entry, class Work>
+void in_parallel(const std::vector<Entry*>& list, const Work& work) {
+  if (list.size() == 1) return work(*list[0]);
+  tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) { work(*list[i]); });
+}
+
+}  // namespace
+
 void SoftBodySolver::solve_fast_bodies() {
   std::vector<Attachment*>& bodies = attachments_->stepped;
   bodies.clear();
@@ -71,6 +82,7 @@ void SoftBodySolver::solve_fast_bodies() {
   const int num_each = std::max(
       1, tbb::this_task_arena::max_concurrency() / std::max(1, static_cast<int>(bodies.size())));
   for (Attachment* one : bodies) one->fast->set_num_threads(num_each);
+  in_parallel(bodies, [&](Attachment& one) { one.fast->prepare(*one.body, time_step_); });
   if (bodies.size() == 1) {
     const auto threads = bodies[0]->fast->hold_threads();
     solve_listed_bodies();
@@ -81,9 +93,6 @@ void SoftBodySolver::solve_fast_bodies() {
 
 void SoftBodySolver::solve_listed_bodies() {
   std::vector<Attachment*>& bodies = attachments_->stepped;
-  const auto in_parallel = [&](const std::vector<Attachment*>& list, const auto& work) {
-    tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) { work(*list[i]); });
-  };
   std::vector<const btRigidBody*>& pushed = attachments_->pushed;
   const auto list_pushed = [&] {
     pushed.clear();

@@ -89,6 +89,7 @@ class AlignedMatrix : public Eigen::Map<Eigen::Matrix<Scalar, kRows, kColumns>> 
     return size == Eigen::Dynamic ? 0 : size;
   }
   void look_at(Eigen::Index rows, Eigen::Index columns) {
+    // As Eigen's manual has it for maps that look at something else.
     new (static_cast<Base*>(this)) Base(values_.data(), rows, columns);
   }
 

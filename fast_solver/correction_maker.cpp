@@ -19,8 +19,9 @@ constexpr double kSmallShare = 0.05;
 /// The next coarser ones must be fewer by this to be worth it.
 constexpr double kLeastGain = 0.7;
 
-/// Parts that the rows of a coarse matrix are made in.
+/// Parts that the rows of a coarse matrix are made in, and the columns of an inverse.
 constexpr int kRowParts = 6;
+constexpr int kInverseParts = 6;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -72,11 +73,18 @@ bool CorrectionMaker::advance() {
       break;
     case Part::kFactor:
       result_.factor_ = SparseCholesky(matrix_, std::move(elimination_));
-      part_ = matrix_.size() <= kMostDense ? Part::kInverse : Part::kSums;
+      part_ = Part::kSums;
+      if (matrix_.size() == 0 || matrix_.size() > kMostDense) break;
+      inverse_ = std::make_unique<DenseInverseMaker>(matrix_, result_.factor_);
+      part_ = Part::kInverse;
       break;
     case Part::kInverse:
-      result_.inverse_ = DenseInverse(result_.factor_);
-      result_.factor_ = SparseCholesky();
+      if (!inverse_->add_columns(matrix_.size() / kInverseParts + 1)) break;
+      if (auto inverse = inverse_->take()) {
+        result_.inverse_ = std::move(*inverse);
+        result_.factor_ = SparseCholesky();
+      }
+      inverse_.reset();
       part_ = Part::kSums;
       break;
     case Part::kSums:
@@ -98,7 +106,6 @@ void CorrectionMaker::make_sums() {
   result_.coarse_.setZero(4, num_filled);
   result_.coarse_sums_.setZero(4, num_filled);
   result_.num_nodes_ = num_nodes_;
-  result_.num_nodes_made_for_ = num_nodes_;
   result_.parts_ = NodeParts(num_nodes_);
   result_.nodes_.setZero(4, fill_up(num_nodes_));
   std::vector<WeightedSums::Row> of_coarse(at(num_coarse));

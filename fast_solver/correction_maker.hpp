@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <weft/fast_solver/coarse_nodes.hpp>
+#include <weft/fast_solver/dense_inverse.hpp>
 #include <weft/fast_solver/elimination.hpp>
 #include <weft/fast_solver/global_correction.hpp>
 #include <weft/fast_solver/spring_network.hpp>
@@ -11,7 +12,7 @@
 namespace weft::fast {
 
 /// Makes a GlobalCorrection in parts of about the same time, so that it can be spread over the frames of a
-/// world that must not stall: a dozen parts, of about a millisecond each for ten thousand nodes. What it
+/// world that must not stall: some twenty parts, of up to a millisecond each for ten thousand nodes. What it
 /// makes does not depend on what is done between them.
 class CorrectionMaker {
  public:
@@ -45,6 +46,7 @@ class CorrectionMaker {
   std::vector<int> order_;
   Elimination elimination_;
   GlobalCorrection result_;
+  std::unique_ptr<DenseInverseMaker> inverse_;  ///< of result_'s factor
 };
 
 /// The matrix of a network whose springs resist as much across as along, over the nodes names, ascending.

@@ -1,5 +1,7 @@
 #include <weft/fast_solver/global_correction.hpp>
 
+#include <utility>
+
 #include <weft/fast_solver/correction_maker.hpp>
 #include <weft/fast_solver/network_kernel.hpp>
 
@@ -16,10 +18,12 @@ GlobalCorrection::GlobalCorrection(const SymmetricMatrix& matrix, const std::vec
 void GlobalCorrection::add_copies(const std::vector<int>& origins) {
   for (const int origin : origins) {
     const int node = num_nodes_++;
+    WeightedSums::Row row;
     refine_.for_each_term(origin, [&](int coarse, float weight) {
-      refine_.add_term(node, coarse, weight);
+      row.emplace_back(coarse, weight);
       coarsen_.add_term(coarse, node, weight);
     });
+    refine_.append(std::move(row));
   }
   nodes_.setZero(4, fill_up(num_nodes_));
 }
@@ -54,10 +58,7 @@ NodeRange GlobalCorrection::nodes_of(int part) const {
 
 void GlobalCorrection::interpolate(int part, NodeArrays<float>& correction) {
   refine_.multiply(part, coarse_, nodes_);
-  if (part == parts_.count() - 1) {
-    nodes_.middleCols(num_nodes_made_for_, num_nodes_ - num_nodes_made_for_).setZero();
-    refine_.add_late_terms(coarse_, nodes_);
-  }
+  if (part == parts_.count() - 1) refine_.multiply_appended(coarse_, nodes_);
   vector_kernel().from_fours(nodes_.data(), static_cast<int>(correction.rows()), nodes_of(part),
                              correction.data());
 }

@@ -15,7 +15,7 @@ namespace weft::fast {
 /// What carries a corner's load through the whole cloth at once: the solution of a network that resists
 /// equally in all directions, on few of its nodes, interpolated to the others. Details are for a smoother;
 /// with one, few nodes correct as well as all of them do (docs/fast_solver.md).
-/// Threads  one object from one thread at a time. Allocates nothing after construction.
+/// Threads  one object from one thread at a time, but for calls that say otherwise. Allocates nothing after construction.
 class GlobalCorrection {
  public:
   /// matrix: of the unknowns, positive definite, negative beside the diagonal where springs are.
@@ -49,7 +49,6 @@ class GlobalCorrection {
 
   int size_ = 0;
   int num_nodes_ = 0;
-  int num_nodes_made_for_ = 0;  ///< without copies
   NodeParts parts_;
   WeightedSums coarsen_;   ///< P^T: of each coarse unknown, nodes
   WeightedSums refine_;    ///< P: of each node, coarse unknowns

@@ -51,7 +51,7 @@ class ImplicitSolver {
   void tear(const SpringNetwork& springs, const std::vector<char>& is_changed,
             const VectorX<double>& masses, const std::vector<int>& origins);
   /// To be called once in every step: after a tear the global correction is made anew in parts, one in
-  /// each call, a dozen in all; nothing happens otherwise. network, masses: the present ones. What a
+  /// each call, some twenty in all; nothing happens otherwise. network, masses: the present ones. What a
   /// step gives depends on how many there were since the tear, and on no clock or thread.
   void renew(const ChangedNetwork& network, const VectorX<double>& masses);
   [[nodiscard]] bool is_renewed() const { return !is_outdated_ && !next_global_; }

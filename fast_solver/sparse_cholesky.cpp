@@ -26,7 +26,8 @@ int round_up(int n) {
   return (n + kPanelBlock - 1) / kPanelBlock * kPanelBlock;
 }
 
-using Dense = Eigen::MatrixXf;
+/// A stiff network that only its mass holds would not be positive definite in single precision.
+using Dense = Eigen::MatrixXd;
 
 }  // namespace
 
@@ -138,7 +139,7 @@ void SparseCholesky::factorize(const SymmetricMatrix& matrix) {
     Dense f = Dense::Zero(n, n);
     for (int c = 0; c < node.width; ++c) {
       const int unknown = elimination_.order[at(node.first + c)];
-      f(c, c) += static_cast<float>(matrix.diagonal[at(unknown)]);
+      f(c, c) += matrix.diagonal[at(unknown)];
       for (int e = matrix.starts[at(unknown)]; e < matrix.starts[at(unknown) + 1]; ++e) {
         const int k = place[at(matrix.columns[at(e)])];
         if (k < node.first + c) continue;
@@ -146,7 +147,7 @@ void SparseCholesky::factorize(const SymmetricMatrix& matrix) {
             k < node.first + node.width
                 ? k - node.first
                 : w + (std::lower_bound(node.rows.begin(), node.rows.end(), k) - node.rows.begin());
-        f(row, c) += static_cast<float>(matrix.values[at(e)]);
+        f(row, c) += matrix.values[at(e)];
       }
     }
     for (int i = 0; i < front.num_children; ++i) {
@@ -163,18 +164,18 @@ void SparseCholesky::factorize(const SymmetricMatrix& matrix) {
       throw InvalidArgument("sparse Cholesky: the matrix is not positive definite at unknown " +
                             std::to_string(elimination_.order[at(node.first)]));
     }
-    Eigen::Map<Dense> panel(panels_.data() + front.panel, front.num_rows, w);
+    Eigen::Map<Eigen::MatrixXf> panel(panels_.data() + front.panel, front.num_rows, w);
     Dense inverse = Dense::Identity(w, w);
     llt.matrixL().solveInPlace(inverse);
-    panel.topRows(w) = inverse;
+    panel.topRows(w) = inverse.cast<float>();
     if (front.num_below == 0) return;
     const Eigen::Index m = front.num_below;
     // L21 = F21 L11^-T
     const Dense below =
         f.bottomLeftCorner(m, w) * inverse.transpose().triangularView<Eigen::Upper>();
-    panel.middleRows(w, m).noalias() = below * inverse.triangularView<Eigen::Lower>();
+    panel.middleRows(w, m) = Dense(below * inverse.triangularView<Eigen::Lower>()).cast<float>();
     updates[at(s)] = f.bottomRightCorner(m, m);
-    updates[at(s)].selfadjointView<Eigen::Lower>().rankUpdate(below, -1.0F);
+    updates[at(s)].selfadjointView<Eigen::Lower>().rankUpdate(below, -1.0);
   };
   tbb::parallel_for(std::size_t{0}, subtrees_.size(), [&](std::size_t t) {
     for (int s = subtrees_[t].begin; s < subtrees_[t].end; ++s) eliminate_one(s);

@@ -11,7 +11,7 @@
 
 namespace weft::fast {
 
-/// The Cholesky factor of a sparse symmetric positive definite matrix, in single precision, made to be
+/// The Cholesky factor of a sparse symmetric positive definite matrix, kept in single precision, made to be
 /// applied to three right-hand sides again and again.
 ///
 /// Every supernode is one dense panel G = [L11^-1; L21 L11^-1], so that both passes are products of
@@ -23,7 +23,7 @@ class SparseCholesky {
  public:
   SparseCholesky() = default;
   /// order: an elimination order (minimum_degree_order()). names: what solve() calls the unknowns, the
-  /// columns of its arguments; empty: their own numbers. Throws InvalidArgument for a matrix that is not positive definite in single precision.
+  /// columns of its arguments; empty: their own numbers. Throws InvalidArgument for a matrix that is not positive definite.
   SparseCholesky(const SymmetricMatrix& matrix, const std::vector<int>& order,
                  const std::vector<int>& names = {});
 

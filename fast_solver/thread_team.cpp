@@ -1,15 +1,24 @@
 #include <weft/fast_solver/thread_team.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <thread>
 
 namespace weft::fast {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 /// Looks before a thread lets others have the processor, and before the caller does what a helper ought to: some 20 us,
 /// longer than what a solve does between two loops, or a part takes.
 constexpr int kLooks = 400;
+/// A loop that takes so many times what the caller's own parts took, and this beyond, has waited for a thread that was
+/// stopped, which comes back after milliseconds.
+constexpr int kLongTimes = 4;
+constexpr std::chrono::microseconds kLongWait{100};
+/// How often a team is opened without helpers after that: a second's steps or so.
+constexpr int kTimesAlone = 120;
 
 /// Tells the processor that this thread only waits.
 void pause() {
@@ -22,7 +31,7 @@ void pause() {
 
 class Patience {
  public:
-  /// True if it has an end.
+  /// True if it is at an end.
   bool wait() {
     if (++looks_ <= kLooks) {
       pause();
@@ -39,23 +48,32 @@ class Patience {
 }  // namespace
 
 void ThreadTeam::open(int num_threads) {
+  if (num_alone_ > 0) {
+    --num_alone_;
+    return;
+  }
   num_threads_ = std::clamp(num_threads, 1, kMostParts);
   if (num_threads_ == 1) return;
+  is_let_down_ = false;
   num_helpers_.store(0, std::memory_order_relaxed);
   is_open_.store(true, std::memory_order_release);
+  helpers_.emplace();
   for (int helper = 1; helper < num_threads_; ++helper) {
-    helpers_.run([this] { help(); });
+    helpers_->run([this] { help(); });
   }
 }
 
 void ThreadTeam::close() {
   if (num_threads_ == 1) return;
   is_open_.store(false, std::memory_order_release);
-  helpers_.wait();
+  helpers_->wait();
+  helpers_.reset();
   num_threads_ = 1;
+  if (is_let_down_) num_alone_ = kTimesAlone;
 }
 
 void ThreadTeam::run_shared(int num_parts, Call call, const void* job) {
+  const Clock::time_point start = Clock::now();
   const std::uint64_t loop = loop_.load(std::memory_order_relaxed) + 1;
   const int num_members = 1 + num_helpers_.load(std::memory_order_acquire);
   Loop& next = loops_[loop % 2];
@@ -75,8 +93,15 @@ void ThreadTeam::run_shared(int num_parts, Call call, const void* job) {
   };
   take(0, num_parts / num_members);
   Patience patience;
+  Clock::time_point end_of_patience = start;
   while (num_done_.load(std::memory_order_acquire) != num_left) {
-    if (patience.wait()) take(0, num_parts);
+    if (!patience.wait()) continue;
+    if (end_of_patience == start) end_of_patience = Clock::now();
+    take(0, num_parts);
+  }
+  if (end_of_patience != start) {
+    const auto usual = kLongTimes * (end_of_patience - start) + kLongWait;
+    is_let_down_ = Clock::now() - start > usual;
   }
 }
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <type_traits>
+#include <optional>
 
 #include <tbb/task_group.h>
 
@@ -15,6 +15,11 @@ namespace weft::fast {
 /// Helpers are tasks of oneTBB: they come when they find the time, and without any the caller does everything. A loop
 /// has parts, and each thread has the same ones in every loop, which are in its cache; the caller takes those of a
 /// helper that does not begin. What a part computes may not depend on who does it.
+///
+/// Where other programs need the processors, a helper may be stopped in the middle of a part. Then the caller does without
+/// helpers for a while.
+///
+/// While a team is open its caller must not wait for other tasks of oneTBB: it might be given a helper's.
 class ThreadTeam {
  public:
   /// Parts of a loop at most.
@@ -27,7 +32,7 @@ class ThreadTeam {
   ThreadTeam& operator=(ThreadTeam&&) = delete;
   ~ThreadTeam() { close(); }
 
-  /// Calls for helpers; only one thread at a time may use a team. num_threads: with the caller's.
+  /// Calls for helpers; only one thread at a time may use a team. num_threads: with the caller's, at most.
   void open(int num_threads);
   /// Sends them away. Without effect on a team that is not open.
   void close();
@@ -52,16 +57,17 @@ class ThreadTeam {
 
   [[nodiscard]] int num_threads() const { return num_threads_; }
 
-  /// work(part) for each of num_parts parts, at most kMostParts, which must not throw; returns when all are done.
+  /// work(part) for each of num_parts parts, at most kMostParts; returns when all are done. What work throws ends the
+  /// program: others may be at work on the same.
   template <class Work>
-  void run(int num_parts, const Work& work) {
-    if (num_threads_ <= 1 || num_parts <= 1) {
+  void run(int num_parts, const Work& work) noexcept {
+    if (num_threads_ <= 1 || num_parts <= 1 || is_let_down_) {
       for (int part = 0; part < num_parts; ++part) work(part);
       return;
     }
     run_shared(
-        num_parts, [](const void* job, int part) { (*static_cast<const Work*>(job))(part); },
-        &work);
+        num_parts,
+        [](const void* job, int part) noexcept { (*static_cast<const Work*>(job))(part); }, &work);
   }
 
  private:
@@ -90,7 +96,10 @@ class ThreadTeam {
   alignas(64) std::atomic<int> num_done_{0};  ///< parts of the present loop, by helpers
   std::array<Ticket, kMostParts> tickets_;
   int num_threads_ = 1;
-  tbb::task_group helpers_;
+  bool is_let_down_ = false;  ///< a helper has kept the caller waiting for long
+  int num_alone_ = 0;         ///< times to be opened without helpers
+  /// Made by open(): a group belongs to the parallel loop that it was first used in, for ever.
+  std::optional<tbb::task_group> helpers_;
 };
 
 }  // namespace weft::fast

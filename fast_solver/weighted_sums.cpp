@@ -49,6 +49,14 @@ void WeightedSums::multiply(int part, const Fours& values, Fours& result) const 
   }
 }
 
+void WeightedSums::multiply_appended(const Fours& values, Fours& result) const {
+  for (std::size_t r = 0; r < appended_.size(); ++r) {
+    auto sum = result.col(static_cast<Eigen::Index>(places_.size() + r));
+    sum.setZero();
+    for (const auto& [column, weight] : appended_[r]) sum += weight * values.col(column);
+  }
+}
+
 void WeightedSums::add_late_terms(const Fours& values, Fours& result) const {
   for (const LateTerm& term : late_terms_) {
     result.col(term.row) += term.weight * values.col(term.column);

@@ -25,21 +25,25 @@ class WeightedSums {
   /// result = matrix values, the rows of a part.
   void multiply(int part, const Fours& values, Fours& result) const;
 
-  /// Terms that come later, of any row.
+  /// A row behind the others, of which no part knows.
+  void append(Row row) { appended_.push_back(std::move(row)); }
+  [[nodiscard]] int num_rows() const { return static_cast<int>(places_.size() + appended_.size()); }
+  /// result = matrix values, the rows that were appended.
+  void multiply_appended(const Fours& values, Fours& result) const;
+  /// One more term of one of the first rows.
   void add_term(int row, int column, float weight) { late_terms_.push_back({row, column, weight}); }
-  /// result += what they make of values, in all rows.
+  /// result += what such terms make of values.
   void add_late_terms(const Fours& values, Fours& result) const;
 
-  /// take(column, weight) for each term of a row, those that came later too.
+  /// take(column, weight) for each term of a row, but for those of add_term().
   template <class Take>
   void for_each_term(int row, const Take& take) const {
-    if (static_cast<std::size_t>(row) < places_.size()) {
-      const auto [first, count] = places_[static_cast<std::size_t>(row)];
+    const auto r = static_cast<std::size_t>(row);
+    if (r < places_.size()) {
+      const auto [first, count] = places_[r];
       for (std::size_t k = first; k < first + count; ++k) take(columns_[k], weights_[k]);
-    }
-    for (std::size_t t = 0, end = late_terms_.size(); t < end; ++t) {
-      const LateTerm term = late_terms_[t];
-      if (term.row == row) take(term.column, term.weight);
+    } else {
+      for (const auto& [column, weight] : appended_[r - places_.size()]) take(column, weight);
     }
   }
 
@@ -65,6 +69,7 @@ class WeightedSums {
   std::vector<Run> runs_;
   std::vector<std::size_t> first_runs_ = {0};                ///< of each part, and behind the last
   std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< of each row: first term, number
+  std::vector<Row> appended_;
   std::vector<LateTerm> late_terms_;
 };
 

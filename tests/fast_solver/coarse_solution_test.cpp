@@ -1,6 +1,11 @@
 // What a global correction is made of: sums over nodes and the inverse between coarse unknowns.
+#include <cstdlib>
+#include <optional>
+#include <tuple>
+
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include <weft/fast_solver/dense_inverse.hpp>
 #include <weft/fast_solver/minimum_degree.hpp>
@@ -33,45 +38,97 @@ TEST(WeightedSums, AreThoseOfEachRow) {
   for (int part = 0; part < sums.num_parts(); ++part) sums.multiply(part, values, result);
   sums.add_term(5, 39, 2.0F);
   sums.add_late_terms(values, result);
-  for (int r = 0; r < 90; ++r) {
+  sums.append(rows[7]);
+  sums.multiply_appended(values, result);
+  for (int r = 0; r < 91; ++r) {
+    const WeightedSums::Row& row = rows[r == 90 ? 7U : static_cast<std::size_t>(r)];
     Eigen::Vector4f expected = Eigen::Vector4f::Zero();
-    for (const auto& [column, weight] : rows[static_cast<std::size_t>(r)]) {
-      expected += weight * values.col(column);
-    }
+    for (const auto& [column, weight] : row) expected += weight * values.col(column);
     if (r == 5) expected += 2.0F * values.col(39);
     // Single precision, up to forty terms.
     EXPECT_LT((result.col(r) - expected).norm(), 1e-5F) << r;
-    std::size_t num_terms = 0;
-    sums.for_each_term(r, [&](int, float) { ++num_terms; });
-    EXPECT_EQ(num_terms, rows[static_cast<std::size_t>(r)].size() + (r == 5 ? 1 : 0));
+    WeightedSums::Row terms;
+    sums.for_each_term(r, [&](int column, float weight) { terms.emplace_back(column, weight); });
+    EXPECT_EQ(terms, row);
   }
-  EXPECT_TRUE(result.rightCols(2).isConstant(-1.0F, 0));
+  EXPECT_EQ(sums.num_rows(), 91);
+  EXPECT_TRUE(result.col(91).isConstant(-1.0F, 0));
 }
 
-TEST(DenseInverse, SolvesWhatTheMatrixSays) {
-  for (const int n : {1, 5, 31, 32, 33, 100}) {
-    std::vector<MatrixPart> parts;
-    for (int i = 0; i < n; ++i) {
-      parts.push_back({i, i, 3e-5});
-      if (i > 0) parts.push_back({i - 1, i, -1e-5});
-      if (i >= 7) parts.push_back({i - 7, i, -2e-6});
-    }
-    const SymmetricMatrix matrix = sum_of_parts(n, parts);
-    SparseCholesky factor(matrix, minimum_degree_order(matrix));
-    const DenseInverse inverse(factor);
+/// A chain of springs with a few across, and masses.
+SymmetricMatrix chain(int n, double stiffness, double mass, int cut) {
+  std::vector<MatrixPart> parts;
+  const auto connect = [&](int a, int b) {
+    if (a < 0 || (a < cut) != (b < cut)) return;
+    parts.push_back({a, a, stiffness});
+    parts.push_back({b, b, stiffness});
+    parts.push_back({a, b, -stiffness});
+  };
+  for (int i = 0; i < n; ++i) {
+    parts.push_back({i, i, mass});
+    for (const int distance : {1, 5, 9}) connect(i - distance, i);
+  }
+  return sum_of_parts(n, parts);
+}
+
+std::optional<DenseInverse> inverse_of(const SymmetricMatrix& matrix) {
+  SparseCholesky factor(matrix, minimum_degree_order(matrix));
+  DenseInverseMaker maker(matrix, factor);
+  while (!maker.add_columns(7)) {
+  }
+  return maker.take();
+}
+
+/// Of A^-1 as it is kept, all columns, less that of A^-1.
+Eigen::MatrixXd error_of(DenseInverse& inverse, const Eigen::MatrixXd& exact) {
+  const Eigen::Index n = exact.rows();
+  Eigen::MatrixXd found(n, n);
+  ThreadTeam team;
+  const ThreadTeam::Scope scope(team, 3);
+  for (Eigen::Index column = 0; column < n; ++column) {
     Fours right = Fours::Zero(4, inverse.filled_size());
-    right.topLeftCorner(3, n).setRandom();
+    right.col(column).head<3>() << 1, 2, -1;
     Fours result(4, inverse.filled_size());
-    ThreadTeam team;
-    const ThreadTeam::Scope scope(team, 3);
     inverse.multiply(right, result, team);
-    const Eigen::MatrixXd expected =
-        dense(matrix).llt().solve(right.topLeftCorner(3, n).transpose().cast<double>());
-    const Eigen::MatrixXd found = result.topLeftCorner(3, n).transpose().cast<double>();
-    // Entries are kept in half precision.
-    EXPECT_LT((found - expected).norm(), 5e-4 * expected.norm()) << n;
+    found.col(column) = result.row(0).head(n).transpose().cast<double>();
+    EXPECT_TRUE(result.row(1).isApprox(2 * result.row(0), 1e-6F));
     EXPECT_TRUE(result.rightCols(inverse.filled_size() - n).isZero(0));
   }
+  return found - exact;
+}
+
+// What a correction needs: that the inverse is not wrong by more than it is, for any vector. Where masses alone hold
+// what springs of 1 MN/m connect, numbers in half precision would be, if they held the motion as a whole too.
+TEST(DenseInverse, IsRightForSoftAndStiffMotions) {
+  for (const double stiffness : {1.0, 1e3, 1e6}) {
+    for (const int n : {1, 5, 31, 32, 33, 100}) {
+      for (const int cut : {0, n / 3}) {  // in one piece and in two
+        const SymmetricMatrix matrix = chain(n, stiffness, 0.5, cut);
+        std::optional<DenseInverse> inverse = inverse_of(matrix);
+        ASSERT_TRUE(inverse) << stiffness;
+        const Eigen::MatrixXd exact = dense(matrix).inverse();
+        const Eigen::MatrixXd root = Eigen::MatrixXd(dense(matrix).llt().matrixL());
+        const Eigen::MatrixXd relative =
+            root.transpose() * error_of(*inverse, exact) * root;  // zero if exact, -1 if nothing
+        // Half precision, and of the stiffest the single precision of the factor.
+        EXPECT_LT(relative.norm(), 0.05 + 5e-7 * stiffness)
+            << stiffness << " N/m, " << n << ", cut at " << cut;
+      }
+    }
+  }
+}
+
+// A long chain whose springs and masses are such that half precision would lose the shortest waves.
+TEST(DenseInverse, SaysWhereHalfPrecisionIsTooLittle) {
+  std::vector<MatrixPart> parts;
+  for (int i = 0; i < 200; ++i) {
+    parts.push_back({i, i, 1e-6});
+    if (i == 0) continue;
+    for (const auto& [a, b, k] : {std::tuple(i - 1, i - 1, 1.0), {i, i, 1.0}, {i - 1, i, -1.0}}) {
+      parts.push_back({a, b, i % 2 == 0 ? 1e4 * k : k});
+    }
+  }
+  EXPECT_FALSE(inverse_of(sum_of_parts(200, parts)));
 }
 
 }  // namespace

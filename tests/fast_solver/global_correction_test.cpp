@@ -98,6 +98,16 @@ TEST(GlobalCorrection, SolvesOnTheCoarseNodes) {
   EXPECT_TRUE(result.bottomRows(rows - n * n - 5).isZero(0));
 }
 
+TEST(GlobalCorrection, CorrectsNothingWhereAllIsPinned) {
+  GlobalCorrection correction(SymmetricMatrix{{0}, {}, {}, {}}, {}, 3);
+  const int rows = fill_up(3);
+  NodeArrays<float> residual = NodeArrays<float>::Zero(rows, 3);
+  residual.topRows(3).setOnes();
+  NodeArrays<float> result = NodeArrays<float>::Ones(rows, 3);
+  correct(correction, residual, result);
+  EXPECT_TRUE(result.isZero(0));
+}
+
 // What the correction is for: it takes a smooth error away, whatever the number of nodes.
 TEST(GlobalCorrection, TakesASmoothErrorAway) {
   for (const int n : {20, 170}) {  // 170: through two levels

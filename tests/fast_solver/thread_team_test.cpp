@@ -1,10 +1,14 @@
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cstddef>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <weft/fast_solver/thread_team.hpp>
 
@@ -26,7 +30,7 @@ std::vector<long> chain(ThreadTeam& team, int num_parts, int num_loops) {
   return values[static_cast<std::size_t>(num_loops % 2)];
 }
 
-TEST(ThreadTeam, DoesEachPartOnceAndLoopsInOrder) {
+TEST(ThreadTeam, DoesAllPartsAndLoopsInOrder) {
   ThreadTeam alone;
   for (const int num_parts : {1, 2, 3, 7, 64}) {
     const std::vector<long> expected = chain(alone, num_parts, 3000);
@@ -36,6 +40,45 @@ TEST(ThreadTeam, DoesEachPartOnceAndLoopsInOrder) {
       EXPECT_EQ(chain(team, num_parts, 3000), expected) << num_threads << " threads";
     }
   }
+}
+
+TEST(ThreadTeam, DoesNoPartTwice) {
+  ThreadTeam team;
+  const ThreadTeam::Scope scope(team, 4);
+  std::array<std::atomic<int>, ThreadTeam::kMostParts> counts{};
+  for (int loop = 1; loop <= 2000; ++loop) {
+    const int num_parts = 1 + loop % ThreadTeam::kMostParts;
+    for (auto& count : counts) count = 0;
+    team.run(num_parts, [&](int part) { ++counts[static_cast<std::size_t>(part)]; });
+    for (int part = 0; part < ThreadTeam::kMostParts; ++part) {
+      ASSERT_EQ(counts[static_cast<std::size_t>(part)], part < num_parts ? 1 : 0) << loop;
+    }
+  }
+}
+
+// The first part waits for somebody else to begin the second, in one of many loops: a helper may come late.
+TEST(ThreadTeam, IsHelped) {
+  const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
+  tbb::task_arena arena(2);
+  bool is_helped = false;
+  arena.execute([&] {
+    ThreadTeam team;
+    const ThreadTeam::Scope scope(team, 2);
+    for (int loop = 0; loop < 1000 && !is_helped; ++loop) {
+      std::atomic<bool> has_begun = false;
+      const std::thread::id caller = std::this_thread::get_id();
+      team.run(2, [&](int part) {
+        if (part == 1) {
+          has_begun = std::this_thread::get_id() != caller;
+          return;
+        }
+        const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(5);
+        while (!has_begun && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+      });
+      is_helped = has_begun;
+    }
+  });
+  EXPECT_TRUE(is_helped);
 }
 
 TEST(ThreadTeam, CanBeOpenedAgain) {
