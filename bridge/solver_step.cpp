@@ -2,20 +2,15 @@
 #include <weft/bridge/solver.hpp>
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/attachment.hpp>
 #include <weft/bridge/position_limits.hpp>
-#include <weft/bridge/torn_laws.hpp>
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/custom_forces/core/tear.hpp>
 #include <weft/custom_forces/core/trace.hpp>
 
 namespace weft::bridge {
