@@ -181,6 +181,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   void for_bodies(const std::function<void(btSoftBody&, Attachment*)>& work);
   void solve_fast_bodies();
   void solve_listed_bodies();
+  void place_listed_bodies();
   /// Has exploded or is suspended.
   [[nodiscard]] bool is_still(const btSoftBody& body) const;
 

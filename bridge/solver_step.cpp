@@ -84,6 +84,7 @@ void SoftBodySolver::solve_fast_bodies() {
   } else {
     solve_listed_bodies();
   }
+  place_listed_bodies();  // cloth on cloth takes long, and one thread
 }
 
 void SoftBodySolver::solve_listed_bodies() {
@@ -111,6 +112,10 @@ void SoftBodySolver::solve_listed_bodies() {
     in_parallel(asked,
                 [&](Attachment& one) { one.fast->solve_again(*one.body, time_step_, pushed); });
   }
+}
+
+void SoftBodySolver::place_listed_bodies() {
+  const std::vector<Attachment*>& bodies = attachments_->stepped;
   const bool may_meet = std::any_of(bodies.begin(), bodies.end(), [&](const Attachment* one) {
     return one->body->m_scontacts.size() > 0 || find_contact(*one->body) != nullptr;
   });
