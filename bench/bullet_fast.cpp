@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <ctime>
 #include <memory>
 
 #include <tbb/task_arena.h>
@@ -11,13 +10,6 @@
 
 namespace weft::bench {
 namespace {
-
-/// Of this thread, which others on the machine do not add to [ms].
-double processor_time() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
 
 /// Steps of the workload that a contender takes before it is another's turn: a multiple of its own.
 constexpr int kTurn = 120;

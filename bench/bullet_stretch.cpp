@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <ctime>
 #include <memory>
 
 #include <tbb/task_arena.h>
@@ -26,13 +25,6 @@ struct Effort {
 /// The last one has converged: twice as much changes its stretch by less than a hundredth.
 constexpr Effort kEfforts[] = {{1, 4}, {1, 6}, {1, 8},  {2, 3}, {2, 4},
                                {2, 6}, {2, 8}, {2, 10}, {4, 8}, {8, 16}};
-
-/// Of this thread, which others on the machine do not add to [ms].
-double processor_time() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
 
 struct Contender {
   Effort effort;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <ctime>
 #include <functional>
 #include <memory>
 
@@ -25,16 +24,10 @@ constexpr double kClampSpeed = 0.3;  // [m/s]
 constexpr int kAfterTear = 15;       // frames
 constexpr int kRuns = 3;
 
-/// Of the processor: what else runs on the machine, and a limit on real-time threads, do not count.
 double milliseconds(const std::function<void()>& call) {
-  const auto now = [] {
-    timespec time{};
-    (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-  };
-  const double start = now();
+  const double start = processor_time();
   call();
-  return now() - start;
+  return processor_time() - start;
 }
 
 /// A cloth that something tears.

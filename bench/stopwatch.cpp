@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <deque>
 
 #include <tbb/global_control.h>
@@ -54,6 +55,12 @@ std::vector<Timing> race(const std::vector<Contender>& contenders, int num_round
     result.push_back({median(t), minimum});
   }
   return result;
+}
+
+double processor_time() {
+  timespec now{};
+  (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace weft::bench

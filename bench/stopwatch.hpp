@@ -24,6 +24,9 @@ struct Timing {
 /// each of num_rounds rounds each contender is called until about 2 ms have passed.
 [[nodiscard]] std::vector<Timing> race(const std::vector<Contender>& contenders, int num_rounds);
 
+/// Processor time of this thread [ms]: what else runs on the machine, and a limit on real-time threads, do not count.
+[[nodiscard]] double processor_time();
+
 /// Median of values; they are reordered.
 [[nodiscard]] double median(std::vector<double>& values);
 

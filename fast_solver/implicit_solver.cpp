@@ -184,7 +184,7 @@ void ImplicitSolver<Scalar>::evaluate(bool linearises) {
   });
 }
 
-// The body's own blocks of the diagonal, which say most about motion across the sheet.
+// By each node's own block of the diagonal, which says most about motion across the sheet.
 template <class Scalar>
 void ImplicitSolver<Scalar>::smooth(NodeRange nodes) {
   const auto stride = static_cast<int>(blocks_.rows());
