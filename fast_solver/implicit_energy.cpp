@@ -1,5 +1,7 @@
 // What keeps a step from gaining energy or momentum, however badly it has converged.
 #include <algorithm>
+#include <array>
+#include <numeric>
 
 #include <weft/fast_solver/implicit_solver.hpp>
 
@@ -31,28 +33,44 @@ std::size_t at(int i) {
 // that are left tells: if it opposes the step by more than half of what drove it, back to where a
 // straight line between the two is zero.
 template <class Scalar>
-void ImplicitSolver<Scalar>::hold_back(double work_before) {
+bool ImplicitSolver<Scalar>::hold_back(double work_before) {
   const double work_after = work_left_ - work_of_held() + work_of_bodies();
-  if (!(work_before > 0 && work_after < -0.5 * work_before)) return;
+  if (!(work_before > 0 && work_after < -0.5 * work_before)) return false;
   const double share = std::max(kSmallestShare, work_before / (work_before - work_after));
   const auto excess = static_cast<Scalar>(1.0 - share);
   for (const int i : held_) step_.row(i).setZero();
   add_motions(&Body::step, step_);
   move_bodies(-excess);
   places_ -= excess * step_.template cast<Scalar>();
-  evaluate();
+  return true;
 }
 
-/// What an implicit step minimises [J], with the bodies that give way to it and with what friction does.
 template <class Scalar>
-double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem, const Nodes& places,
-                                      Vector6 Body::*motion) {
-  const auto stride = static_cast<int>(weights_.size());
-  double sum = sum_over_parts([&](NodeRange nodes) {
-    return forces_.potential(nodes, places) +
-           0.5 * sum_kernel<Scalar>().weighted_distance(weights_.data(), stride, nodes,
-                                                        places.data(), targets_.data());
-  });
+typename ImplicitSolver<Scalar>::Energy ImplicitSolver<Scalar>::energy_of(
+    NodeRange nodes, const Nodes& places) const {
+  const double of_springs = forces_.potential(nodes, places);
+  const double squares = sum_kernel<Scalar>().weighted_distance(
+      weights_.data(), static_cast<int>(weights_.size()), nodes, places.data(), targets_.data());
+  return {of_springs + 0.5 * squares, of_springs};
+}
+
+// What an implicit step minimises [J], with the bodies that give way to it and with what friction does.
+template <class Scalar>
+typename ImplicitSolver<Scalar>::Energy ImplicitSolver<Scalar>::energy(
+    const StepProblem<Scalar>& problem, const Nodes& places, Vector6 Body::*motion) {
+  std::array<Energy, ThreadTeam::kMostParts> of_parts{};
+  team_->run(parts_.count(),
+             [&](int part) { of_parts[at(part)] = energy_of(parts_[part], places); });
+  Energy sum = std::accumulate(of_parts.begin(), of_parts.end(), Energy{});
+  add_energy_of_holds(problem, places, motion, sum);
+  return sum;
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::add_energy_of_holds(const StepProblem<Scalar>& problem,
+                                                 const Nodes& places, Vector6 Body::*motion,
+                                                 Energy& energy) const {
+  double& sum = energy.total;
   for (const Body& body : bodies_) {
     const Vector6& way = body.*motion;
     sum += 0.5 * static_cast<double>(way.dot(body.inertia.template cast<Scalar>() * way));
@@ -70,7 +88,6 @@ double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem, const 
     }
     sum -= static_cast<double>(std::min(Scalar(0), friction.dot(slip)));
   }
-  return sum;
 }
 
 // A contact may have stretched springs; without one, more motion than without springs, or forces that are left over
@@ -80,21 +97,33 @@ bool ImplicitSolver<Scalar>::is_suspicious(const StepProblem<Scalar>& problem) {
   if (!held_.empty()) return true;
   const auto stride = static_cast<int>(masses_.size());
   const SumKernel<Scalar>& sums = sum_kernel<Scalar>();
-  const double moved = sum_over_parts([&](NodeRange nodes) {
-    return sums.weighted_distance(masses_.data(), stride, nodes, places_.data(), starts_.data());
+  std::array<double, ThreadTeam::kMostParts> motions{};
+  std::array<double, ThreadTeam::kMostParts> works{};
+  team_->run(parts_.count(), [&](int part) {
+    motions[at(part)] = sums.weighted_distance(masses_.data(), stride, parts_[part], places_.data(),
+                                               starts_.data());
+    works[at(part)] = sums.possible_work(stride, parts_[part], places_.data(), starts_.data(),
+                                         unbalanced_.data());
   });
-  const double left = sum_over_parts([&](NodeRange nodes) {
-    return sums.possible_work(stride, nodes, places_.data(), starts_.data(), unbalanced_.data());
-  });
+  const double moved = std::accumulate(motions.begin(), motions.end(), 0.0);
+  const double left = std::accumulate(works.begin(), works.end(), 0.0);
   const auto h = static_cast<double>(problem.inertia_step);
   return !(moved <= 2 * h * h * kMostMotion * step_energy_ && left <= kMostWork * step_energy_);
 }
 
 // Where nothing has moved but what is led, in front of all planes.
 template <class Scalar>
-void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
-  unmoved_ = starts_;
-  for (const int node : pinned_) unmoved_.row(node) = targets_.row(node);
+bool ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
+  for_each_part([&](NodeRange nodes) {
+    const int count = nodes.end - nodes.begin;
+    unmoved_.middleRows(nodes.begin, count) = starts_.middleRows(nodes.begin, count);
+  });
+  bool is_unmoved = problem.led.empty();
+  const auto put = [&](int node, const auto& place) {
+    is_unmoved = is_unmoved && unmoved_.row(node) == place;
+    unmoved_.row(node) = place;
+  };
+  for (const int node : pinned_) put(node, targets_.row(node));
   for (Body& body : bodies_) {
     body.unmoved = body.is_linked ? Vector6(-body.motion_alone) : Vector6(Vector6::Zero());
   }
@@ -106,19 +135,22 @@ void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
   for (const PlaneContact<Scalar>& contact : problem.contacts) {
     if (!is_free_[at(contact.node)] || contact.body >= 0) continue;
     if (holds_[at(contact.node)] == Hold::kFixed) {
-      unmoved_.row(contact.node) = starts_.row(contact.node) + contact.motion.transpose();
+      put(contact.node, (starts_.row(contact.node) + contact.motion.transpose()).eval());
     }
     const Scalar gap = contact.normal.dot(at_node(unmoved_, contact.node)) - contact.offset;
-    if (gap < 0) unmoved_.row(contact.node) -= gap * contact.normal.transpose();
+    if (gap >= 0) continue;
+    unmoved_.row(contact.node) -= gap * contact.normal.transpose();
+    is_unmoved = false;
   }
+  return is_unmoved;
 }
 
 // Back towards where nothing has moved, until there is no more energy than there.
 template <class Scalar>
 bool ImplicitSolver<Scalar>::descend(const StepProblem<Scalar>& problem) {
-  const double most = energy(problem, unmoved_, &Body::unmoved);
+  const double most = energy(problem, unmoved_, &Body::unmoved).total;
   for (int halvings = 0; halvings <= kHalvings; ++halvings) {
-    if (energy(problem, places_, &Body::motion) <= most) {
+    if (energy(problem, places_, &Body::motion).total <= most) {
       if (halvings > 0) evaluate();
       return true;
     }
@@ -145,13 +177,14 @@ bool ImplicitSolver<Scalar>::go_downhill(const StepProblem<Scalar>& problem, int
   bool went_down = false;
   for (int round = 0; round < kExtraRounds; ++round) {
     do_round(problem, kExtraIterations * iterations, false);
-    const double before = energy(problem, unmoved_, &Body::unmoved);
+    const double before = energy(problem, unmoved_, &Body::unmoved).total;
     const bool goes_down = descend(problem);
     if (goes_down) {
       unmoved_ = places_;
       for (Body& body : bodies_) body.unmoved = body.motion;
       went_down = true;
-      if (before - energy(problem, places_, &Body::motion) <= kLastDescent * step_energy_) break;
+      const double after = energy(problem, places_, &Body::motion).total;
+      if (before - after <= kLastDescent * step_energy_) break;
     }
     if (!goes_down && is_careful) break;
     // Slack springs resist nothing across in a linearisation, and all the more once they have turned.
@@ -176,9 +209,21 @@ bool ImplicitSolver<Scalar>::go_downhill(const StepProblem<Scalar>& problem, int
 // inertia, that is rounding: if nothing goes downhill with it, what does without.
 template <class Scalar>
 void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterations) {
-  stay_at_start(problem);
-  const double most = energy(problem, unmoved_, &Body::unmoved) + kRoundingShare * step_energy_;
-  if (energy(problem, places_, &Body::motion) <= most) return;
+  const bool is_unmoved = stay_at_start(problem);
+  std::array<Energy, ThreadTeam::kMostParts> of_parts[2] = {};
+  team_->run(parts_.count(), [&](int part) {
+    of_parts[0][at(part)] = energy_of(parts_[part], unmoved_);
+    of_parts[1][at(part)] = energy_of(parts_[part], places_);
+  });
+  Energy before = std::accumulate(of_parts[0].begin(), of_parts[0].end(), Energy{});
+  Energy after = std::accumulate(of_parts[1].begin(), of_parts[1].end(), Energy{});
+  add_energy_of_holds(problem, unmoved_, &Body::unmoved, before);
+  add_energy_of_holds(problem, places_, &Body::motion, after);
+  if (is_unmoved) known_.before = before.of_springs;
+  if (after.total <= before.total + kRoundingShare * step_energy_) {
+    known_.after = after.of_springs;
+    return;
+  }
   if (go_downhill(problem, iterations)) return;
   has_friction_ = false;
   (void)go_downhill(problem, iterations);

@@ -106,9 +106,9 @@ void ImplicitSolver<Scalar>::project(NodeRange nodes, Floats& vectors) const {
   }
 }
 
-// Planes that no round has met, and those of a node on several. True if anything had to move.
+// Planes that no round has met, and those of a node on several.
 template <class Scalar>
-bool ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
+void ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
   const auto is_linked = [&](int node) {
     const int contact = contact_of_[at(node)];
     if (contact >= 0) return problem.contacts[at(contact)].body >= 0;
@@ -116,7 +116,6 @@ bool ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
       return led.node == node && led.body >= 0;
     });
   };
-  bool any = false;
   for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
     const PlaneContact<Scalar>& contact = problem.contacts[c];
     const int i = contact.node;
@@ -124,7 +123,6 @@ bool ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
     const Scalar gap = contact.normal.dot(at_node(places_, i)) - contact.offset;
     if (!(gap < 0) || is_linked(i)) continue;
     places_.row(i) -= gap * contact.normal.transpose();
-    any = true;
     if (holds_[at(i)] != Hold::kFree) continue;
     holds_[at(i)] = Hold::kOnPlane;
     contact_of_[at(i)] = static_cast<int>(c);
@@ -132,7 +130,6 @@ bool ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
     friction_.col(i).setZero();
     held_.push_back(i);
   }
-  return any;
 }
 
 template <class Scalar>

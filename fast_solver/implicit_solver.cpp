@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include <weft/custom_forces/core/error.hpp>
@@ -170,7 +171,11 @@ void ImplicitSolver<Scalar>::load(const StepProblem<Scalar>& problem,
 template <class Scalar>
 void ImplicitSolver<Scalar>::evaluate(bool linearises) {
   const auto stride = static_cast<int>(weights_.size());
-  work_left_ = sum_over_parts([&](NodeRange nodes) {
+  const SumKernel<Scalar>& sums = sum_kernel<Scalar>();
+  std::array<double, ThreadTeam::kMostParts> squares{};
+  std::array<double, ThreadTeam::kMostParts> works{};
+  team_->run(parts_.count(), [&](int part) {
+    const NodeRange nodes = parts_[part];
     const int count = nodes.end - nodes.begin;
     for (int axis = 0; axis < 3; ++axis) {
       unbalanced_.col(axis).segment(nodes.begin, count) =
@@ -180,8 +185,11 @@ void ImplicitSolver<Scalar>::evaluate(bool linearises) {
     }
     forces_.add_forces(nodes, places_, unbalanced_, linearises);
     for (const int node : in_range(pinned_, nodes)) unbalanced_.row(node).setZero();
-    return sum_kernel<Scalar>().dot(unbalanced_.data(), step_.data(), stride, nodes);
+    works[at(part)] = sums.dot(unbalanced_.data(), step_.data(), stride, nodes);
+    squares[at(part)] = sums.squares(unbalanced_.data(), stride, nodes);
   });
+  work_left_ = std::accumulate(works.begin(), works.end(), 0.0);
+  unbalanced_squares_ = std::accumulate(squares.begin(), squares.end(), 0.0);
 }
 
 // By each node's own block of the diagonal, which says most about motion across the sheet.
@@ -286,26 +294,25 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
     moves_held = true;
   }
   find_unbalanced(&Body::residual);
-  if (moves_held) {
-    for_each_part([&](NodeRange nodes) {
+  for_each_part([&](NodeRange nodes) {
+    if (moves_held) {
       const int count = nodes.end - nodes.begin;
       forces_.multiply(nodes, inertia_, step_, work_);
       residual_vector_.middleRows(nodes.begin, count) -= work_.middleRows(nodes.begin, count);
-    });
-    for (Body& body : bodies_) body.coarse_product.setZero();
-    gather(work_, &Body::coarse_product);
-    for (Body& body : bodies_) body.residual -= body.coarse_product;
-  }
+    }
+    project(nodes, residual_vector_);
+    smooth(nodes);
+  });
+  if (!moves_held || links_.empty()) return;
+  for (Body& body : bodies_) body.coarse_product.setZero();
+  gather(work_, &Body::coarse_product);
+  for (Body& body : bodies_) body.residual -= body.coarse_product;
 }
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem, int iterations) {
-  start_linear(problem);
   factorise_bodies();
-  for_each_part([&](NodeRange nodes) {
-    project(nodes, residual_vector_);
-    smooth(nodes);
-  });
+  start_linear(problem);
   // Flexible conjugate gradients (Notay 2000): the preconditioner is not symmetric, for a second
   // smoothing costs more than it gains, so that a direction is made conjugate explicitly.
   for (Body& body : bodies_) {
@@ -358,22 +365,16 @@ void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, int it
   solve_linear(problem, iterations);
   const double of_others = work_of_bodies() - work_of_held();
   move();
+  clamp(problem);
   evaluate(linearises);
-  hold_back(work_done_ + of_others);
-  if (clamp(problem)) evaluate(linearises);
-}
-
-template <class Scalar>
-double ImplicitSolver<Scalar>::unbalanced_squares() {
-  const auto stride = static_cast<int>(unbalanced_.rows());
-  return sum_over_parts([&](NodeRange nodes) {
-    return sum_kernel<Scalar>().squares(unbalanced_.data(), stride, nodes);
-  });
+  if (!hold_back(work_done_ + of_others)) return;
+  clamp(problem);
+  evaluate(linearises);
 }
 
 template <class Scalar>
 double ImplicitSolver<Scalar>::left_over() {
-  double sum = unbalanced_squares();
+  double sum = unbalanced_squares_;
   for (const int i : held_) {
     const Vector3<Scalar> force = at_node(unbalanced_, i);
     sum += static_cast<double>((force + at_node(holding_forces_, i)).squaredNorm()) -
@@ -391,9 +392,10 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const Sol
                                    Matrix3XRef<Scalar> places, ThreadTeam& team) {
   const TraceScope trace("implicit solve");
   team_ = &team;
+  known_ = {};
   load(problem, places);
   evaluate();
-  const double first = std::sqrt(unbalanced_squares());
+  const double first = std::sqrt(unbalanced_squares_);
   for (int round = 0; round < effort.rounds; ++round) {
     const bool is_last = round == effort.rounds - 1 && problem.bodies.empty();
     do_round(problem, iterations_of(problem, effort, round), round == 0, !is_last);

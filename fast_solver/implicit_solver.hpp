@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -86,6 +87,12 @@ class ImplicitSolver {
   [[nodiscard]] double step_energy() const { return step_energy_; }
   /// What springs store at places, and what dampers take away on the way there from the start of the step [J].
   [[nodiscard]] double spring_energy(ConstMatrix3XRef<Scalar> places, ThreadTeam& team);
+  /// spring_energy() of the start and of the solution of the last solve(), if that had to look at them [J].
+  struct KnownEnergies {
+    std::optional<double> before;
+    std::optional<double> after;
+  };
+  [[nodiscard]] const KnownEnergies& known_energies() const { return known_; }
   /// After solve(): root mean square of the unbalanced forces over that of the step's first guess [-].
   [[nodiscard]] double residual() const { return residual_; }
 
@@ -180,26 +187,37 @@ class ImplicitSolver {
   void move();
   void do_round(const StepProblem<Scalar>& problem, int iterations, bool is_first,
                 bool linearises = true);
-  [[nodiscard]] double energy(const StepProblem<Scalar>& problem, const Nodes& places,
+  struct Energy {
+    double total = 0;
+    double of_springs = 0;
+    [[nodiscard]] Energy operator+(const Energy& other) const {
+      return {total + other.total, of_springs + other.of_springs};
+    }
+  };
+  [[nodiscard]] Energy energy(const StepProblem<Scalar>& problem, const Nodes& places,
                               Vector6 Body::*motion);
+  /// What a part of the nodes adds to it.
+  [[nodiscard]] Energy energy_of(NodeRange nodes, const Nodes& places) const;
+  void add_energy_of_holds(const StepProblem<Scalar>& problem, const Nodes& places,
+                           Vector6 Body::*motion, Energy& energy) const;
   [[nodiscard]] bool is_suspicious(const StepProblem<Scalar>& problem);
-  void stay_at_start(const StepProblem<Scalar>& problem);
+  /// False if anything is led, or was behind a plane.
+  bool stay_at_start(const StepProblem<Scalar>& problem);
   void go_back();
   bool descend(const StepProblem<Scalar>& problem);
   void tame(const StepProblem<Scalar>& problem, int iterations);
   bool go_downhill(const StepProblem<Scalar>& problem, int iterations);
-  void hold_back(double work_before);
+  /// Only part of the last step, if it went too far; evaluate() is due then.
+  bool hold_back(double work_before);
   void move_bodies(Scalar share);
   /// Of the forces that are left with the step, at nodes with a hold [J].
   [[nodiscard]] double work_of_held() const;
   void find_holding_forces();
-  /// Of all forces at nodes [N^2].
-  [[nodiscard]] double unbalanced_squares();
   /// Norm of the forces that nothing balances [N].
   [[nodiscard]] double left_over();
   void balance();
   void find_remainders(NodeRange nodes);
-  bool clamp(const StepProblem<Scalar>& problem);
+  void clamp(const StepProblem<Scalar>& problem);
 
   ThreadTeam* team_ = nullptr;  ///< during solve()
   NodeParts parts_;
@@ -234,10 +252,12 @@ class ImplicitSolver {
   BlockArrays blocks_;             ///< inverse of the diagonal's
   Floats step_, residual_vector_, direction_, direction_product_;
   Floats correction_, correction_product_, work_, coarse_, coarse_product_;
-  double work_left_ = 0;  ///< unbalanced_ . step_ [J]
-  double work_done_ = 0;  ///< the same before the step was taken [J]
+  double work_left_ = 0;           ///< unbalanced_ . step_ [J]
+  double unbalanced_squares_ = 0;  ///< of unbalanced_ [N^2]
+  double work_done_ = 0;           ///< the same before the step was taken [J]
   double residual_ = 0;
   double step_energy_ = 0;
+  KnownEnergies known_;
   bool has_friction_ = true;
 };
 

@@ -55,6 +55,25 @@ class ThreadTeam {
     bool opens_;
   };
 
+  /// Closed as long as the result exists, for work that waits for tasks of oneTBB; then as it was.
+  class Pause {
+   public:
+    explicit Pause(ThreadTeam& team) : team_(team), num_threads_(team.num_threads()) {
+      team_.close();
+    }
+    Pause(const Pause&) = delete;
+    Pause& operator=(const Pause&) = delete;
+    Pause(Pause&&) = delete;
+    Pause& operator=(Pause&&) = delete;
+    ~Pause() {
+      if (num_threads_ > 1) team_.open(num_threads_);
+    }
+
+   private:
+    ThreadTeam& team_;
+    int num_threads_;
+  };
+
   [[nodiscard]] int num_threads() const { return num_threads_; }
 
   /// work(part) for each of num_parts parts, at most kMostParts; returns when all are done. What work throws ends the

@@ -91,6 +91,28 @@ TEST(ThreadTeam, CanBeOpenedAgain) {
   }
 }
 
+TEST(ThreadTeam, IsOpenAgainAfterAPause) {
+  ThreadTeam alone;
+  const std::vector<long> expected = chain(alone, 4, 200);
+  ThreadTeam team;
+  {
+    const ThreadTeam::Pause pause(team);  // of a team that is not open
+  }
+  EXPECT_EQ(team.num_threads(), 1);
+  const ThreadTeam::Scope scope(team, 3);
+  for (int time = 0; time < 100; ++time) {
+    {
+      const ThreadTeam::Pause pause(team);
+      ASSERT_EQ(team.num_threads(), 1);
+      std::atomic<int> sum = 0;
+      tbb::parallel_for(0, 10, [&](int i) { sum += i; });
+      ASSERT_EQ(sum, 45);
+    }
+    ASSERT_EQ(team.num_threads(), 3);
+    ASSERT_EQ(chain(team, 4, 200), expected) << time;
+  }
+}
+
 TEST(ThreadTeam, NeedsNoHelper) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   ThreadTeam team;
