@@ -21,5 +21,16 @@ template <class Derived>
           static_cast<btScalar>(v.coeff(2))};
 }
 
+/// All that Bullet stores of a vector, at no special address: what a processor loads at once. The last number is of no
+/// meaning.
+using Four = Eigen::Array<btScalar, 4, 1>;
+
+[[nodiscard]] inline Eigen::Map<Four> four(btVector3& v) {
+  return Eigen::Map<Four>(v.m_floats);
+}
+[[nodiscard]] inline Eigen::Map<const Four> four(const btVector3& v) {
+  return Eigen::Map<const Four>(v.m_floats);
+}
+
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

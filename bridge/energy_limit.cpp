@@ -1,7 +1,11 @@
 #include <weft/bridge/energy_limit.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
+
+#include <weft/fast_solver/node_parts.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -12,18 +16,22 @@ constexpr Eigen::Index kPiece = 128;
 
 /// term: of the first node and the number of nodes of a piece, their sum.
 template <class Term>
-double sum_over(Eigen::Index num_nodes, const Term& term) {
-  double sum = 0;
-  for (Eigen::Index first = 0; first < num_nodes; first += kPiece) {
-    sum += static_cast<double>(term(first, std::min(kPiece, num_nodes - first)));
-  }
-  return sum;
+double sum_over(Eigen::Index num_nodes, fast::ThreadTeam& team, const Term& term) {
+  std::array<double, fast::ThreadTeam::kMostParts> sums{};
+  fast::run_parts(team, static_cast<int>(num_nodes), [&](int part, int begin, int end) {
+    double sum = 0;
+    for (Eigen::Index first = begin; first < end; first += kPiece) {
+      sum += static_cast<double>(term(first, std::min(kPiece, end - first)));
+    }
+    sums[static_cast<std::size_t>(part)] = sum;
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 }  // namespace
 
-double energy_put_in(const StepMotion& motion) {
-  return sum_over(motion.starts.cols(), [&](Eigen::Index first, Eigen::Index count) {
+double energy_put_in(const StepMotion& motion, fast::ThreadTeam& team) {
+  return sum_over(motion.starts.cols(), team, [&](Eigen::Index first, Eigen::Index count) {
     const auto of = [&](const Matrix3X<btScalar>& vectors) {
       return vectors.middleCols(first, count).array();
     };
@@ -34,15 +42,16 @@ double energy_put_in(const StepMotion& motion) {
   });
 }
 
-double kinetic_energy(const Matrix3X<btScalar>& masses, const Matrix3X<btScalar>& velocities) {
-  return 0.5 * sum_over(velocities.cols(), [&](Eigen::Index first, Eigen::Index count) {
+double kinetic_energy(const Matrix3X<btScalar>& masses, const Matrix3X<btScalar>& velocities,
+                      fast::ThreadTeam& team) {
+  return 0.5 * sum_over(velocities.cols(), team, [&](Eigen::Index first, Eigen::Index count) {
            const auto v = velocities.middleCols(first, count).array();
            return (masses.middleCols(first, count).array() * v * v).sum();
          });
 }
 
 void limit_energy(const Matrix3X<btScalar>& masses, double most, bool keeps_momentum,
-                  Matrix3X<btScalar>& velocities) {
+                  Matrix3X<btScalar>& velocities, fast::ThreadTeam& team) {
   Vector3<double> mean = Vector3<double>::Zero();
   double of_mean = 0;
   if (keeps_momentum) {
@@ -55,7 +64,7 @@ void limit_energy(const Matrix3X<btScalar>& masses, double most, bool keeps_mome
     mean /= mass;
     of_mean = 0.5 * mass * mean.squaredNorm();
   }
-  const double now = kinetic_energy(masses, velocities);
+  const double now = kinetic_energy(masses, velocities, team);
   const double share = now > of_mean ? std::max(0.0, most - of_mean) / (now - of_mean) : 0.0;
   const auto factor = static_cast<btScalar>(std::sqrt(std::min(1.0, share)));
   const Vector3<btScalar> kept = mean.cast<btScalar>();

@@ -2,9 +2,12 @@
 
 #include <weft/bridge/precision.hpp>
 #include <weft/custom_forces/core/types.hpp>
+#include <weft/fast_solver/thread_team.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
+
+/// Sums are taken by a team, with the same bits for any.
 
 /// What a step did, of a body on which nothing that moves does work (pins, anchors, moving obstacles). All 3 x n.
 struct StepMotion {
@@ -17,16 +20,16 @@ struct StepMotion {
 };
 
 /// Kinetic energy that the free nodes had, and the work on the step's way of all that is not implicit [J].
-[[nodiscard]] double energy_put_in(const StepMotion& motion);
+[[nodiscard]] double energy_put_in(const StepMotion& motion, fast::ThreadTeam& team);
 
 /// Kinetic energy of the free nodes with velocities [m/s]. masses as in StepMotion.
 [[nodiscard]] double kinetic_energy(const Matrix3X<btScalar>& masses,
-                                    const Matrix3X<btScalar>& velocities);
+                                    const Matrix3X<btScalar>& velocities, fast::ThreadTeam& team);
 
 /// Slows velocities down to a kinetic energy of `most` [J]. That of the centre of mass stays if keeps_momentum,
 /// and then `most` is only reached as far as it allows.
 void limit_energy(const Matrix3X<btScalar>& masses, double most, bool keeps_momentum,
-                  Matrix3X<btScalar>& velocities);
+                  Matrix3X<btScalar>& velocities, fast::ThreadTeam& team);
 
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

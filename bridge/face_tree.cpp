@@ -94,6 +94,21 @@ void NodeGroups::arrange(const btSoftBody& body) {
   starts_ = divide(places, kLargest, nodes_);
 }
 
+void NodeGroups::sort() {
+  std::vector<std::vector<int>> groups(size());
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    groups[g].assign((*this)[g].begin(), (*this)[g].end());
+    std::sort(groups[g].begin(), groups[g].end());
+  }
+  std::sort(groups.begin(), groups.end());
+  nodes_.clear();
+  starts_.assign(1, 0);
+  for (const std::vector<int>& group : groups) {
+    nodes_.insert(nodes_.end(), group.begin(), group.end());
+    starts_.push_back(nodes_.size());
+  }
+}
+
 void FaceTree::arrange(const btSoftBody& body) {
   const auto num_faces = static_cast<std::size_t>(body.m_faces.size());
   std::vector<btVector3> centers(num_faces);

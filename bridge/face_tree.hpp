@@ -32,6 +32,9 @@ class NodeGroups {
  public:
   static constexpr int kLargest = 16;
   void arrange(const btSoftBody& body);
+  /// Groups by their first nodes, and nodes within a group, ascending: threads that go through parts of the groups have
+  /// most of the nodes that they have in loops over nodes.
+  void sort();
   [[nodiscard]] int num_nodes() const { return static_cast<int>(nodes_.size()); }
   [[nodiscard]] std::size_t size() const { return starts_.empty() ? 0 : starts_.size() - 1; }
   [[nodiscard]] std::span<const int> operator[](std::size_t group) const {

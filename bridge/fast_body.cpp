@@ -145,6 +145,7 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
     include_in_bounds(positions, body);
   }
   is_predicted_ = true;
+  has_normals_ = false;
 }
 
 // Of now: somebody may have pushed or pinned nodes since predict().
@@ -243,6 +244,8 @@ void FastBody::prepare_solver(const btSoftBody& body, btScalar time_step) {
     weights_ = masses_.transpose().cast<btScalar>().replicate(3, 1);
     for (const int pin : pins_) weights_.col(pin).setZero();
   }
+  if (is_same && solver_->is_renewed()) return;
+  const fast::ThreadTeam::Pause pause(team_);  // what follows are tasks of oneTBB
   if (is_same) {
     solver_->renew({&network_, &torn_nodes_, &torn_springs_}, masses_);
     return;
@@ -283,16 +286,20 @@ bool FastBody::keep_energy(btScalar time_step) {
     return false;
   }
   const double given =
-      energy_put_in({weights_, starts_, start_velocities_, predicted_, places_, time_step});
-  const double now = kinetic_energy(weights_, velocities_);
+      energy_put_in({weights_, starts_, start_velocities_, predicted_, places_, time_step}, team_);
+  const double now = kinetic_energy(weights_, velocities_, team_);
   // Springs are only asked when motion does not tell.
   if (now <= given && contacts_.empty() && excess_ == 0) return false;
   const double slack = kEnergySlack * solver_->step_energy();
-  const double stored = solver_->spring_energy(places_, team_);
-  const double most = given + solver_->spring_energy(starts_, team_) - excess_ + slack - stored;
+  const bool is_as_solved = !is_contact_missing_ && deep_.empty();
+  const auto& [known_before, known_after] = solver_->known_energies();
+  const double before = known_before ? *known_before : solver_->spring_energy(starts_, team_);
+  const double after =
+      known_after && is_as_solved ? *known_after : solver_->spring_energy(places_, team_);
+  const double most = given + before - excess_ + slack - after;
   const bool is_limited = now > most;
   if (is_limited) {
-    limit_energy(weights_, most, contacts_.empty() && pins_.empty(), velocities_);
+    limit_energy(weights_, most, contacts_.empty() && pins_.empty(), velocities_, team_);
   }
   excess_ = std::max(0.0, -most);
   return is_limited;
@@ -350,9 +357,11 @@ void FastBody::place(btSoftBody& body, btScalar time_step, bool is_looked_at) {
 
 // Pinned nodes are where their leader has put them, to the last bit.
 void FastBody::write_places(btSoftBody& body) {
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    if (body.m_nodes[i].m_im > 0) body.m_nodes[i].m_x = in_world(i);
-  }
+  for_nodes([&](int begin, int count) {
+    for (int i = begin; i < begin + count; ++i) {
+      if (body.m_nodes[i].m_im > 0) body.m_nodes[i].m_x = in_world(i);
+    }
+  });
 }
 
 void FastBody::project_cloth_contacts(btSoftBody& body) {
@@ -408,6 +417,13 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
   last_step_ = met_something || is_limited ? btScalar(0) : time_step;
 }
 
+void FastBody::update_normals(btSoftBody& body) {
+  const TraceScope trace("normals");
+  const fast::ThreadTeam::Scope scope(team_, team_size());
+  normals_.update(body, team_);
+  has_normals_ = true;
+}
+
 // What threads gain with one part each, they lose waiting for one another.
 int FastBody::team_size() const {
   const int num_parts = fast::NodeParts(static_cast<int>(masses_.size())).count();
@@ -423,11 +439,9 @@ void FastBody::solve(btSoftBody& body, btScalar time_step, const fast::SolverEff
 }
 
 void FastBody::prepare(const btSoftBody& body, btScalar time_step) {
-  {
-    const fast::ThreadTeam::Scope scope(team_, team_size());
-    read_prediction(body);
-  }
-  prepare_solver(body, time_step);  // by tasks of oneTBB
+  const fast::ThreadTeam::Scope scope(team_, team_size());
+  read_prediction(body);
+  prepare_solver(body, time_step);
 }
 
 void FastBody::begin_solve(btSoftBody& body, btScalar time_step,

@@ -10,6 +10,7 @@
 
 #include <weft/bridge/body_sleep.hpp>
 #include <weft/bridge/fast_settings.hpp>
+#include <weft/bridge/node_normals.hpp>
 #include <weft/bridge/precision.hpp>
 #include <weft/bridge/rigid_contacts.hpp>
 #include <weft/custom_forces/core/cloth_mesh.hpp>
@@ -52,7 +53,7 @@ class FastBody {
 
   /// That may work on this body at a time, with the one that calls.
   void set_num_threads(int num_threads) { num_threads_ = num_threads; }
-  /// They stay as long as the result exists: between the parts of a solve too, but for prepare().
+  /// They stay as long as the result exists: between the parts of a solve too.
   [[nodiscard]] fast::ThreadTeam::Scope hold_threads() { return {team_, team_size()}; }
 
   /// A body that sleeps is not to be stepped: only these are called.
@@ -107,6 +108,9 @@ class FastBody {
   static constexpr int kClothContactSweeps = 16;
   /// Velocities from m_x.
   void end_solve(btSoftBody& body, btScalar time_step);
+  /// btSoftBody::updateNormals, once no node moves any more in this step.
+  void update_normals(btSoftBody& body);
+  [[nodiscard]] bool has_normals() const { return has_normals_; }
   /// [s] What the end of this step's velocity counts of a rate: BDF2 takes two thirds of the step, and the rest from the steps before.
   [[nodiscard]] btScalar velocity_step() const { return inertia_step_; }
   /// How often look_again() is called.
@@ -183,11 +187,13 @@ class FastBody {
   btScalar inertia_step_ = 0;  ///< [s] of the present step
   btScalar last_step_ = 0;     ///< [s]; 0: no history
   bool is_predicted_ = false;
+  bool has_normals_ = false;         ///< of the places at the end of the present step
   bool is_placed_ = false;           ///< before end_solve()
   double excess_ = 0;                ///< energy in springs that nothing has put in [J]
   bool is_contact_missing_ = false;  ///< in the present solution, for all that is known
   std::vector<Obstacle> obstacles_;  ///< of this step
   NodeWays ways_;
+  NodeNormals normals_;
   std::vector<RigidContact> contacts_;
   std::vector<RigidContact> found_;  ///< of a second look
   std::vector<RigidContact>

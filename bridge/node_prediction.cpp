@@ -1,6 +1,8 @@
 #include <weft/bridge/node_prediction.hpp>
 
 #include <array>
+#include <atomic>
+#include <numeric>
 
 #include <weft/bridge/bullet_vector.hpp>
 #include <weft/fast_solver/node_parts.hpp>
@@ -15,13 +17,8 @@ constexpr btScalar kCoveredSteps = 4;
 constexpr int kFewShare = 50;
 /// A tree's depth is some 20; one that nodes were put into in a row is made anew.
 constexpr int kMostDepth = 200;
-
-/// All that Bullet stores of a vector, at no special address: what a processor loads at once. The last number is of no meaning.
-using Four = Eigen::Array<btScalar, 4, 1>;
-
-Eigen::Map<Four> four(btVector3& v) {
-  return Eigen::Map<Four>(v.m_floats);
-}
+/// Of the parts of a tree that threads share.
+constexpr int kSharedDepth = 4;
 
 btVector3 vector_of(const Four& v) {
   return {v[0], v[1], v[2]};
@@ -81,13 +78,38 @@ btDbvtVolume box_of(const btSoftBody::Node& node, btScalar margin) {
   return btDbvtVolume::FromCR(node.m_x, margin);
 }
 
-/// False if the tree is too deep.
-bool refit(btDbvtNode* node, int depth) {
-  if (node->isleaf()) return true;
+/// From leaves, or nodes of a depth, upwards. False if the tree is too deep.
+bool refit(btDbvtNode* node, int depth, int end = kMostDepth + 1) {
+  if (node->isleaf() || depth == end) return true;
   if (depth > kMostDepth) return false;
-  if (!refit(node->childs[0], depth + 1) || !refit(node->childs[1], depth + 1)) return false;
+  for (btDbvtNode* child : node->childs) {
+    if (!refit(child, depth + 1, end)) return false;
+  }
   Merge(node->childs[0]->volume, node->childs[1]->volume, node->volume);
   return true;
+}
+
+struct Subtrees {
+  std::array<btDbvtNode*, 1 << kSharedDepth> roots;
+  int count = 0;
+
+  void add_below(btDbvtNode* node, int depth) {
+    if (depth == kSharedDepth) {
+      roots[static_cast<std::size_t>(count++)] = node;
+    } else if (node->isinternal()) {
+      for (btDbvtNode* child : node->childs) add_below(child, depth + 1);
+    }
+  }
+};
+
+bool refit(btDbvt& tree, fast::ThreadTeam& team) {
+  Subtrees subtrees;
+  subtrees.add_below(tree.m_root, 0);
+  std::atomic<bool> fits = true;
+  team.run(subtrees.count, [&](int k) {
+    if (!refit(subtrees.roots[static_cast<std::size_t>(k)], kSharedDepth)) fits = false;
+  });
+  return fits && refit(tree.m_root, 0, kSharedDepth);
 }
 
 void cover_ways(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities,
@@ -109,7 +131,7 @@ void cover_ways(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities,
   fast::run_parts(team, body.m_nodes.size(), [&](int, int begin, int end) {
     for (int i = begin; i < end; ++i) cover(i);
   });
-  if (!refit(body.m_ndbvt.m_root, 0)) body.m_ndbvt.optimizeTopDown();
+  if (!refit(body.m_ndbvt, team)) body.m_ndbvt.optimizeTopDown();
 }
 
 void update_tree(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities,
@@ -117,11 +139,15 @@ void update_tree(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities,
   if (body.m_ndbvt.m_root == nullptr) return;
   const btScalar margin = body.m_sst.radmrg;
   const int few = body.m_nodes.size() / kFewShare;
-  int num_left = 0;
-  for (int i = 0; i < body.m_nodes.size() && num_left <= few; ++i) {
-    const btSoftBody::Node& node = body.m_nodes[i];
-    if (!node.m_leaf->volume.Contain(box_of(node, margin))) ++num_left;
-  }
+  std::array<int, fast::ThreadTeam::kMostParts> left{};
+  fast::run_parts(team, body.m_nodes.size(), [&](int part, int begin, int end) {
+    int& count = left[static_cast<std::size_t>(part)];
+    for (int i = begin; i < end && count <= few; ++i) {
+      const btSoftBody::Node& node = body.m_nodes[i];
+      if (!node.m_leaf->volume.Contain(box_of(node, margin))) ++count;
+    }
+  });
+  const int num_left = std::accumulate(left.begin(), left.end(), 0);
   if (num_left > few) {
     cover_ways(body, last_velocities, team);
   } else if (num_left > 0) {

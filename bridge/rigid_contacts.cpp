@@ -20,6 +20,19 @@ MotionBox box_of(const btVector3& low, const btVector3& high) {
   return {{low.x(), low.y(), low.z(), 0}, {high.x(), high.y(), high.z(), 0}};
 }
 
+/// Of the ways of some nodes, at least one.
+MotionBox box_of(const btSoftBody& body, std::span<const int> nodes) {
+  Four low = four(body.m_nodes[nodes[0]].m_x);
+  Four high = low;
+  for (const int i : nodes) {
+    const Four start = four(body.m_nodes[i].m_q);
+    const Four end = four(body.m_nodes[i].m_x);
+    low = low.min(start).min(end);
+    high = high.max(start).max(end);
+  }
+  return {{low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}};
+}
+
 /// Plane through the first surface on the way from one place to another.
 std::optional<RigidContact> stop_on_the_way(const Obstacle& obstacle, const btVector3& from,
                                             const btVector3& to, btScalar margin) {
@@ -38,26 +51,36 @@ std::optional<RigidContact> stop_on_the_way(const Obstacle& obstacle, const btVe
   return contact;
 }
 
-using Place = Vector3<double>;
+/// An obstacle in double precision: the ground may be a box of many metres, of which a place is a millionth.
+class ExactObstacle {
+ public:
+  ExactObstacle(const Obstacle& obstacle, btScalar margin)
+      : obstacle_(obstacle),
+        margin_(static_cast<double>(margin)),
+        origin_(from_bullet(obstacle.place.getOrigin())) {
+    for (int k = 0; k < 3; ++k) turn_.row(k) = from_bullet(obstacle.place.getBasis().getRow(k));
+  }
 
-/// In double precision: the ground may be a box of many metres, of which a place is a millionth.
-std::optional<RigidContact> near_exactly(const Obstacle& obstacle, const btVector3& place,
-                                         btScalar margin) {
-  Matrix3<double> turn;
-  for (int k = 0; k < 3; ++k) turn.row(k) = from_bullet(obstacle.place.getBasis().getRow(k));
-  const Place world = from_bullet(place);
-  const Place local = turn.transpose() * (world - from_bullet(obstacle.place.getOrigin()));
-  const double reach = 2 * static_cast<double>(margin);
-  const auto surface = surface_distance(*obstacle.shape, obstacle.facets, local, reach);
-  if (!surface || surface->distance >= reach) return std::nullopt;
-  const Place out = turn * surface->out;
-  RigidContact contact;
-  contact.normal = to_bullet(out);
-  // Of the normal as it is rounded, so that the plane is where it should be for this place.
-  contact.offset = static_cast<btScalar>(from_bullet(contact.normal).dot(world) -
-                                         surface->distance + static_cast<double>(margin));
-  return contact;
-}
+  [[nodiscard]] std::optional<RigidContact> near(const btVector3& place) const {
+    const Vector3<double> world = from_bullet(place);
+    const Vector3<double> local = turn_.transpose() * (world - origin_);
+    const double reach = 2 * margin_;
+    const auto surface = surface_distance(*obstacle_.shape, obstacle_.facets, local, reach);
+    if (!surface || surface->distance >= reach) return std::nullopt;
+    RigidContact contact;
+    contact.normal = to_bullet((turn_ * surface->out).eval());
+    // Of the normal as it is rounded, so that the plane is where it should be for this place.
+    contact.offset =
+        static_cast<btScalar>(from_bullet(contact.normal).dot(world) - surface->distance + margin_);
+    return contact;
+  }
+
+ private:
+  const Obstacle& obstacle_;
+  double margin_;
+  Vector3<double> origin_;
+  Matrix3<double> turn_;
+};
 
 std::optional<RigidContact> near_in_field(const btSoftBody& body, const Obstacle& obstacle,
                                           const btVector3& place, btScalar margin) {
@@ -94,14 +117,14 @@ btRigidBody* movable(const btCollisionObject* object) {
 void NodeWays::update(const btSoftBody& body, fast::ThreadTeam* team) {
   if (is_of_now_) return;
   is_of_now_ = true;
-  if (groups_.num_nodes() != body.m_nodes.size()) groups_.arrange(body);
+  if (groups_.num_nodes() != body.m_nodes.size()) {
+    groups_.arrange(body);
+    groups_.sort();
+  }
   boxes_.resize(groups_.size());
   const auto enclose = [&](std::size_t begin, std::size_t end) {
     for (std::size_t g = begin; g < end; ++g) {
-      boxes_[g] = MotionBox::nowhere();
-      for (const int i : groups_[g]) {
-        boxes_[g].include(MotionBox::of(body.m_nodes[i], btVector3(0, 0, 0)));
-      }
+      boxes_[g] = box_of(body, groups_[g]);
     }
   };
   if (const std::size_t num_parts = num_parts_for(team); num_parts > 1) {
@@ -140,6 +163,7 @@ void add_rigid_contacts(const btSoftBody& body, NodeWays& ways, const Obstacle& 
   const bool looks_at_pinned =
       pinned == PinnedNodes::kWithDynamicObjects && !obstacle.object->isStaticOrKinematicObject();
   const bool needs_field = needs_distance_field(*obstacle.shape, obstacle.facets);
+  const ExactObstacle exact(obstacle, margin);
   const auto look_at = [&](int i, std::vector<RigidContact>& found) {
     const btSoftBody::Node& node = body.m_nodes[i];
     if ((node.m_im <= 0 && !looks_at_pinned) || node.m_battach != 0) return;
@@ -160,8 +184,7 @@ void add_rigid_contacts(const btSoftBody& body, NodeWays& ways, const Obstacle& 
       contact = stop_on_the_way(obstacle, from, to, margin);
     }
     if (!contact) {
-      contact = needs_field ? near_in_field(body, obstacle, to, margin)
-                            : near_exactly(obstacle, to, margin);
+      contact = needs_field ? near_in_field(body, obstacle, to, margin) : exact.near(to);
     }
     if (!contact) return;
     contact->node = i;

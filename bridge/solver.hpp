@@ -181,7 +181,9 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   void for_bodies(const std::function<void(btSoftBody&, Attachment*)>& work);
   void solve_fast_bodies();
   void solve_listed_bodies();
-  void place_listed_bodies();
+  void solve_single_body(Attachment& one);
+  [[nodiscard]] bool may_meet_cloth() const;
+  void place_listed_bodies(bool may_meet);
   /// Has exploded or is suspended.
   [[nodiscard]] bool is_still(const btSoftBody& body) const;
 

@@ -77,14 +77,32 @@ void SoftBodySolver::solve_fast_bodies() {
   const int num_each = std::max(
       1, tbb::this_task_arena::max_concurrency() / std::max(1, static_cast<int>(bodies.size())));
   for (Attachment* one : bodies) one->fast->set_num_threads(num_each);
+  if (bodies.size() == 1) return solve_single_body(*bodies[0]);
   in_parallel(bodies, [&](Attachment& one) { one.fast->prepare(*one.body, time_step_); });
-  if (bodies.size() == 1) {
-    const auto threads = bodies[0]->fast->hold_threads();
+  solve_listed_bodies();
+  place_listed_bodies(may_meet_cloth());
+}
+
+void SoftBodySolver::solve_single_body(Attachment& one) {
+  const bool may_meet = may_meet_cloth();
+  {
+    const auto threads = one.fast->hold_threads();  // to call for them takes longer than most loops
+    one.fast->prepare(*one.body, time_step_);
     solve_listed_bodies();
-  } else {
-    solve_listed_bodies();
+    if (!may_meet) {
+      place_listed_bodies(false);
+      const bool is_final = one.limits.is_empty() && m_softBodySet.size() == 1;
+      if (is_final) one.fast->update_normals(*one.body);
+    }
   }
-  place_listed_bodies();  // cloth on cloth takes long, and one thread
+  if (may_meet) place_listed_bodies(true);  // cloth on cloth takes long, and one thread
+}
+
+bool SoftBodySolver::may_meet_cloth() const {
+  const std::vector<Attachment*>& bodies = attachments_->stepped;
+  return std::any_of(bodies.begin(), bodies.end(), [&](const Attachment* one) {
+    return one->body->m_scontacts.size() > 0 || find_contact(*one->body) != nullptr;
+  });
 }
 
 void SoftBodySolver::solve_listed_bodies() {
@@ -114,11 +132,8 @@ void SoftBodySolver::solve_listed_bodies() {
   }
 }
 
-void SoftBodySolver::place_listed_bodies() {
+void SoftBodySolver::place_listed_bodies(bool may_meet) {
   const std::vector<Attachment*>& bodies = attachments_->stepped;
-  const bool may_meet = std::any_of(bodies.begin(), bodies.end(), [&](const Attachment* one) {
-    return one->body->m_scontacts.size() > 0 || find_contact(*one->body) != nullptr;
-  });
   for (Attachment* one : bodies) one->fast->place(*one->body, time_step_, may_meet);
   // Where springs have led the nodes, not where they would fly without them: in steps of 1/100 s layers that were found there
   // threw each other about.
@@ -189,7 +204,8 @@ void SoftBodySolver::settle_contact_velocities() {
 void SoftBodySolver::updateSoftBodies() {
   const TraceScope trace("update soft bodies");
   for_bodies([&](btSoftBody& body, Attachment* attachment) {
-    body.integrateMotion();
+    const bool has_normals = attachment && attachment->fast && attachment->fast->has_normals();
+    if (!has_normals) body.integrateMotion();
     if (!attachment || !attachment->fast) return;
     if (attachment->limits.is_empty()) attachment->fast->end_step(body, time_step_);
   });

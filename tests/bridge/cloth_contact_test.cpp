@@ -234,6 +234,27 @@ bool ways_meet(const btSoftBody::Node& node, const btSoftBody::Face& face, const
   return true;
 }
 
+TEST(NodeGroups, AreSortedWithoutOtherNeighbours) {
+  SoftWorld world({});
+  const btSoftBody& body = world.add(make_cloth_body(world.info(), square(0.0, 0.4), {}));
+  NodeGroups groups;
+  groups.arrange(body);
+  const auto list = [&] {
+    std::vector<std::vector<int>> nodes;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      nodes.emplace_back(groups[g].begin(), groups[g].end());
+    }
+    return nodes;
+  };
+  std::vector<std::vector<int>> expected = list();
+  EXPECT_GT(expected.size(), 4U);
+  for (auto& nodes : expected) std::sort(nodes.begin(), nodes.end());
+  std::sort(expected.begin(), expected.end());
+  groups.sort();
+  EXPECT_EQ(list(), expected);
+  EXPECT_EQ(groups.num_nodes(), body.m_nodes.size());
+}
+
 // Another body's nodes, and faces whose nodes went 2 cm in directions of their own.
 TEST(FaceTree, FindsTheFacesWhoseWayMeetsANodesWayAndNoOthers) {
   SoftWorld world({});

@@ -11,6 +11,16 @@ bool is_equal(const btVector3& a, const btVector3& b) {
   return a.x() == b.x() && a.y() == b.y() && a.z() == b.z();
 }
 
+/// Boxes of a tree that do not hold those below them.
+int num_too_small(const btDbvtNode* node) {
+  if (node->isleaf()) return 0;
+  int count = 0;
+  for (const btDbvtNode* child : node->childs) {
+    count += node->volume.Contain(child->volume) ? num_too_small(child) : 1;
+  }
+  return count;
+}
+
 /// A cloth with a pin that moves in some way, forces, and gravity of Bullet's.
 class MovedCloth {
  public:
@@ -55,6 +65,7 @@ TEST(NodePrediction, MovesNodesAsBulletDoes) {
           a.m_leaf->volume.Contain(btDbvtVolume::FromCR(a.m_x, static_cast<btScalar>(kMargin))))
           << i;
     }
+    EXPECT_EQ(num_too_small(ours.body().m_ndbvt.m_root), 0);
     EXPECT_EQ(ours.body().m_sst.sdt, bullets.body().m_sst.sdt);
     EXPECT_EQ(ours.body().m_sst.velmrg, bullets.body().m_sst.velmrg);
     // Bullet's bounds hold where nodes will be, ours where they are too.
