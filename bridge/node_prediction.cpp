@@ -12,7 +12,7 @@ inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
 /// Steps that boxes look ahead when all of them are made anew.
-constexpr btScalar kCoveredSteps = 4;
+constexpr btScalar kCoveredSteps = 8;
 /// Of the nodes: so many may be put into the tree one by one.
 constexpr int kFewShare = 50;
 /// A tree's depth is some 20; one that nodes were put into in a row is made anew.

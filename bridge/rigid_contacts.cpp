@@ -62,20 +62,33 @@ class ExactObstacle {
   }
 
   [[nodiscard]] std::optional<RigidContact> near(const btVector3& place) const {
-    const Vector3<double> world = from_bullet(place);
-    const Vector3<double> local = turn_.transpose() * (world - origin_);
     const double reach = 2 * margin_;
-    const auto surface = surface_distance(*obstacle_.shape, obstacle_.facets, local, reach);
+    const auto surface = surface_from(place, reach);
     if (!surface || surface->distance >= reach) return std::nullopt;
     RigidContact contact;
     contact.normal = to_bullet((turn_ * surface->out).eval());
     // Of the normal as it is rounded, so that the plane is where it should be for this place.
-    contact.offset =
-        static_cast<btScalar>(from_bullet(contact.normal).dot(world) - surface->distance + margin_);
+    contact.offset = static_cast<btScalar>(from_bullet(contact.normal).dot(from_bullet(place)) -
+                                           surface->distance + margin_);
     return contact;
+  }
+  /// False for a way that does not come to the surface: its ends are farther away than it is long.
+  [[nodiscard]] bool may_be_on(const btVector3& from, const btVector3& to) const {
+    const double length = (from_bullet(to) - from_bullet(from)).norm() * (1 + kRounding);
+    const auto end = surface_from(to, length);
+    if (!end || end->distance >= length) return !end;
+    const auto start = surface_from(from, length);
+    return start->distance + end->distance <= length;
   }
 
  private:
+  static constexpr double kRounding = 1e-6;  ///< of ways in single precision
+  [[nodiscard]] std::optional<SurfaceDistance> surface_from(const btVector3& place,
+                                                            double reach) const {
+    const Vector3<double> local = turn_.transpose() * (from_bullet(place) - origin_);
+    return surface_distance(*obstacle_.shape, obstacle_.facets, local, reach);
+  }
+
   const Obstacle& obstacle_;
   double margin_;
   Vector3<double> origin_;
@@ -180,7 +193,8 @@ void add_rigid_contacts(const btSoftBody& body, NodeWays& ways, const Obstacle& 
     most.setMax(to);
     if (!meet(box_of(least, most), box)) return;
     std::optional<RigidContact> contact;
-    if ((to - from).length2() > margin * margin) {
+    const bool is_fast = (to - from).length2() > margin * margin;
+    if (is_fast && (needs_field || exact.may_be_on(from, to))) {
       contact = stop_on_the_way(obstacle, from, to, margin);
     }
     if (!contact) {

@@ -29,10 +29,22 @@ int DenseInverse::filled_size() const {
   return (size() + kDenseRows - 1) / kDenseRows * kDenseRows;
 }
 
+// Several columns at once: each sum would wait for the one before.
+void DenseInverse::sum_pieces(const Fours& right) {
+  constexpr int kTogether = 4;
+  sums_.setZero();
+  for (const Run& run : runs_) {
+    Eigen::Matrix<float, 4, kTogether> sums = Eigen::Matrix<float, 4, kTogether>::Zero();
+    int i = run.begin;
+    for (; i + kTogether <= run.end; i += kTogether) sums += right.middleCols<kTogether>(i);
+    for (; i < run.end; ++i) sums.col(0) += right.col(i);
+    sums_.col(run.piece) += sums.rowwise().sum();
+  }
+}
+
 void DenseInverse::multiply(const Fours& right, Fours& result, ThreadTeam& team) {
   const int n = filled_size();
-  sums_.setZero();
-  for (int i = 0; i < size(); ++i) sums_.col(piece_of_[at(i)]) += right.col(i);
+  sum_pieces(right);
   const int num_groups = n / kDenseRows;
   const int num_parts = std::min(num_groups, ThreadTeam::kMostParts);
   team.run(num_parts, [&](int part) {
@@ -52,6 +64,7 @@ void DenseInverse::multiply(const Fours& right, Fours& result, ThreadTeam& team)
 DenseInverseMaker::DenseInverseMaker(const SymmetricMatrix& matrix, SparseCholesky& factor)
     : matrix_(matrix), factor_(factor) {
   find_pieces();
+  find_runs();
   const int n = result_.filled_size();
   inverse_.setZero(n, n);
   right_.setZero(3, matrix.size());
@@ -79,6 +92,16 @@ void DenseInverseMaker::find_pieces() {
         open.push_back(other);
       }
     }
+  }
+}
+
+void DenseInverseMaker::find_runs() {
+  for (int i = 0; i < matrix_.size(); ++i) {
+    const int piece = result_.piece_of_[at(i)];
+    if (result_.runs_.empty() || result_.runs_.back().piece != piece) {
+      result_.runs_.push_back({piece, i, i});
+    }
+    result_.runs_.back().end = i + 1;
   }
 }
 

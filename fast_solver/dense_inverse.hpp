@@ -33,11 +33,19 @@ class DenseInverse {
 
  private:
   friend class DenseInverseMaker;
+  /// Unknowns of one piece in a row.
+  struct Run {
+    int piece;
+    int begin;
+    int end;
+  };
+  void sum_pieces(const Fours& right);
 
   float scale_ = 1;  ///< of entries
   AlignedVector<std::uint16_t>
       entries_;                ///< kDenseRows rows after the other, each column by column
   std::vector<int> piece_of_;  ///< of each unknown
+  std::vector<Run> runs_;
   std::vector<float> shares_;  ///< of each piece: what is left out of all its entries
   Fours sums_;                 ///< of each piece, of the right-hand side
 };
@@ -55,6 +63,7 @@ class DenseInverseMaker {
 
  private:
   void find_pieces();
+  void find_runs();
   [[nodiscard]] bool is_exact_enough() const;
 
   const SymmetricMatrix& matrix_;

@@ -235,10 +235,29 @@ void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterat
 // rounding. Where something does, what is left over is no error of the whole body's: in a stiff sheet a
 // micrometre is worth many newtons.
 template <class Scalar>
-void ImplicitSolver<Scalar>::balance() {
-  if (!pinned_.empty() || links_.size() != held_.size()) return;
-  Vector3<double> inertia = Vector3<double>::Constant(inertia_.template cast<double>().sum());
-  Vector3<double> left = unbalanced_.template cast<double>().colwise().sum().transpose();
+std::optional<Vector3<Scalar>> ImplicitSolver<Scalar>::find_balance() {
+  if (!pinned_.empty() || links_.size() != held_.size()) return std::nullopt;
+  struct Sums {
+    double inertia = 0;
+    Vector3<double> left = Vector3<double>::Zero();
+  };
+  std::array<Sums, ThreadTeam::kMostParts> of_parts{};
+  team_->run(parts_.count(), [&](int part) {
+    const NodeRange nodes = parts_[part];
+    const int count = nodes.end - nodes.begin;
+    of_parts[at(part)].inertia = inertia_.segment(nodes.begin, count).template cast<double>().sum();
+    of_parts[at(part)].left = unbalanced_.middleRows(nodes.begin, count)
+                                  .template cast<double>()
+                                  .colwise()
+                                  .sum()
+                                  .transpose();
+  });
+  Vector3<double> inertia = Vector3<double>::Zero();
+  Vector3<double> left = Vector3<double>::Zero();
+  for (const Sums& sums : of_parts) {
+    inertia.array() += sums.inertia;
+    left += sums.left;
+  }
   for (const Body& body : bodies_) {
     if (!body.is_linked) continue;
     const Vector3<double> of_body =
@@ -247,10 +266,10 @@ void ImplicitSolver<Scalar>::balance() {
     left -= of_body.cwiseProduct(body.motion.template head<3>().template cast<double>());
   }
   const Vector3<Scalar> shift = left.cwiseQuotient(inertia).template cast<Scalar>();
-  places_.topRows(num_nodes()).rowwise() += shift.transpose();
   for (Body& body : bodies_) {
     if (body.is_linked) body.motion.template head<3>() += shift;
   }
+  return shift;
 }
 
 template class ImplicitSolver<float>;

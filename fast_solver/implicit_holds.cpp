@@ -21,7 +21,10 @@ void take_away(const Vector3<float>& normal, NodeArrays<float>& vectors, int nod
 // weighed against what friction can bear.
 template <class Scalar>
 void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bool is_first) {
-  held_before_.assign(holds_.begin(), holds_.end());
+  const bool can_hold =
+      !problem.contacts.empty() || !problem.led.empty() || !problem.bodies.empty();
+  if (!can_hold && held_.empty()) return;
+  held_before_.swap(holds_);
   std::fill(holds_.begin(), holds_.end(), Hold::kFree);
   std::fill(contact_of_.begin(), contact_of_.end(), -1);
   held_.clear();
@@ -143,7 +146,8 @@ double ImplicitSolver<Scalar>::work_of_held() const {
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::find_holding_forces() {
-  holding_forces_.setZero();
+  if (has_holding_forces_) holding_forces_.setZero();
+  has_holding_forces_ = !held_.empty();
   for (const int i : held_) {
     if (holds_[at(i)] == Hold::kFixed) {
       holding_forces_.row(i) = -unbalanced_.row(i);

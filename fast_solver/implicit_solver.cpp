@@ -86,7 +86,7 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
   }
   held_.clear();
   held_.reserve(at(static_cast<int>(n)));
-  holds_.assign(at(static_cast<int>(n)), Hold::kFree);
+  for (auto* holds : {&holds_, &held_before_}) holds->assign(at(static_cast<int>(n)), Hold::kFree);
   contact_of_.assign(at(static_cast<int>(n)), -1);
   for (auto* vectors : {&normals_, &friction_}) vectors->setZero(3, n);
   const Eigen::Index n_filled = fill_up(static_cast<int>(n));
@@ -408,8 +408,10 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const Sol
   if (is_suspicious(problem)) tame(problem, effort.iterations);
   find_holding_forces();
   residual_ = first > 0 ? left_over() / first : 0.0;
-  balance();
+  const std::optional<Vector3<Scalar>> shift = find_balance();
   for_each_part([&](NodeRange nodes) {
+    const int end = std::min(nodes.end, num_nodes());
+    if (shift) places_.middleRows(nodes.begin, end - nodes.begin).rowwise() += shift->transpose();
     find_remainders(nodes);
     from_arrays<Scalar>(places_, nodes, places);
   });

@@ -215,7 +215,8 @@ class ImplicitSolver {
   void find_holding_forces();
   /// Norm of the forces that nothing balances [N].
   [[nodiscard]] double left_over();
-  void balance();
+  /// A shift of all nodes [m]; bodies are shifted already.
+  [[nodiscard]] std::optional<Vector3<Scalar>> find_balance();
   void find_remainders(NodeRange nodes);
   void clamp(const StepProblem<Scalar>& problem);
 
@@ -259,6 +260,7 @@ class ImplicitSolver {
   double step_energy_ = 0;
   KnownEnergies known_;
   bool has_friction_ = true;
+  bool has_holding_forces_ = false;
 };
 
 extern template class ImplicitSolver<float>;
