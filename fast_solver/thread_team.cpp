@@ -74,15 +74,14 @@ void ThreadTeam::close() {
 
 void ThreadTeam::run_shared(int num_parts, Call call, const void* job) {
   const Clock::time_point start = Clock::now();
-  const std::uint64_t loop = loop_.load(std::memory_order_relaxed) + 1;
+  const std::uint64_t loop = ++num_loops_;
   const int num_members = 1 + num_helpers_.load(std::memory_order_acquire);
-  Loop& next = loops_[loop % 2];
-  next.call.store(call, std::memory_order_release);
-  next.job.store(job, std::memory_order_release);
-  next.num_parts.store(num_parts, std::memory_order_release);
-  next.num_members.store(num_members, std::memory_order_release);
-  num_done_.store(0, std::memory_order_relaxed);
-  loop_.store(loop, std::memory_order_release);
+  loop_.number.store(kNone, std::memory_order_relaxed);
+  loop_.call.store(call, std::memory_order_release);
+  loop_.job.store(job, std::memory_order_release);
+  loop_.num_parts.store(num_parts, std::memory_order_release);
+  loop_.num_members.store(num_members, std::memory_order_release);
+  loop_.number.store(loop, std::memory_order_release);
   int num_left = num_parts;
   const auto take = [&](int begin, int end) {
     for (int part = begin; part < end; ++part) {
@@ -94,11 +93,13 @@ void ThreadTeam::run_shared(int num_parts, Call call, const void* job) {
   take(0, num_parts / num_members);
   Patience patience;
   Clock::time_point end_of_patience = start;
-  while (num_done_.load(std::memory_order_acquire) != num_left) {
+  while (num_done_.load(std::memory_order_acquire) !=
+         num_done_before_ + static_cast<std::uint64_t>(num_left)) {
     if (!patience.wait()) continue;
     if (end_of_patience == start) end_of_patience = Clock::now();
     take(0, num_parts);
   }
+  num_done_before_ += static_cast<std::uint64_t>(num_left);
   if (end_of_patience != start) {
     const auto usual = kLongTimes * (end_of_patience - start) + kLongWait;
     is_let_down_ = Clock::now() - start > usual;
@@ -106,12 +107,12 @@ void ThreadTeam::run_shared(int num_parts, Call call, const void* job) {
 }
 
 void ThreadTeam::help() {
-  std::uint64_t last = loop_.load(std::memory_order_acquire);  // which does not count on this one
+  std::uint64_t last = loop_.number.load(std::memory_order_acquire);  // does not count on this one
   const int member = 1 + num_helpers_.fetch_add(1, std::memory_order_acq_rel);
   Patience patience;
   while (is_open_.load(std::memory_order_acquire)) {
-    const std::uint64_t loop = loop_.load(std::memory_order_acquire);
-    if (loop == last) {
+    const std::uint64_t loop = loop_.number.load(std::memory_order_acquire);
+    if (loop == last || loop == kNone) {
       patience.wait();
       continue;
     }
@@ -123,13 +124,11 @@ void ThreadTeam::help() {
 
 // A loop that is over by now has no part left.
 void ThreadTeam::help_with(std::uint64_t loop, int member) {
-  const Loop& present = loops_[loop % 2];
-  const Call call = present.call.load(std::memory_order_acquire);
-  const void* const job = present.job.load(std::memory_order_acquire);
-  const int num_parts = present.num_parts.load(std::memory_order_acquire);
-  const int num_members = present.num_members.load(std::memory_order_acquire);
-  // What was read may be of the loop after the next only if that has begun, and so this one's number has changed.
-  if (loop_.load(std::memory_order_acquire) != loop || member >= num_members) return;
+  const Call call = loop_.call.load(std::memory_order_acquire);
+  const void* const job = loop_.job.load(std::memory_order_acquire);
+  const int num_parts = loop_.num_parts.load(std::memory_order_acquire);
+  const int num_members = loop_.num_members.load(std::memory_order_acquire);
+  if (loop_.number.load(std::memory_order_acquire) != loop || member >= num_members) return;
   int num_done = 0;
   for (int part = num_parts * member / num_members; part < num_parts * (member + 1) / num_members;
        ++part) {
@@ -137,7 +136,9 @@ void ThreadTeam::help_with(std::uint64_t loop, int member) {
     call(job, part);
     ++num_done;
   }
-  if (num_done > 0) num_done_.fetch_add(num_done, std::memory_order_release);
+  if (num_done > 0) {
+    num_done_.fetch_add(static_cast<std::uint64_t>(num_done), std::memory_order_release);
+  }
 }
 
 bool ThreadTeam::take_part(std::uint64_t loop, int part) {

@@ -91,8 +91,11 @@ class ThreadTeam {
 
  private:
   using Call = void (*)(const void* job, int part);
-  /// One loop. Two of them in turn: who reads an old one finds out by the number of the present loop.
-  struct Loop {
+  static constexpr std::uint64_t kNone = 0;
+  /// The present loop. In one line of the cache, so that who waits for its number has the rest as well. While the rest
+  /// is written the number is kNone; who has read it looks at the number again.
+  struct alignas(64) Loop {
+    std::atomic<std::uint64_t> number{kNone};
     std::atomic<Call> call{nullptr};
     std::atomic<const void*> job{nullptr};
     std::atomic<int> num_parts{0};
@@ -108,11 +111,12 @@ class ThreadTeam {
   void help_with(std::uint64_t loop, int member);
   bool take_part(std::uint64_t loop, int part);
 
-  alignas(64) std::atomic<std::uint64_t> loop_{0};  ///< number of the present one
-  std::atomic<bool> is_open_{false};
-  std::atomic<int> num_helpers_{0};  ///< that have come
-  std::array<Loop, 2> loops_;
-  alignas(64) std::atomic<int> num_done_{0};  ///< parts of the present loop, by helpers
+  Loop loop_;
+  std::uint64_t num_loops_ = 0;
+  std::uint64_t num_done_before_ = 0;  ///< num_done_ after the last loop
+  alignas(64) std::atomic<bool> is_open_{false};
+  std::atomic<int> num_helpers_{0};                     ///< that have come
+  alignas(64) std::atomic<std::uint64_t> num_done_{0};  ///< parts of all loops, by helpers
   std::array<Ticket, kMostParts> tickets_;
   int num_threads_ = 1;
   bool is_let_down_ = false;  ///< a helper has kept the caller waiting for long
