@@ -1,6 +1,7 @@
 #include <weft/bridge/fast_body.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -84,6 +85,9 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
   if (solver_) {
     solver_->tear(springs, is_changed, masses_, origins);
     for (const int origin : origins) {
+      if (!is_free_[static_cast<std::size_t>(origin)]) {
+        solver_pins_.push_back(static_cast<int>(is_free_.size()));
+      }
       is_free_.push_back(is_free_[static_cast<std::size_t>(origin)]);
     }
   }
@@ -152,16 +156,24 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
 void FastBody::read_prediction(const btSoftBody& body) {
   predicted_.resize(3, body.m_nodes.size());
   is_pinned_.resize(static_cast<std::size_t>(body.m_nodes.size()));
-  for_nodes([&](int begin, int count) {
-    for (int i = begin; i < begin + count; ++i) {
+  std::array<bool, fast::ThreadTeam::kMostParts> has_pins{};
+  fast::run_parts(team_, body.m_nodes.size(), [&](int part, int begin, int end) {
+    bool any = false;
+    for (int i = begin; i < end; ++i) {
       const btSoftBody::Node& node = body.m_nodes[i];
       predicted_.col(i) << node.m_v.x(), node.m_v.y(), node.m_v.z();
       is_pinned_[static_cast<std::size_t>(i)] = node.m_im <= 0 ? 1 : 0;
+      any = any || node.m_im <= 0;
     }
+    has_pins[static_cast<std::size_t>(part)] = any;
   });
   pins_.clear();
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    if (is_pinned_[static_cast<std::size_t>(i)] != 0) pins_.push_back(i);
+  const fast::NodeParts parts(body.m_nodes.size());
+  for (int part = 0; part < parts.count(); ++part) {
+    if (!has_pins[static_cast<std::size_t>(part)]) continue;
+    for (int i = parts[part].begin; i < std::min(parts[part].end, body.m_nodes.size()); ++i) {
+      if (is_pinned_[static_cast<std::size_t>(i)] != 0) pins_.push_back(i);
+    }
   }
 }
 
@@ -224,21 +236,14 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
   return contacts_.size() > num_known;
 }
 
-bool FastBody::has_pins_of_solver(const btSoftBody& body) const {
-  const auto num_pins =
-      static_cast<std::size_t>(std::count(is_free_.begin(), is_free_.end(), false));
-  return is_free_.size() == static_cast<std::size_t>(body.m_nodes.size()) &&
-         pins_.size() == num_pins && std::none_of(pins_.begin(), pins_.end(), [&](int pin) {
-           return is_free_[static_cast<std::size_t>(pin)];
-         });
-}
-
 void FastBody::prepare_solver(const btSoftBody& body, btScalar time_step) {
   const bool is_same = solver_ != nullptr && time_step < solver_step_ * kStepRatio &&
-                       time_step > solver_step_ / kStepRatio && has_pins_of_solver(body);
+                       time_step > solver_step_ / kStepRatio && pins_ == solver_pins_ &&
+                       is_free_.size() == static_cast<std::size_t>(body.m_nodes.size());
   if (!is_same) {
     is_free_.assign(static_cast<std::size_t>(body.m_nodes.size()), true);
     for (const int pin : pins_) is_free_[static_cast<std::size_t>(pin)] = false;
+    solver_pins_ = pins_;
   }
   if (!is_same || weights_.cols() != body.m_nodes.size()) {
     weights_ = masses_.transpose().cast<btScalar>().replicate(3, 1);
@@ -264,7 +269,13 @@ bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
   }
   // Somebody may have moved a node since.
   for (const int pin : pins_) places_.col(pin) = starts_.col(pin);
-  return places_ == starts_;
+  std::array<bool, fast::ThreadTeam::kMostParts> is_same;
+  is_same.fill(true);
+  fast::run_parts(team_, static_cast<int>(starts_.cols()), [&](int part, int begin, int end) {
+    is_same[static_cast<std::size_t>(part)] =
+        places_.middleCols(begin, end - begin) == starts_.middleCols(begin, end - begin);
+  });
+  return std::all_of(is_same.begin(), is_same.end(), [](bool same) { return same; });
 }
 
 // What does that work is not known: pins and anchors that lead, obstacles that move, other cloth.

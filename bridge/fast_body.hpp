@@ -131,7 +131,6 @@ class FastBody {
   }
   [[nodiscard]] bool take_pushed_places(const btSoftBody& body);
   void prepare_solver(const btSoftBody& body, btScalar time_step);
-  [[nodiscard]] bool has_pins_of_solver(const btSoftBody& body) const;
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
   void find_contacts(const btSoftBody& body, const Obstacle& obstacle, btScalar time_step,
                      std::vector<RigidContact>& contacts);
@@ -163,8 +162,9 @@ class FastBody {
   VectorX<double> masses_;
   FastSettings settings_;
   std::unique_ptr<fast::ImplicitSolver<btScalar>> solver_;
-  std::vector<bool> is_free_;  ///< that solver_ was made for
-  std::vector<int> pins_;      ///< of the present step
+  std::vector<bool> is_free_;     ///< that solver_ was made for
+  std::vector<int> solver_pins_;  ///< likewise
+  std::vector<int> pins_;         ///< of the present step
   std::vector<char> is_pinned_;
   Matrix3X<btScalar> weights_;  ///< masses, each thrice [kg]; 0 for pins
   btScalar solver_step_ = 0;    ///< [s] of the steps that solver_ was made for

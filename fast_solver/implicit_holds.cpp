@@ -1,5 +1,6 @@
 // What contacts and what leads a node do to it during a solve.
 #include <algorithm>
+#include <cstdint>
 
 #include <weft/fast_solver/implicit_solver.hpp>
 
@@ -42,37 +43,26 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bo
       best = static_cast<int>(c);
     }
   }
-  for (const PlaneContact<Scalar>& candidate : problem.contacts) {
-    const int i = candidate.node;
-    if (contact_of_[at(i)] < 0 || &problem.contacts[at(contact_of_[at(i)])] != &candidate) continue;
-    const Vector3<Scalar> normal = candidate.normal;
-    const Scalar gap = gap_at(candidate, at_node(places_, i));
-    const Scalar inertia = Scalar(inertia_[i]);
-    const bool was_held = !is_first && held_before_[at(i)] != Hold::kFree;
-    const Scalar pressure =
-        -normal.dot(at_node(unbalanced_, i)) + inertia * std::max(Scalar(0), -gap);
-    Scalar least_gap = gap;
-    if (is_first) least_gap += std::min(Scalar(0), first_push(i, normal));
-    const bool is_near = least_gap < 0;
-    if (!(was_held ? pressure > 0 : is_near)) {
-      contact_of_[at(i)] = -1;
-      continue;
+  // Each node is that of one contact by now.
+  constexpr int kTogether = 128;
+  const auto num_contacts = static_cast<int>(problem.contacts.size());
+  const int num_parts =
+      std::clamp((num_contacts + kTogether - 1) / kTogether, 1, ThreadTeam::kMostParts);
+  team_->run(num_parts, [&](int part) {
+    const std::int64_t count = num_contacts;
+    for (auto c = static_cast<int>(count * part / num_parts);
+         c < static_cast<int>(count * (part + 1) / num_parts); ++c) {
+      const int i = problem.contacts[at(c)].node;
+      if (contact_of_[at(i)] == c) decide_hold(problem.contacts[at(c)], is_first);
     }
-    const Vector3<Scalar> slip = at_node(places_, i) - at_node(starts_, i) - candidate.motion -
-                                 motion_with(candidate.body, candidate.arm);
-    Vector3<Scalar> tendency = at_node(unbalanced_, i) + inertia * slip;
-    tendency -= normal.dot(tendency) * normal;
-    const Scalar friction = has_friction_ ? candidate.friction : Scalar(0);
-    const Scalar most = friction * std::max(Scalar(0), pressure);
-    const Scalar size = tendency.norm();
-    const bool sticks = size <= most;
-    holds_[at(i)] = sticks ? Hold::kFixed : Hold::kOnPlane;
-    normals_.col(i) = normal.template cast<float>();
-    friction_.col(i).setZero();
-    if (!sticks) friction_.col(i) = (-(most / size) * tendency).template cast<float>();
-    if (candidate.body >= 0) {
-      link(i, candidate.body, candidate.arm, sticks ? Vector3<Scalar>::Zero().eval() : normal);
-    }
+  });
+  for (const PlaneContact<Scalar>& contact : problem.contacts) {
+    const int i = contact.node;
+    if (contact.body < 0 || contact_of_[at(i)] < 0) continue;
+    if (&problem.contacts[at(contact_of_[at(i)])] != &contact) continue;
+    if (holds_[at(i)] == Hold::kFree) continue;
+    const bool sticks = holds_[at(i)] == Hold::kFixed;
+    link(i, contact.body, contact.arm, sticks ? Vector3<Scalar>::Zero().eval() : contact.normal);
   }
   for (const LedNode<Scalar>& led : problem.led) {
     friction_.col(led.node).setZero();
@@ -80,9 +70,42 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bo
     if (led.body >= 0) link(led.node, led.body, turned(led.body, led.arm), Vector3<Scalar>::Zero());
   }
   for (int i = 0; i < num_nodes(); ++i) {
-    if (holds_[at(i)] != Hold::kFree) held_.push_back(i);
+    if (holds_[at(i)] == Hold::kFree) {
+      contact_of_[at(i)] = -1;  // it lets the node go
+    } else {
+      held_.push_back(i);
+    }
   }
   release_bodies();
+}
+
+// One contact's node: what it would do if it stuck decides.
+template <class Scalar>
+void ImplicitSolver<Scalar>::decide_hold(const PlaneContact<Scalar>& contact, bool is_first) {
+  const int i = contact.node;
+  const Vector3<Scalar> normal = contact.normal;
+  const Vector3<Scalar> with_body = motion_with(contact.body, contact.arm);
+  const Scalar gap = normal.dot(at_node(places_, i) - with_body) - contact.offset;
+  const Scalar inertia = Scalar(inertia_[i]);
+  const bool was_held = !is_first && held_before_[at(i)] != Hold::kFree;
+  const Scalar pressure =
+      -normal.dot(at_node(unbalanced_, i)) + inertia * std::max(Scalar(0), -gap);
+  Scalar least_gap = gap;
+  if (is_first) least_gap += std::min(Scalar(0), first_push(i, normal));
+  const bool is_near = least_gap < 0;
+  if (!(was_held ? pressure > 0 : is_near)) return;
+  const Vector3<Scalar> slip =
+      at_node(places_, i) - at_node(starts_, i) - contact.motion - with_body;
+  Vector3<Scalar> tendency = at_node(unbalanced_, i) + inertia * slip;
+  tendency -= normal.dot(tendency) * normal;
+  const Scalar friction = has_friction_ ? contact.friction : Scalar(0);
+  const Scalar most = friction * std::max(Scalar(0), pressure);
+  const Scalar size = tendency.norm();
+  const bool sticks = size <= most;
+  holds_[at(i)] = sticks ? Hold::kFixed : Hold::kOnPlane;
+  normals_.col(i) = normal.template cast<float>();
+  friction_.col(i).setZero();
+  if (!sticks) friction_.col(i) = (-(most / size) * tendency).template cast<float>();
 }
 
 // How far what pushes a node would move it along a normal, if its neighbours stood still [m]. Without springs would

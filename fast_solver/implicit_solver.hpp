@@ -146,6 +146,7 @@ class ImplicitSolver {
   void load(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> guess);
   void evaluate(bool linearises = true);
   void decide_holds(const StepProblem<Scalar>& problem, bool is_first);
+  void decide_hold(const PlaneContact<Scalar>& contact, bool is_first);
   [[nodiscard]] Scalar first_push(int node, const Vector3<Scalar>& normal) const;
   void project(NodeRange nodes, Floats& vectors) const;
   void smooth(NodeRange nodes);
