@@ -32,9 +32,6 @@ constexpr btScalar kFarFromOrigin = 2;  // [m] from which on another one is chos
 /// Of the margin: an object that is farther from where a contact took it to come has met something since. Gravity alone is left
 /// to the next step: to follow it would be a little more exact, and give a box on anchors some energy in each of its swings.
 constexpr btScalar kSurpriseShare = btScalar(0.1);
-/// Of the margin: how far below its plane a node may end a step.
-constexpr btScalar kDepthShare = btScalar(0.5);
-
 void check(const FastSettings& settings) {
   const auto require = [](int value, const char* name) {
     if (value >= 1) return;
@@ -193,49 +190,6 @@ void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& o
   if (!can_wait(obstacles_.back())) find_contacts(body, obstacles_.back(), time_step, contacts_);
 }
 
-void FastBody::find_contacts(const btSoftBody& body, const Obstacle& obstacle, btScalar time_step,
-                             std::vector<RigidContact>& contacts) {
-  ways_.update(body, &team_);
-  add_rigid_contacts(body, ways_, obstacle, time_step, PinnedNodes::kLeftOut, contacts, &team_);
-}
-
-// Those that are known again, and those that the solution keeps to anyway, are left out.
-bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
-  deep_.clear();
-  if (obstacles_.empty()) return false;
-  const std::size_t num_known = contacts_.size();
-  write_places(body);
-  found_.clear();
-  ways_.outdate();
-  for (const Obstacle& obstacle : obstacles_) find_contacts(body, obstacle, time_step, found_);
-  const btScalar depth = kDepthShare * body.getCollisionShape()->getMargin();
-  std::erase_if(found_, [&](const RigidContact& found) {
-    const btScalar gap = btDot(found.normal, body.m_nodes[found.node].m_x) - found.offset;
-    if (gap < -depth && movable(found.object) == nullptr) deep_.push_back(found);
-    return gap >= 0;
-  });
-  if (found_.empty()) return false;
-  last_contact_.assign(static_cast<std::size_t>(body.m_nodes.size()), -1);
-  contact_before_.resize(num_known);
-  for (std::size_t c = 0; c < num_known; ++c) {
-    int& last = last_contact_[static_cast<std::size_t>(contacts_[c].node)];
-    contact_before_[c] = last;
-    last = static_cast<int>(c);
-  }
-  const auto is_known = [&](const RigidContact& found) {
-    for (int c = last_contact_[static_cast<std::size_t>(found.node)]; c >= 0;
-         c = contact_before_[static_cast<std::size_t>(c)]) {
-      const RigidContact& known = contacts_[static_cast<std::size_t>(c)];
-      if (known.obstacle == found.obstacle) return true;
-    }
-    return false;
-  };
-  for (const RigidContact& found : found_) {
-    if (!is_known(found)) contacts_.push_back(found);
-  }
-  return contacts_.size() > num_known;
-}
-
 void FastBody::prepare_solver(const btSoftBody& body, btScalar time_step) {
   const bool is_same = solver_ != nullptr && time_step < solver_step_ * kStepRatio &&
                        time_step > solver_step_ / kStepRatio && pins_ == solver_pins_ &&
@@ -314,48 +268,6 @@ bool FastBody::keep_energy(btScalar time_step) {
   }
   excess_ = std::max(0.0, -most);
   return is_limited;
-}
-
-// What the last solution needs too: nodes that slide from one facet into the next.
-void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
-  if (!is_contact_missing_) return;
-  const std::size_t num_solved = contacts_.size();
-  for (int look = 0; look <= kMostLooks && find_missed_contacts(body, time_step); ++look) {
-    for (const RigidContact& contact : contacts_) {
-      if (look == kMostLooks && &contact >= &contacts_[num_solved]) {  // between two facets
-        places_.col(contact.node) =
-            starts_.col(contact.node) + from_bullet<btScalar>(contact.motion);
-        continue;
-      }
-      const Vector3<btScalar> normal = from_bullet<btScalar>(contact.normal);
-      const btScalar gap = normal.dot(places_.col(contact.node) + origin_) - contact.offset;
-      if (gap < 0 && movable(contact.object) == nullptr) places_.col(contact.node) -= gap * normal;
-    }
-  }
-  contacts_.resize(num_solved);  // the others have no force in the solution
-}
-
-// A node is held by one plane at a time; where facets meet, that of one may let it into another. Where the step
-// began it was outside.
-void FastBody::leave_depths() {
-  for (const RigidContact& contact : deep_) {
-    const Vector3<btScalar> normal = from_bullet<btScalar>(contact.normal);
-    const Vector3<btScalar> start =
-        starts_.col(contact.node) + from_bullet<btScalar>(contact.motion);
-    if (normal.dot(start) > normal.dot(places_.col(contact.node)))
-      places_.col(contact.node) = start;
-  }
-}
-
-// The solution counts on a body that gives way at once. Bullet has moved it before, and moves it next by the impulse
-// that it gets now: until then nodes stand where it is, with the velocities of the solution.
-void FastBody::stay_outside(btSoftBody& body, bool of_movable) const {
-  for (const RigidContact& contact : contacts_) {
-    if ((movable(contact.object) != nullptr) != of_movable) continue;
-    btSoftBody::Node& node = body.m_nodes[contact.node];
-    const btScalar gap = btDot(contact.normal, node.m_x) - contact.offset;
-    if (gap < 0 && node.m_im > 0) node.m_x -= gap * contact.normal;
-  }
 }
 
 void FastBody::place(btSoftBody& body, btScalar time_step, bool is_looked_at) {

@@ -37,7 +37,95 @@ void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& place) 
   rigid.applyImpulse(impulse, place - rigid.getCenterOfMassPosition());
 }
 
+/// Of the margin: how far below its plane a node may end a step.
+constexpr btScalar kDepthShare = btScalar(0.5);
+
 }  // namespace
+
+void FastBody::find_contacts(const btSoftBody& body, const Obstacle& obstacle, btScalar time_step,
+                             std::vector<RigidContact>& contacts) {
+  ways_.update(body, &team_);
+  add_rigid_contacts(body, ways_, obstacle, time_step, PinnedNodes::kLeftOut, contacts, &team_);
+}
+
+// Those that are known again, and those that the solution keeps to anyway, are left out.
+bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
+  deep_.clear();
+  if (obstacles_.empty()) return false;
+  const std::size_t num_known = contacts_.size();
+  write_places(body);
+  found_.clear();
+  ways_.outdate();
+  for (const Obstacle& obstacle : obstacles_) find_contacts(body, obstacle, time_step, found_);
+  const btScalar depth = kDepthShare * body.getCollisionShape()->getMargin();
+  std::erase_if(found_, [&](const RigidContact& found) {
+    const btScalar gap = btDot(found.normal, body.m_nodes[found.node].m_x) - found.offset;
+    if (gap < -depth && movable(found.object) == nullptr) deep_.push_back(found);
+    return gap >= 0;
+  });
+  if (found_.empty()) return false;
+  last_contact_.assign(static_cast<std::size_t>(body.m_nodes.size()), -1);
+  contact_before_.resize(num_known);
+  for (std::size_t c = 0; c < num_known; ++c) {
+    int& last = last_contact_[static_cast<std::size_t>(contacts_[c].node)];
+    contact_before_[c] = last;
+    last = static_cast<int>(c);
+  }
+  const auto is_known = [&](const RigidContact& found) {
+    for (int c = last_contact_[static_cast<std::size_t>(found.node)]; c >= 0;
+         c = contact_before_[static_cast<std::size_t>(c)]) {
+      const RigidContact& known = contacts_[static_cast<std::size_t>(c)];
+      if (known.obstacle == found.obstacle) return true;
+    }
+    return false;
+  };
+  for (const RigidContact& found : found_) {
+    if (!is_known(found)) contacts_.push_back(found);
+  }
+  return contacts_.size() > num_known;
+}
+
+// What the last solution needs too: nodes that slide from one facet into the next.
+void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
+  if (!is_contact_missing_) return;
+  const std::size_t num_solved = contacts_.size();
+  for (int look = 0; look <= kMostLooks && find_missed_contacts(body, time_step); ++look) {
+    for (const RigidContact& contact : contacts_) {
+      if (look == kMostLooks && &contact >= &contacts_[num_solved]) {  // between two facets
+        places_.col(contact.node) =
+            starts_.col(contact.node) + from_bullet<btScalar>(contact.motion);
+        continue;
+      }
+      const Vector3<btScalar> normal = from_bullet<btScalar>(contact.normal);
+      const btScalar gap = normal.dot(places_.col(contact.node) + origin_) - contact.offset;
+      if (gap < 0 && movable(contact.object) == nullptr) places_.col(contact.node) -= gap * normal;
+    }
+  }
+  contacts_.resize(num_solved);  // the others have no force in the solution
+}
+
+// A node is held by one plane at a time; where facets meet, that of one may let it into another. Where the step
+// began it was outside.
+void FastBody::leave_depths() {
+  for (const RigidContact& contact : deep_) {
+    const Vector3<btScalar> normal = from_bullet<btScalar>(contact.normal);
+    const Vector3<btScalar> start =
+        starts_.col(contact.node) + from_bullet<btScalar>(contact.motion);
+    if (normal.dot(start) > normal.dot(places_.col(contact.node)))
+      places_.col(contact.node) = start;
+  }
+}
+
+// The solution counts on a body that gives way at once. Bullet has moved it before, and moves it next by the impulse
+// that it gets now: until then nodes stand where it is, with the velocities of the solution.
+void FastBody::stay_outside(btSoftBody& body, bool of_movable) const {
+  for (const RigidContact& contact : contacts_) {
+    if ((movable(contact.object) != nullptr) != of_movable) continue;
+    btSoftBody::Node& node = body.m_nodes[contact.node];
+    const btScalar gap = btDot(contact.normal, node.m_x) - contact.offset;
+    if (gap < 0 && node.m_im > 0) node.m_x -= gap * contact.normal;
+  }
+}
 
 // Those that are only near are not meant: a cloth that holds a body alone has to move all of it.
 void FastBody::list_pushed(const btSoftBody& body, std::vector<const btRigidBody*>& list) const {

@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include <weft/fast_solver/correction_maker.hpp>
 #include <weft/fast_solver/global_correction.hpp>
+#include <weft/fast_solver/linked_body.hpp>
 #include <weft/fast_solver/network_forces.hpp>
 #include <weft/fast_solver/node_arrays.hpp>
 #include <weft/fast_solver/node_parts.hpp>
@@ -89,8 +89,7 @@ class ImplicitSolver {
   [[nodiscard]] double spring_energy(ConstMatrix3XRef<Scalar> places, ThreadTeam& team);
   /// spring_energy() of the start and of the solution of the last solve(), if that had to look at them [J].
   struct KnownEnergies {
-    std::optional<double> before;
-    std::optional<double> after;
+    std::optional<double> before, after;
   };
   [[nodiscard]] const KnownEnergies& known_energies() const { return known_; }
   /// After solve(): root mean square of the unbalanced forces over that of the step's first guess [-].
@@ -101,27 +100,8 @@ class ImplicitSolver {
   using Nodes = NodeArrays<Scalar>;
   using Floats6 = Eigen::Matrix<float, 6, 1>;
   using Matrix6 = Eigen::Matrix<float, 6, 6>;
-  /// A node that moves with a rigid body, in all directions or along a normal only.
-  struct Link {
-    int node;
-    int body;
-    Vector3<float> arm;     ///< [m]
-    Vector3<float> normal;  ///< zero: in all directions
-  };
-  /// Motions and forces of a rigid body: of its centre, and about it.
-  struct Body {
-    Vector6 motion = Vector6::Zero();   ///< beyond that of the body left alone [m, rad]
-    Vector6 unmoved = Vector6::Zero();  ///< the same where nothing has moved in the step
-    Vector6 motion_alone = Vector6::Zero();
-    Matrix6 inertia = Matrix6::Zero();  ///< over h'^2
-    Eigen::LLT<Matrix6> stiffness;      ///< with what is linked to it
-    // Of conjugate gradients, as those of nodes.
-    Floats6 step, residual, direction, direction_product;
-    Floats6 correction, correction_product, coarse_product;
-    Floats6 none = Floats6::Zero();  ///< the motion that goes with the global correction
-    Floats6 unbalanced;
-    bool is_linked = false;  ///< any node, in the present round
-  };
+  using Link = BodyLink;
+  using Body = LinkedBody<Scalar>;
 
   /// [m] of the last linear system.
   [[nodiscard]] Vector3<Scalar> step_of(Eigen::Index node) const {

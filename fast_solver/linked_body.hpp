@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+
+#include <weft/custom_forces/core/types.hpp>
+
+namespace weft::fast {
+
+/// A node that moves with a rigid body, in all directions or along a normal only.
+struct BodyLink {
+  int node;
+  int body;
+  Vector3<float> arm;     ///< [m]
+  Vector3<float> normal;  ///< zero: in all directions
+};
+
+/// What a step solves for of a rigid body that gives way: motions and forces of its centre, and about it.
+template <class Scalar>
+struct LinkedBody {
+  using Vector6 = Eigen::Matrix<Scalar, 6, 1>;
+  using Floats6 = Eigen::Matrix<float, 6, 1>;
+  using Matrix6 = Eigen::Matrix<float, 6, 6>;
+
+  Vector6 motion = Vector6::Zero();   ///< beyond that of the body left alone [m, rad]
+  Vector6 unmoved = Vector6::Zero();  ///< the same where nothing has moved in the step
+  Vector6 motion_alone = Vector6::Zero();
+  Matrix6 inertia = Matrix6::Zero();  ///< over h'^2
+  Eigen::LLT<Matrix6> stiffness;      ///< with what is linked to it
+  // Of conjugate gradients, as those of nodes.
+  Floats6 step, residual, direction, direction_product;
+  Floats6 correction, correction_product, coarse_product;
+  Floats6 none = Floats6::Zero();  ///< the motion that goes with the global correction
+  Floats6 unbalanced;
+  bool is_linked = false;  ///< any node, in the present round
+};
+
+}  // namespace weft::fast
