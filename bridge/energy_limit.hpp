@@ -7,8 +7,6 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// Sums are taken by a team, with the same bits for any.
-
 /// What a step did, of a body on which nothing that moves does work (pins, anchors, moving obstacles). All 3 x n.
 struct StepMotion {
   const Matrix3X<btScalar>& masses;            ///< each thrice [kg]; 0 for pinned nodes
@@ -18,6 +16,8 @@ struct StepMotion {
   const Matrix3X<btScalar>& places;            ///< [m] at the end
   btScalar time_step;                          ///< [s]
 };
+
+/// Sums are taken by a team, with the same bits for any.
 
 /// Kinetic energy that the free nodes had, and the work on the step's way of all that is not implicit [J].
 [[nodiscard]] double energy_put_in(const StepMotion& motion, fast::ThreadTeam& team);

@@ -32,6 +32,7 @@ constexpr btScalar kFarFromOrigin = 2;  // [m] from which on another one is chos
 /// Of the margin: an object that is farther from where a contact took it to come has met something since. Gravity alone is left
 /// to the next step: to follow it would be a little more exact, and give a box on anchors some energy in each of its swings.
 constexpr btScalar kSurpriseShare = btScalar(0.1);
+
 void check(const FastSettings& settings) {
   const auto require = [](int value, const char* name) {
     if (value >= 1) return;

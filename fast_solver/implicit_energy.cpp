@@ -33,11 +33,17 @@ std::size_t at(int i) {
 // that are left tells: if it opposes the step by more than half of what drove it, back to where a
 // straight line between the two is zero.
 template <class Scalar>
-bool ImplicitSolver<Scalar>::hold_back(double work_before) {
-  const double work_after = work_left_ - work_of_held() + work_of_bodies();
+bool ImplicitSolver<Scalar>::hold_back(double work_before, std::size_t num_held) {
+  const double work_after = work_left_ - work_of_held(num_held) + work_of_bodies();
   if (!(work_before > 0 && work_after < -0.5 * work_before)) return false;
   const double share = std::max(kSmallestShare, work_before / (work_before - work_after));
   const auto excess = static_cast<Scalar>(1.0 - share);
+  // What the whole step has led to a plane may not come to it on a part of the way.
+  for (std::size_t k = num_held; k < held_.size(); ++k) {
+    holds_[at(held_[k])] = Hold::kFree;
+    contact_of_[at(held_[k])] = -1;
+  }
+  held_.resize(num_held);
   for (const int i : held_) step_.row(i).setZero();
   add_motions(&Body::step, step_);
   move_bodies(-excess);

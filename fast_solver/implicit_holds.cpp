@@ -150,6 +150,7 @@ void ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
     if (!(gap < 0) || is_linked(i)) continue;
     places_.row(i) -= gap * contact.normal.transpose();
     if (holds_[at(i)] != Hold::kFree) continue;
+    step_.row(i) -= (gap * contact.normal).transpose().template cast<float>();
     holds_[at(i)] = Hold::kOnPlane;
     contact_of_[at(i)] = static_cast<int>(c);
     normals_.col(i) = contact.normal.template cast<float>();
@@ -159,10 +160,10 @@ void ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
 }
 
 template <class Scalar>
-double ImplicitSolver<Scalar>::work_of_held() const {
+double ImplicitSolver<Scalar>::work_of_held(std::size_t num_held) const {
   double work = 0;
-  for (const int i : held_) {
-    work += static_cast<double>(at_node(unbalanced_, i).dot(step_of(i)));
+  for (std::size_t k = 0; k < num_held; ++k) {
+    work += static_cast<double>(at_node(unbalanced_, held_[k]).dot(step_of(held_[k])));
   }
   return work;
 }

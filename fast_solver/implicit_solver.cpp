@@ -363,11 +363,12 @@ void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, int it
                                       bool is_first, bool linearises) {
   decide_holds(problem, is_first);
   solve_linear(problem, iterations);
-  const double of_others = work_of_bodies() - work_of_held();
+  const double of_others = work_of_bodies() - work_of_held(held_.size());
   move();
+  const std::size_t num_held = held_.size();
   clamp(problem);
   evaluate(linearises);
-  if (!hold_back(work_done_ + of_others)) return;
+  if (!hold_back(work_done_ + of_others, num_held)) return;
   clamp(problem);
   evaluate(linearises);
 }

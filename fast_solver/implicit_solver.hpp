@@ -188,11 +188,11 @@ class ImplicitSolver {
   bool descend(const StepProblem<Scalar>& problem);
   void tame(const StepProblem<Scalar>& problem, int iterations);
   bool go_downhill(const StepProblem<Scalar>& problem, int iterations);
-  /// Only part of the last step, if it went too far; evaluate() is due then.
-  bool hold_back(double work_before);
+  /// Only part of the last step, if it went too far; evaluate() is due then. num_held: of the linear system, not of clamp().
+  bool hold_back(double work_before, std::size_t num_held);
   void move_bodies(Scalar share);
   /// Of the forces that are left with the step, at nodes with a hold [J].
-  [[nodiscard]] double work_of_held() const;
+  [[nodiscard]] double work_of_held(std::size_t num_held) const;
   void find_holding_forces();
   /// Norm of the forces that nothing balances [N].
   [[nodiscard]] double left_over();

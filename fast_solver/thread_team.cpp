@@ -17,8 +17,8 @@ constexpr int kLooks = 400;
 /// stopped, which comes back after milliseconds.
 constexpr int kLongTimes = 4;
 constexpr std::chrono::microseconds kLongWait{100};
-/// How often a team is opened without helpers after that: a second's steps or so.
-constexpr int kTimesAlone = 120;
+/// How often a team is opened without helpers after that: some sixty steps of a single body, which opens it several times.
+constexpr int kTimesAlone = 400;
 
 /// Tells the processor that this thread only waits.
 void pause() {

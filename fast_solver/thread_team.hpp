@@ -55,7 +55,8 @@ class ThreadTeam {
     bool opens_;
   };
 
-  /// Closed as long as the result exists, for work that waits for tasks of oneTBB; then as it was.
+  /// Closed as long as the result exists, for work that waits for tasks of oneTBB; then open if it was, and if no helper
+  /// has been stopped.
   class Pause {
    public:
     explicit Pause(ThreadTeam& team) : team_(team), num_threads_(team.num_threads()) {
