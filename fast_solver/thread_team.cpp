@@ -14,9 +14,9 @@ using Clock = std::chrono::steady_clock;
 /// longer than what a solve does between two loops, or a part takes.
 constexpr int kLooks = 400;
 /// A loop that takes so many times what the caller's own parts took, and this beyond, has waited for a thread that was
-/// stopped, which comes back after milliseconds.
+/// stopped, which comes back after milliseconds. Less may be a part with more work: contacts are where an object is.
 constexpr int kLongTimes = 4;
-constexpr std::chrono::microseconds kLongWait{100};
+constexpr std::chrono::microseconds kLongWait{1000};
 /// How often a team is opened without helpers after that: some sixty steps of a single body, which opens it several times.
 constexpr int kTimesAlone = 400;
 
