@@ -17,9 +17,8 @@ struct StepMotion {
   btScalar time_step;                          ///< [s]
 };
 
-/// Sums are taken by a team, with the same bits for any.
-
 /// Kinetic energy that the free nodes had, and the work on the step's way of all that is not implicit [J].
+/// Summed by a team, with the same bits for any; so is kinetic_energy().
 [[nodiscard]] double energy_put_in(const StepMotion& motion, fast::ThreadTeam& team);
 
 /// Kinetic energy of the free nodes with velocities [m/s]. masses as in StepMotion.

@@ -153,14 +153,12 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
 // Of now: somebody may have pushed or pinned nodes since predict().
 void FastBody::read_prediction(const btSoftBody& body) {
   predicted_.resize(3, body.m_nodes.size());
-  is_pinned_.resize(static_cast<std::size_t>(body.m_nodes.size()));
   std::array<bool, fast::ThreadTeam::kMostParts> has_pins{};
   fast::run_parts(team_, body.m_nodes.size(), [&](int part, int begin, int end) {
     bool any = false;
     for (int i = begin; i < end; ++i) {
       const btSoftBody::Node& node = body.m_nodes[i];
       predicted_.col(i) << node.m_v.x(), node.m_v.y(), node.m_v.z();
-      is_pinned_[static_cast<std::size_t>(i)] = node.m_im <= 0 ? 1 : 0;
       any = any || node.m_im <= 0;
     }
     has_pins[static_cast<std::size_t>(part)] = any;
@@ -170,7 +168,7 @@ void FastBody::read_prediction(const btSoftBody& body) {
   for (int part = 0; part < parts.count(); ++part) {
     if (!has_pins[static_cast<std::size_t>(part)]) continue;
     for (int i = parts[part].begin; i < std::min(parts[part].end, body.m_nodes.size()); ++i) {
-      if (is_pinned_[static_cast<std::size_t>(i)] != 0) pins_.push_back(i);
+      if (body.m_nodes[i].m_im <= 0) pins_.push_back(i);
     }
   }
 }

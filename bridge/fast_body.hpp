@@ -165,9 +165,8 @@ class FastBody {
   std::vector<bool> is_free_;     ///< that solver_ was made for
   std::vector<int> solver_pins_;  ///< likewise
   std::vector<int> pins_;         ///< of the present step
-  std::vector<char> is_pinned_;
-  Matrix3X<btScalar> weights_;  ///< masses, each thrice [kg]; 0 for pins
-  btScalar solver_step_ = 0;    ///< [s] of the steps that solver_ was made for
+  Matrix3X<btScalar> weights_;    ///< masses, each thrice [kg]; 0 for pins
+  btScalar solver_step_ = 0;      ///< [s] of the steps that solver_ was made for
 
   fast::ThreadTeam team_;
   int num_threads_ = 1;

@@ -1,7 +1,5 @@
 // What keeps a step from gaining energy or momentum, however badly it has converged.
 #include <algorithm>
-#include <array>
-#include <numeric>
 
 #include <weft/fast_solver/implicit_solver.hpp>
 
@@ -64,10 +62,7 @@ typename ImplicitSolver<Scalar>::Energy ImplicitSolver<Scalar>::energy_of(
 template <class Scalar>
 typename ImplicitSolver<Scalar>::Energy ImplicitSolver<Scalar>::energy(
     const StepProblem<Scalar>& problem, const Nodes& places, Vector6 Body::*motion) {
-  std::array<Energy, ThreadTeam::kMostParts> of_parts{};
-  team_->run(parts_.count(),
-             [&](int part) { of_parts[at(part)] = energy_of(parts_[part], places); });
-  Energy sum = std::accumulate(of_parts.begin(), of_parts.end(), Energy{});
+  auto sum = sum_over_parts<Energy>([&](NodeRange nodes) { return energy_of(nodes, places); });
   add_energy_of_holds(problem, places, motion, sum);
   return sum;
 }
@@ -103,16 +98,13 @@ bool ImplicitSolver<Scalar>::is_suspicious(const StepProblem<Scalar>& problem) {
   if (!held_.empty()) return true;
   const auto stride = static_cast<int>(masses_.size());
   const SumKernel<Scalar>& sums = sum_kernel<Scalar>();
-  std::array<double, ThreadTeam::kMostParts> motions{};
-  std::array<double, ThreadTeam::kMostParts> works{};
-  team_->run(parts_.count(), [&](int part) {
-    motions[at(part)] = sums.weighted_distance(masses_.data(), stride, parts_[part], places_.data(),
-                                               starts_.data());
-    works[at(part)] = sums.possible_work(stride, parts_[part], places_.data(), starts_.data(),
-                                         unbalanced_.data());
+  const auto sum = sum_over_parts<Eigen::Array2d>([&](NodeRange nodes) {
+    return Eigen::Array2d(
+        sums.weighted_distance(masses_.data(), stride, nodes, places_.data(), starts_.data()),
+        sums.possible_work(stride, nodes, places_.data(), starts_.data(), unbalanced_.data()));
   });
-  const double moved = std::accumulate(motions.begin(), motions.end(), 0.0);
-  const double left = std::accumulate(works.begin(), works.end(), 0.0);
+  const double moved = sum[0];
+  const double left = sum[1];
   const auto h = static_cast<double>(problem.inertia_step);
   return !(moved <= 2 * h * h * kMostMotion * step_energy_ && left <= kMostWork * step_energy_);
 }
@@ -216,13 +208,14 @@ bool ImplicitSolver<Scalar>::go_downhill(const StepProblem<Scalar>& problem, int
 template <class Scalar>
 void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterations) {
   const bool is_unmoved = stay_at_start(problem);
-  std::array<Energy, ThreadTeam::kMostParts> of_parts[2] = {};
-  team_->run(parts_.count(), [&](int part) {
-    of_parts[0][at(part)] = energy_of(parts_[part], unmoved_);
-    of_parts[1][at(part)] = energy_of(parts_[part], places_);
+  struct Both {
+    Energy before;
+    Energy after;
+    Both operator+(const Both& other) const { return {before + other.before, after + other.after}; }
+  };
+  auto [before, after] = sum_over_parts<Both>([&](NodeRange nodes) {
+    return Both{energy_of(nodes, unmoved_), energy_of(nodes, places_)};
   });
-  Energy before = std::accumulate(of_parts[0].begin(), of_parts[0].end(), Energy{});
-  Energy after = std::accumulate(of_parts[1].begin(), of_parts[1].end(), Energy{});
   add_energy_of_holds(problem, unmoved_, &Body::unmoved, before);
   add_energy_of_holds(problem, places_, &Body::motion, after);
   if (is_unmoved) known_.before = before.of_springs;
@@ -243,27 +236,19 @@ void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterat
 template <class Scalar>
 std::optional<Vector3<Scalar>> ImplicitSolver<Scalar>::find_balance() {
   if (!pinned_.empty() || links_.size() != held_.size()) return std::nullopt;
-  struct Sums {
-    double inertia = 0;
-    Vector3<double> left = Vector3<double>::Zero();
-  };
-  std::array<Sums, ThreadTeam::kMostParts> of_parts{};
-  team_->run(parts_.count(), [&](int part) {
-    const NodeRange nodes = parts_[part];
+  const auto sum = sum_over_parts<Eigen::Vector4d>([&](NodeRange nodes) {  // of forces, of inertia
     const int count = nodes.end - nodes.begin;
-    of_parts[at(part)].inertia = inertia_.segment(nodes.begin, count).template cast<double>().sum();
-    of_parts[at(part)].left = unbalanced_.middleRows(nodes.begin, count)
-                                  .template cast<double>()
-                                  .colwise()
-                                  .sum()
-                                  .transpose();
+    Eigen::Vector4d part;
+    part << unbalanced_.middleRows(nodes.begin, count)
+                .template cast<double>()
+                .colwise()
+                .sum()
+                .transpose(),
+        inertia_.segment(nodes.begin, count).template cast<double>().sum();
+    return part;
   });
-  Vector3<double> inertia = Vector3<double>::Zero();
-  Vector3<double> left = Vector3<double>::Zero();
-  for (const Sums& sums : of_parts) {
-    inertia.array() += sums.inertia;
-    left += sums.left;
-  }
+  Vector3<double> left = sum.template head<3>();
+  Vector3<double> inertia = Vector3<double>::Constant(sum[3]);
   for (const Body& body : bodies_) {
     if (!body.is_linked) continue;
     const Vector3<double> of_body =

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 
 #include <weft/custom_forces/core/error.hpp>
@@ -172,10 +171,7 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::evaluate(bool linearises) {
   const auto stride = static_cast<int>(weights_.size());
   const SumKernel<Scalar>& sums = sum_kernel<Scalar>();
-  std::array<double, ThreadTeam::kMostParts> squares{};
-  std::array<double, ThreadTeam::kMostParts> works{};
-  team_->run(parts_.count(), [&](int part) {
-    const NodeRange nodes = parts_[part];
+  const auto both = sum_over_parts<Eigen::Array2d>([&](NodeRange nodes) {
     const int count = nodes.end - nodes.begin;
     for (int axis = 0; axis < 3; ++axis) {
       unbalanced_.col(axis).segment(nodes.begin, count) =
@@ -185,11 +181,11 @@ void ImplicitSolver<Scalar>::evaluate(bool linearises) {
     }
     forces_.add_forces(nodes, places_, unbalanced_, linearises);
     for (const int node : in_range(pinned_, nodes)) unbalanced_.row(node).setZero();
-    works[at(part)] = sums.dot(unbalanced_.data(), step_.data(), stride, nodes);
-    squares[at(part)] = sums.squares(unbalanced_.data(), stride, nodes);
+    return Eigen::Array2d(sums.dot(unbalanced_.data(), step_.data(), stride, nodes),
+                          sums.squares(unbalanced_.data(), stride, nodes));
   });
-  work_left_ = std::accumulate(works.begin(), works.end(), 0.0);
-  unbalanced_squares_ = std::accumulate(squares.begin(), squares.end(), 0.0);
+  work_left_ = both[0];
+  unbalanced_squares_ = both[1];
 }
 
 // By each node's own block of the diagonal, which says most about motion across the sheet.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -113,15 +114,13 @@ class ImplicitSolver {
   void for_each_part(const Work& work) {
     team_->run(parts_.count(), [&](int part) { work(parts_[part]); });
   }
-  /// Sum of term(nodes) over the parts, in order.
-  template <class Term>
-  [[nodiscard]] double sum_over_parts(const Term& term) {
-    std::array<double, ThreadTeam::kMostParts> sums;
+  /// Sum of term(nodes), which is a Sum, over the parts in order.
+  template <class Sum = double, class Term>
+  [[nodiscard]] Sum sum_over_parts(const Term& term) {
+    std::array<Sum, ThreadTeam::kMostParts> sums;
     team_->run(parts_.count(),
                [&](int part) { sums[static_cast<std::size_t>(part)] = term(parts_[part]); });
-    double sum = 0;
-    for (int part = 0; part < parts_.count(); ++part) sum += sums[static_cast<std::size_t>(part)];
-    return sum;
+    return std::accumulate(sums.begin() + 1, sums.begin() + parts_.count(), sums[0]);
   }
   void load(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> guess);
   void evaluate(bool linearises = true);
