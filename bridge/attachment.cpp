@@ -1,5 +1,7 @@
 #include <weft/bridge/attachment.hpp>
 
+#include <atomic>
+
 #include <weft/bridge/node_state.hpp>
 #include <weft/custom_forces/core/trace.hpp>
 
@@ -28,6 +30,47 @@ void SoftBodySolver::Attachment::sum_laws() {
   if (!acts_after_projection(Level::kVelocity)) {
     (void)laws.add_forces(state, LawSet::VelocityLaws::kAlone, forces);
   }
+}
+
+void SoftBodySolver::Attachment::predict(btScalar time_step) {
+  const auto predict_fast = [&] { fast->predict(*body, time_step, positions, velocities); };
+  if (fast && !deferred.is_in_flight() && laws.is_node_by_node()) {
+    const auto threads = fast->hold_threads();
+    if (add_forces_node_by_node(time_step)) return predict_fast();
+  }
+  add_forces(time_step);
+  if (fast && !blow_up) predict_fast();
+}
+
+// add_forces() by the threads that work on the body, each on its own nodes, which are in its cache. False if something
+// is wrong with any of them; then nothing has been done to the body.
+bool SoftBodySolver::Attachment::add_forces_node_by_node(btScalar time_step) {
+  const TraceScope trace("forces");
+  for (Matrix3X<btScalar>* vectors : {&positions, &velocities, &forces}) {
+    vectors->resize(3, body->m_nodes.size());
+  }
+  std::atomic<bool> is_fine = true;
+  fast->for_nodes([&](int begin, int count) {
+    const fast::NodeRange nodes{begin, begin + count};
+    read_nodes(*body, nodes, positions, velocities);
+    const State state{positions.middleCols(begin, count), velocities.middleCols(begin, count),
+                      masses.segment(begin, count), time};
+    auto sum = forces.middleCols(begin, count);
+    sum.setZero();
+    const bool is_finite = laws.add_forces(state, LawSet::VelocityLaws::kSeparate, sum).ok();
+    if (!acts_after_projection(Level::kVelocity)) {
+      (void)laws.add_forces(state, LawSet::VelocityLaws::kAlone, sum);
+    }
+    if (!is_finite ||
+        predicted_blow_up(*body, velocities, forces, time_step, SoftBodySolver::kMaxSpeed, nodes)) {
+      is_fine = false;
+    }
+  });
+  if (!is_fine) return false;
+  fast->for_nodes([&](int begin, int count) {
+    add_node_forces(forces, {begin, begin + count}, *body);
+  });
+  return true;
 }
 
 void SoftBodySolver::Attachment::add_forces(btScalar time_step) {

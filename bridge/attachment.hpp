@@ -39,7 +39,10 @@ struct SoftBodySolver::Attachment {
     return !fast && contact_response == ContactResponse::kCoulomb && RigidResponse::fits(*body);
   }
   [[nodiscard]] bool acts_after_projection(forces::LawTraits::Level level) const;
+  /// Forces, and what FastBody does with them.
+  void predict(btScalar time_step);
   void add_forces(btScalar time_step);
+  [[nodiscard]] bool add_forces_node_by_node(btScalar time_step);
   void begin_forces();
   void sum_laws();
   void damp_velocities(btScalar time_step);

@@ -137,7 +137,7 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
   obstacles_.clear();
   ways_.outdate();
   if (is_plain(body)) {
-    predict_nodes(body, time_step, last_velocities_, team_);
+    predict_nodes(body, time_step, last_velocities_, scratch_, team_);
   } else {
     // Bullet would tell the broadphase, which all bodies share.
     btBroadphaseProxy* const proxy = body.getBroadphaseHandle();

@@ -56,6 +56,13 @@ class FastBody {
   /// They stay as long as the result exists: between the parts of a solve too.
   [[nodiscard]] fast::ThreadTeam::Scope hold_threads() { return {team_, team_size()}; }
 
+  /// work(first node, number of nodes) for each part of the nodes, by them.
+  template <class Work>
+  void for_nodes(const Work& work) {
+    fast::run_parts(team_, static_cast<int>(masses_.size()),
+                    [&](int, int begin, int end) { work(begin, end - begin); });
+  }
+
   /// A body that sleeps is not to be stepped: only these are called.
   [[nodiscard]] bool is_asleep() const { return sleep_.is_asleep(); }
   [[nodiscard]] bool is_at_rest() const { return sleep_.is_at_rest(settings_); }
@@ -123,12 +130,6 @@ class FastBody {
  private:
   void solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort, bool is_again);
   [[nodiscard]] int team_size() const;
-  /// work(first node, number of nodes) for each part of the nodes.
-  template <class Work>
-  void for_nodes(const Work& work) {
-    fast::run_parts(team_, static_cast<int>(masses_.size()),
-                    [&](int, int begin, int end) { work(begin, end - begin); });
-  }
   [[nodiscard]] bool take_pushed_places(const btSoftBody& body);
   void prepare_solver(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
@@ -204,6 +205,7 @@ class FastBody {
   std::vector<const btRigidBody*>
       pushed_;  ///< those that the body may push, and what they are to the solver
   std::vector<fast::RigidInertia<btScalar>> inertias_;
+  std::vector<int> scratch_;                     ///< kept for its memory
   std::vector<const btRigidBody*> all_pushed_;   ///< by all bodies, in order
   std::vector<const btRigidBody*> last_pushed_;  ///< in the last solution, and how far
   std::vector<Way> last_ways_;

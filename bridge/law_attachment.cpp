@@ -39,8 +39,16 @@ std::optional<BodyBlowUp> predicted_blow_up(const btSoftBody& body,
                                             const Matrix3X<btScalar>& velocities,
                                             const Matrix3X<btScalar>& forces, btScalar time_step,
                                             double max_speed) {
+  return predicted_blow_up(body, velocities, forces, time_step, max_speed,
+                           {0, body.m_nodes.size()});
+}
+
+std::optional<BodyBlowUp> predicted_blow_up(const btSoftBody& body,
+                                            const Matrix3X<btScalar>& velocities,
+                                            const Matrix3X<btScalar>& forces, btScalar time_step,
+                                            double max_speed, fast::NodeRange nodes) {
   const auto limit = static_cast<btScalar>(max_speed);
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
+  for (int i = nodes.begin; i < nodes.end; ++i) {
     const Vector3<btScalar> velocity =
         velocities.col(i) + forces.col(i) * (body.m_nodes[i].m_im * time_step);
     if (velocity.squaredNorm() < limit * limit) continue;

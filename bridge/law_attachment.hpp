@@ -9,6 +9,7 @@
 #include <weft/bridge/precision.hpp>
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_set.hpp>
+#include <weft/fast_solver/network_kernel.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -34,8 +35,14 @@ inline constexpr double kBlowUpSpeed = 1e6;
 void check_attachment(const std::string& who, const btSoftBody& body,
                       const VectorX<btScalar>& masses);
 
-/// The first node whose speed [m/s] after time_step [s] under forces [N] is not finite or over
+/// The first of some nodes whose speed [m/s] after time_step [s] under forces [N] is not finite or over
 /// max_speed [m/s]; pinned nodes count with the velocity they have.
+[[nodiscard]] std::optional<BodyBlowUp> predicted_blow_up(const btSoftBody& body,
+                                                          const Matrix3X<btScalar>& velocities,
+                                                          const Matrix3X<btScalar>& forces,
+                                                          btScalar time_step, double max_speed,
+                                                          fast::NodeRange nodes);
+/// The same for all nodes.
 [[nodiscard]] std::optional<BodyBlowUp> predicted_blow_up(const btSoftBody& body,
                                                           const Matrix3X<btScalar>& velocities,
                                                           const Matrix3X<btScalar>& forces,

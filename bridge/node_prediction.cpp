@@ -135,24 +135,30 @@ void cover_ways(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities,
 }
 
 void update_tree(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities,
-                 fast::ThreadTeam& team) {
+                 std::vector<int>& left, fast::ThreadTeam& team) {
   if (body.m_ndbvt.m_root == nullptr) return;
   const btScalar margin = body.m_sst.radmrg;
   const int few = body.m_nodes.size() / kFewShare;
-  std::array<int, fast::ThreadTeam::kMostParts> left{};
+  const fast::NodeParts parts(body.m_nodes.size());
+  std::array<int, fast::ThreadTeam::kMostParts> num_left{};
+  left.resize(static_cast<std::size_t>(body.m_nodes.size()));
   fast::run_parts(team, body.m_nodes.size(), [&](int part, int begin, int end) {
-    int& count = left[static_cast<std::size_t>(part)];
+    int count = 0;
     for (int i = begin; i < end && count <= few; ++i) {
       const btSoftBody::Node& node = body.m_nodes[i];
-      if (!node.m_leaf->volume.Contain(box_of(node, margin))) ++count;
+      if (node.m_leaf->volume.Contain(box_of(node, margin))) continue;
+      left[static_cast<std::size_t>(begin + count++)] = i;
     }
+    num_left[static_cast<std::size_t>(part)] = count;
   });
-  const int num_left = std::accumulate(left.begin(), left.end(), 0);
-  if (num_left > few) {
-    cover_ways(body, last_velocities, team);
-  } else if (num_left > 0) {
-    for (int i = 0; i < body.m_nodes.size(); ++i) {
-      btSoftBody::Node& node = body.m_nodes[i];
+  if (std::accumulate(num_left.begin(), num_left.end(), 0) > few) {
+    return cover_ways(body, last_velocities, team);
+  }
+  for (int part = 0; part < parts.count(); ++part) {
+    const auto first = static_cast<std::size_t>(parts[part].begin);
+    const auto count = static_cast<std::size_t>(num_left[static_cast<std::size_t>(part)]);
+    for (std::size_t k = first; k < first + count; ++k) {
+      btSoftBody::Node& node = body.m_nodes[left[k]];
       btDbvtVolume box = box_of(node, margin);
       body.m_ndbvt.update(node.m_leaf, box, node.m_v * body.m_sst.velmrg, body.m_sst.updmrg);
     }
@@ -181,14 +187,14 @@ bool is_plain(const btSoftBody& body) {
 }
 
 void predict_nodes(btSoftBody& body, btScalar time_step, ConstMatrix3XRef<btScalar> last_velocities,
-                   fast::ThreadTeam& team) {
+                   std::vector<int>& scratch, fast::ThreadTeam& team) {
   body.m_sst.sdt = time_step;
   body.m_sst.isdt = 1 / time_step;
   body.m_sst.velmrg = 3 * time_step;
   body.m_sst.radmrg = body.getCollisionShape()->getMargin();
   body.m_sst.updmrg = body.m_sst.radmrg * btScalar(0.25);
   integrate(body, time_step, team);
-  update_tree(body, last_velocities, team);
+  update_tree(body, last_velocities, scratch, team);
   update_face_tree(body);
   body.m_rcontacts.resizeNoInitialize(0);
   body.m_scontacts.resizeNoInitialize(0);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/precision.hpp>
@@ -20,9 +22,9 @@ inline namespace WEFT_BULLET_PRECISION {
 /// Bullet does it; if many have, all boxes grow to hold the ways of the next steps instead, which costs less by far:
 /// neighbours in a cloth stay neighbours, so that the tree stays good.
 /// last_velocities: at the start of the step before, 3 x n [m/s], or of another size if not known: how fast ways bend.
-/// By a team, with the same bits for any.
+/// By a team, with the same bits for any. scratch: memory that is kept from step to step.
 void predict_nodes(btSoftBody& body, btScalar time_step, ConstMatrix3XRef<btScalar> last_velocities,
-                   fast::ThreadTeam& team);
+                   std::vector<int>& scratch, fast::ThreadTeam& team);
 
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

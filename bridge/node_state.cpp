@@ -19,7 +19,7 @@ constexpr int kTask = 2048;
 template <class Work>
 void for_nodes(int num_nodes, const Work& work) {
   const auto run = [&](const tbb::blocked_range<int>& nodes) {
-    for (int i = nodes.begin(); i < nodes.end(); ++i) work(i);
+    work(fast::NodeRange{nodes.begin(), nodes.end()});
   };
   const tbb::blocked_range<int> all(0, num_nodes, kTask);
   if (num_nodes < 2 * kTask) {
@@ -36,17 +36,28 @@ void read_nodes(const btSoftBody& body, Matrix3X<btScalar>& positions,
   const int num_nodes = body.m_nodes.size();
   positions.resize(3, num_nodes);
   velocities.resize(3, num_nodes);
-  for_nodes(num_nodes, [&](int i) {
+  for_nodes(num_nodes,
+            [&](fast::NodeRange nodes) { read_nodes(body, nodes, positions, velocities); });
+}
+
+void read_nodes(const btSoftBody& body, fast::NodeRange nodes, Matrix3X<btScalar>& positions,
+                Matrix3X<btScalar>& velocities) {
+  for (int i = nodes.begin; i < nodes.end; ++i) {
     const btSoftBody::Node& node = body.m_nodes[i];
     positions.col(i) << node.m_x.x(), node.m_x.y(), node.m_x.z();
     velocities.col(i) << node.m_v.x(), node.m_v.y(), node.m_v.z();
-  });
+  }
 }
 
 void add_node_forces(const Matrix3X<btScalar>& forces, btSoftBody& body) {
-  for_nodes(body.m_nodes.size(), [&](int i) {
+  for_nodes(body.m_nodes.size(),
+            [&](fast::NodeRange nodes) { add_node_forces(forces, nodes, body); });
+}
+
+void add_node_forces(const Matrix3X<btScalar>& forces, fast::NodeRange nodes, btSoftBody& body) {
+  for (int i = nodes.begin; i < nodes.end; ++i) {
     body.m_nodes[i].m_f += btVector3(forces(0, i), forces(1, i), forces(2, i));
-  });
+  }
 }
 
 void write_node_velocities(const Matrix3X<btScalar>& velocities, btSoftBody& body) {

@@ -4,6 +4,7 @@
 
 #include <weft/bridge/precision.hpp>
 #include <weft/custom_forces/core/types.hpp>
+#include <weft/fast_solver/network_kernel.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -13,8 +14,13 @@ inline namespace WEFT_BULLET_PRECISION {
 void read_nodes(const btSoftBody& body, Matrix3X<btScalar>& positions,
                 Matrix3X<btScalar>& velocities);
 
+/// The same for some nodes; the matrices have their size.
+void read_nodes(const btSoftBody& body, fast::NodeRange nodes, Matrix3X<btScalar>& positions,
+                Matrix3X<btScalar>& velocities);
+
 /// Node forces m_f += forces, 3 x n [N].
 void add_node_forces(const Matrix3X<btScalar>& forces, btSoftBody& body);
+void add_node_forces(const Matrix3X<btScalar>& forces, fast::NodeRange nodes, btSoftBody& body);
 
 /// Node velocities m_v = velocities, 3 x n [m/s]; pinned nodes (m_im = 0) keep theirs.
 void write_node_velocities(const Matrix3X<btScalar>& velocities, btSoftBody& body);

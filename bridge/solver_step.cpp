@@ -25,13 +25,10 @@ void SoftBodySolver::predictMotion(btScalar time_step) {
     if (attachment->fast && attachment->was_in_world)
       attachment->fast->begin_step(*attachment->body);
   }
-  for_bodies([&](btSoftBody& body, Attachment* attachment) {
+  for_bodies([&](btSoftBody&, Attachment* attachment) {
     if (!attachment) return;
-    attachment->add_forces(time_step);
+    attachment->predict(time_step);
     attachment->rigid_response.begin_step();
-    if (attachment->fast && !attachment->blow_up) {
-      attachment->fast->predict(body, time_step, attachment->positions, attachment->velocities);
-    }
   });
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];

@@ -101,6 +101,12 @@ ForceReport LawSet<Scalar>::add_forces(const State<Scalar>& state, VelocityLaws 
 }
 
 template <class Scalar>
+bool LawSet<Scalar>::is_node_by_node() const {
+  return std::all_of(laws_.begin(), laws_.end(),
+                     [](const auto& law) { return law->info().traits.node_by_node; });
+}
+
+template <class Scalar>
 void LawSet<Scalar>::add_stiffness_product(const State<Scalar>& state,
                                            ConstMatrix3XRef<Scalar> displacements,
                                            Matrix3XRef<Scalar> product) {

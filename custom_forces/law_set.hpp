@@ -36,6 +36,10 @@ class LawSet {
   [[nodiscard]] ForceReport add_forces(const State<Scalar>& state, VelocityLaws velocity_laws,
                                        Matrix3XRef<Scalar> forces);
 
+  /// Whether add_forces() may be asked for a state of some of the nodes, by several threads at the same time: all laws
+  /// are node_by_node.
+  [[nodiscard]] bool is_node_by_node() const;
+
   void add_stiffness_product(const State<Scalar>& state, ConstMatrix3XRef<Scalar> displacements,
                              Matrix3XRef<Scalar> product);
   /// Velocity-level laws take part as forces here.

@@ -21,7 +21,10 @@ const LawInfo VelocityDamping<Scalar>::kInfo{
     .formula = "f = -gamma m v",
     .source = "de Joya 2011: damping as a proportional velocity loss",
     .checked_by = "cases oscillator, damped_hang; tests VelocityDamping.*",
-    .traits = {.free_at_rest = true, .dissipative = true, .level = LawTraits::Level::kVelocity},
+    .traits = {.free_at_rest = true,
+               .dissipative = true,
+               .node_by_node = true,
+               .level = LawTraits::Level::kVelocity},
     .parameters = kParameters};
 
 template <class Scalar>

@@ -54,7 +54,8 @@ TEST(NodePrediction, MovesNodesAsBulletDoes) {
   fast::ThreadTeam team;
   const fast::ThreadTeam::Scope scope(team, 2);
   for (int k = 0; k < 5; ++k) {
-    predict_nodes(ours.body(), step, Matrix3X<btScalar>(3, 0), team);
+    std::vector<int> scratch;
+    predict_nodes(ours.body(), step, Matrix3X<btScalar>(3, 0), scratch, team);
     bullets.body().predictMotion(step);
     for (int i = 0; i < ours.body().m_nodes.size(); ++i) {
       const btSoftBody::Node& a = ours.body().m_nodes[i];

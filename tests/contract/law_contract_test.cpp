@@ -28,6 +28,7 @@ class EnergylessLaw : public testing::TestWithParam<Subject> {};
 class DissipativeLaw : public testing::TestWithParam<Subject> {};
 class LawBlindToRigidMotion : public testing::TestWithParam<Subject> {};
 class LawFreeAtRest : public testing::TestWithParam<Subject> {};
+class NodeByNodeLaw : public testing::TestWithParam<Subject> {};
 class ElementLaw : public testing::TestWithParam<Subject> {};
 class ForceLevelLaw : public testing::TestWithParam<Subject> {};
 class InertiaLevelLaw : public testing::TestWithParam<Subject> {};
@@ -50,6 +51,7 @@ WEFT_FOR_LAWS(DissipativeLaw, [](const LawTraits& t) { return t.dissipative; });
 WEFT_FOR_LAWS(ElementLaw, [](const LawTraits& t) {
   return t.elements != forces::ElementKind::kNodes && !t.needs_closed_surface;
 });
+WEFT_FOR_LAWS(NodeByNodeLaw, [](const LawTraits& t) { return t.node_by_node; });
 WEFT_FOR_LAWS(LawBlindToRigidMotion, [](const LawTraits& t) { return t.ignores_rigid_motion; });
 WEFT_FOR_LAWS(LawFreeAtRest, [](const LawTraits& t) { return t.free_at_rest; });
 WEFT_FOR_LAWS(ForceLevelLaw,
@@ -112,6 +114,7 @@ WEFT_CHECK_SCALARS(AnyLaw, NodeOrderDoesNotMatter, node_order_does_not_matter)
 WEFT_CHECK_SCALARS(AnyLaw, CallsRepeatBitForBit, calls_repeat_bit_for_bit)
 WEFT_CHECK_SCALARS(AnyLaw, ResultsAreAdded, results_are_added)
 WEFT_CHECK_SCALARS(AnyLaw, TwoNodesSuffice, two_nodes_suffice)
+WEFT_CHECK_SCALARS(NodeByNodeLaw, SomeNodesAreEnough, some_nodes_are_enough)
 WEFT_CHECK_SCALARS(ElementLaw, NoElementsNoForce, no_elements_no_force)
 
 }  // namespace

@@ -54,6 +54,7 @@ std::string traits(const LawTraits& t) {
   if (t.ignores_rigid_motion) text += "; feels no rigid motion";
   if (!t.free_at_rest) text += "; may act at the rest shape";
   text += t.has_energy ? "; has an energy" : "; stores no energy";
+  if (t.node_by_node) text += "; acts on each node by itself";
   if (t.dissipative) text += "; only takes energy out";
   if (t.needs_closed_surface) text += "; needs a closed surface";
   if (t.level == LawTraits::Level::kVelocity) {

@@ -158,6 +158,25 @@ Measurement threads_change_no_bit(const Subject& subject) {
 }
 
 template <class Scalar>
+Measurement some_nodes_are_enough(const Subject& subject) {
+  const ClothMesh mesh = subject.mesh();
+  const auto law = subject.make<Scalar>(mesh);
+  const Sample<Scalar> sample = cast<Scalar>(deformed(mesh, Deformation::kMixed));
+  Matrix3X<Scalar> none(3, 0);
+  Matrix3X<Scalar> in_parts = Matrix3X<Scalar>::Zero(3, sample.num_nodes());
+  const Eigen::Index size = 7;
+  for (Eigen::Index begin = 0; begin < sample.num_nodes(); begin += size) {
+    const Eigen::Index count = std::min(size, sample.num_nodes() - begin);
+    law->add_forces(
+        {sample.positions.middleCols(begin, count), sample.velocities.middleCols(begin, count),
+         sample.masses.segment(begin, count)},
+        none, in_parts.middleCols(begin, count));
+  }
+  return {different_bits(forces_of(*law, sample), in_parts), 0.0,
+          "entries that change when asked for some nodes at a time"};
+}
+
+template <class Scalar>
 Measurement results_are_added(const Subject& subject) {
   const ClothMesh mesh = subject.mesh();
   const auto law = subject.make<Scalar>(mesh);
@@ -221,6 +240,7 @@ Measurement two_nodes_suffice(const Subject& subject) {
   template Measurement node_order_does_not_matter<Scalar>(const Subject&); \
   template Measurement calls_repeat_bit_for_bit<Scalar>(const Subject&);   \
   template Measurement threads_change_no_bit<Scalar>(const Subject&);      \
+  template Measurement some_nodes_are_enough<Scalar>(const Subject&);      \
   template Measurement results_are_added<Scalar>(const Subject&);          \
   template Measurement no_elements_no_force<Scalar>(const Subject&);       \
   template Measurement two_nodes_suffice<Scalar>(const Subject&);
