@@ -51,7 +51,8 @@ std::optional<RigidContact> stop_on_the_way(const Obstacle& obstacle, const btVe
   return contact;
 }
 
-/// An obstacle in double precision: the ground may be a box of many metres, of which a place is a millionth.
+/// An obstacle that surface_distance() knows, in double precision: the ground may be a box of many metres, of which a place
+/// is a millionth.
 class ExactObstacle {
  public:
   ExactObstacle(const Obstacle& obstacle, btScalar margin)
@@ -61,32 +62,36 @@ class ExactObstacle {
     for (int k = 0; k < 3; ++k) turn_.row(k) = from_bullet(obstacle.place.getBasis().getRow(k));
   }
 
-  [[nodiscard]] std::optional<RigidContact> near(const btVector3& place) const {
+  /// The contact of a node that goes from one place to another. One that is followed is stopped on its way, unless that
+  /// cannot come to the surface: its ends are farther away than it is long.
+  [[nodiscard]] std::optional<RigidContact> find(const btVector3& from, const btVector3& to,
+                                                 bool is_followed) const {
     const double reach = 2 * margin_;
-    const auto surface = surface_from(place, reach);
-    if (!surface || surface->distance >= reach) return std::nullopt;
+    const double length =
+        is_followed ? (from_bullet(to) - from_bullet(from)).norm() * (1 + kRounding) : 0;
+    const SurfaceDistance end = surface_from(to, std::max(reach, length));
+    const auto may_be_on_the_way = [&] {
+      return end.distance < length && surface_from(from, length).distance + end.distance <= length;
+    };
+    if (is_followed && may_be_on_the_way()) {
+      if (auto contact = stop_on_the_way(obstacle_, from, to, static_cast<btScalar>(margin_))) {
+        return contact;
+      }
+    }
+    if (end.distance >= reach) return std::nullopt;
     RigidContact contact;
-    contact.normal = to_bullet((turn_ * surface->out).eval());
+    contact.normal = to_bullet((turn_ * end.out).eval());
     // Of the normal as it is rounded, so that the plane is where it should be for this place.
-    contact.offset = static_cast<btScalar>(from_bullet(contact.normal).dot(from_bullet(place)) -
-                                           surface->distance + margin_);
+    contact.offset = static_cast<btScalar>(from_bullet(contact.normal).dot(from_bullet(to)) -
+                                           end.distance + margin_);
     return contact;
-  }
-  /// False for a way that does not come to the surface: its ends are farther away than it is long.
-  [[nodiscard]] bool may_be_on(const btVector3& from, const btVector3& to) const {
-    const double length = (from_bullet(to) - from_bullet(from)).norm() * (1 + kRounding);
-    const auto end = surface_from(to, length);
-    if (!end || end->distance >= length) return !end;
-    const auto start = surface_from(from, length);
-    return start->distance + end->distance <= length;
   }
 
  private:
   static constexpr double kRounding = 1e-6;  ///< of ways in single precision
-  [[nodiscard]] std::optional<SurfaceDistance> surface_from(const btVector3& place,
-                                                            double reach) const {
+  [[nodiscard]] SurfaceDistance surface_from(const btVector3& place, double reach) const {
     const Vector3<double> local = turn_.transpose() * (from_bullet(place) - origin_);
-    return surface_distance(*obstacle_.shape, obstacle_.facets, local, reach);
+    return surface_distance(*obstacle_.shape, obstacle_.facets, local, reach).value();
   }
 
   const Obstacle& obstacle_;
@@ -95,12 +100,17 @@ class ExactObstacle {
   Matrix3<double> turn_;
 };
 
-std::optional<RigidContact> near_in_field(const btSoftBody& body, const Obstacle& obstacle,
-                                          const btVector3& place, btScalar margin) {
+/// The same in Bullet's distance field of any shape.
+std::optional<RigidContact> find_in_field(const btSoftBody& body, const Obstacle& obstacle,
+                                          const btVector3& from, const btVector3& to,
+                                          btScalar margin, bool is_followed) {
+  if (is_followed) {
+    if (auto contact = stop_on_the_way(obstacle, from, to, margin)) return contact;
+  }
   const btCollisionObjectWrapper object(nullptr, obstacle.shape, obstacle.object, obstacle.place,
                                         -1, -1);
   btSoftBody::sCti found;
-  if (!body.checkContact(&object, place, 2 * margin, found)) return std::nullopt;
+  if (!body.checkContact(&object, to, 2 * margin, found)) return std::nullopt;
   RigidContact contact;
   contact.normal = found.m_normal;
   contact.offset = -found.m_offset - margin;  // Bullet's plane is where it looked, at 2 margins
@@ -192,14 +202,9 @@ void add_rigid_contacts(const btSoftBody& body, NodeWays& ways, const Obstacle& 
     least.setMin(to);
     most.setMax(to);
     if (!meet(box_of(least, most), box)) return;
-    std::optional<RigidContact> contact;
     const bool is_fast = (to - from).length2() > margin * margin;
-    if (is_fast && (needs_field || exact.may_be_on(from, to))) {
-      contact = stop_on_the_way(obstacle, from, to, margin);
-    }
-    if (!contact) {
-      contact = needs_field ? near_in_field(body, obstacle, to, margin) : exact.near(to);
-    }
+    auto contact = needs_field ? find_in_field(body, obstacle, from, to, margin, is_fast)
+                               : exact.find(from, to, is_fast);
     if (!contact) return;
     contact->node = i;
     contact->motion = motion;
