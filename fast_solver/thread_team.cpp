@@ -13,12 +13,17 @@ using Clock = std::chrono::steady_clock;
 /// Looks before a thread lets others have the processor, and before the caller does what a helper ought to: some 20 us,
 /// longer than what a solve does between two loops, or a part takes.
 constexpr int kLooks = 400;
+/// The same that the caller spends on waiting for helpers that are still to come, before it begins what is theirs: some
+/// 10 us. What they find in its cache later takes as long again.
+constexpr int kLooksForArrival = 200;
 /// A loop that takes so many times what the caller's own parts took, and this beyond, has waited for a thread that was
 /// stopped, which comes back after milliseconds. Less may be a part with more work: contacts are where an object is.
 constexpr int kLongTimes = 4;
 constexpr std::chrono::microseconds kLongWait{1000};
-/// How often a team is opened without helpers after that: some sixty steps of a single body, which opens it several times.
-constexpr int kTimesAlone = 400;
+/// How often a team is opened without helpers after that, at first and at most: some four and some two hundred steps of
+/// a single body, which opens it twice or more in each.
+constexpr int kLeastAlone = 8;
+constexpr int kMostAlone = 512;
 
 /// Tells the processor that this thread only waits.
 void pause() {
@@ -55,6 +60,7 @@ void ThreadTeam::open(int num_threads) {
   num_threads_ = std::clamp(num_threads, 1, kMostParts);
   if (num_threads_ == 1) return;
   is_let_down_ = false;
+  looks_for_arrival_ = kLooksForArrival;
   num_helpers_.store(0, std::memory_order_relaxed);
   is_open_.store(true, std::memory_order_release);
   helpers_.emplace();
@@ -69,35 +75,47 @@ void ThreadTeam::close() {
   helpers_->wait();
   helpers_.reset();
   num_threads_ = 1;
-  if (is_let_down_) num_alone_ = kTimesAlone;
+  learn();
+}
+
+// One stop costs some milliseconds. A host that takes a processor away now and then is worth coming back to at once;
+// where other programs run all the time, every helper will be stopped.
+void ThreadTeam::learn() {
+  next_alone_ = std::max(next_alone_, kLeastAlone);
+  if (is_let_down_) {
+    num_alone_ = next_alone_;
+    next_alone_ = std::min(2 * next_alone_, kMostAlone);
+    num_helped_ = 0;
+  } else if (++num_helped_ >= next_alone_) {
+    next_alone_ /= 2;
+    num_helped_ = 0;
+  }
 }
 
 void ThreadTeam::run_shared(int num_parts, Call call, const void* job) {
   const Clock::time_point start = Clock::now();
   const std::uint64_t loop = ++num_loops_;
-  const int num_members = 1 + num_helpers_.load(std::memory_order_acquire);
   loop_.number.store(kNone, std::memory_order_relaxed);
   loop_.call.store(call, std::memory_order_release);
   loop_.job.store(job, std::memory_order_release);
   loop_.num_parts.store(num_parts, std::memory_order_release);
-  loop_.num_members.store(num_members, std::memory_order_release);
   loop_.number.store(loop, std::memory_order_release);
   int num_left = num_parts;
-  const auto take = [&](int begin, int end) {
-    for (int part = begin; part < end; ++part) {
-      if (!take_part(loop, part)) continue;
-      call(job, part);
-      --num_left;
-    }
+  const auto take = [&](int part) {
+    if (!take_part(loop, part)) return;
+    call(job, part);
+    --num_left;
   };
-  take(0, num_parts / num_members);
+  for (int part = 0; part < first_part(1, num_parts); ++part) take(part);
+  // From the end: who comes now begins at the other one of what is its own.
+  for (int part = num_parts - 1; part >= first_part(num_present(), num_parts); --part) take(part);
   Patience patience;
   Clock::time_point end_of_patience = start;
   while (num_done_.load(std::memory_order_acquire) !=
          num_done_before_ + static_cast<std::uint64_t>(num_left)) {
     if (!patience.wait()) continue;
     if (end_of_patience == start) end_of_patience = Clock::now();
-    take(0, num_parts);
+    for (int part = 0; part < num_parts; ++part) take(part);
   }
   num_done_before_ += static_cast<std::uint64_t>(num_left);
   if (end_of_patience != start) {
@@ -106,8 +124,18 @@ void ThreadTeam::run_shared(int num_parts, Call call, const void* job) {
   }
 }
 
+// With the caller, and those whose arrival it waits for.
+int ThreadTeam::num_present() {
+  while (true) {
+    const int num_present = 1 + num_helpers_.load(std::memory_order_acquire);
+    if (num_present == num_threads_ || looks_for_arrival_ == 0) return num_present;
+    --looks_for_arrival_;
+    pause();
+  }
+}
+
 void ThreadTeam::help() {
-  std::uint64_t last = loop_.number.load(std::memory_order_acquire);  // does not count on this one
+  std::uint64_t last = kNone;
   const int member = 1 + num_helpers_.fetch_add(1, std::memory_order_acq_rel);
   Patience patience;
   while (is_open_.load(std::memory_order_acquire)) {
@@ -127,15 +155,18 @@ void ThreadTeam::help_with(std::uint64_t loop, int member) {
   const Call call = loop_.call.load(std::memory_order_acquire);
   const void* const job = loop_.job.load(std::memory_order_acquire);
   const int num_parts = loop_.num_parts.load(std::memory_order_acquire);
-  const int num_members = loop_.num_members.load(std::memory_order_acquire);
-  if (loop_.number.load(std::memory_order_acquire) != loop || member >= num_members) return;
+  if (loop_.number.load(std::memory_order_acquire) != loop) return;
   int num_done = 0;
-  for (int part = num_parts * member / num_members; part < num_parts * (member + 1) / num_members;
-       ++part) {
-    if (!take_part(loop, part)) continue;
-    call(job, part);
-    ++num_done;
-  }
+  const auto take = [&](int begin, int end) {
+    for (int part = begin; part < end; ++part) {
+      if (!take_part(loop, part)) continue;
+      call(job, part);
+      ++num_done;
+    }
+  };
+  take(first_part(member, num_parts), first_part(member + 1, num_parts));
+  const int num_present = 1 + num_helpers_.load(std::memory_order_relaxed);
+  take(first_part(num_present, num_parts), num_parts);  // of those that have not come
   if (num_done > 0) {
     num_done_.fetch_add(static_cast<std::uint64_t>(num_done), std::memory_order_release);
   }

@@ -17,7 +17,7 @@ namespace weft::fast {
 /// helper that does not begin. What a part computes may not depend on who does it.
 ///
 /// Where other programs need the processors, a helper may be stopped in the middle of a part. Then the caller does without
-/// helpers for a while.
+/// helpers for a while, a longer one each time.
 ///
 /// While a team is open its caller must not wait for other tasks of oneTBB: it might be given a helper's.
 class ThreadTeam {
@@ -100,7 +100,6 @@ class ThreadTeam {
     std::atomic<Call> call{nullptr};
     std::atomic<const void*> job{nullptr};
     std::atomic<int> num_parts{0};
-    std::atomic<int> num_members{1};
   };
   /// Of a part: the last loop in which somebody has taken it. Each has a cache line.
   struct alignas(64) Ticket {
@@ -111,6 +110,12 @@ class ThreadTeam {
   void help();
   void help_with(std::uint64_t loop, int member);
   bool take_part(std::uint64_t loop, int part);
+  /// Of those that a member begins with; the caller is number 0.
+  [[nodiscard]] int first_part(int member, int num_parts) const {
+    return num_parts * member / num_threads_;
+  }
+  [[nodiscard]] int num_present();
+  void learn();
 
   Loop loop_;
   std::uint64_t num_loops_ = 0;
@@ -120,8 +125,11 @@ class ThreadTeam {
   alignas(64) std::atomic<std::uint64_t> num_done_{0};  ///< parts of all loops, by helpers
   std::array<Ticket, kMostParts> tickets_;
   int num_threads_ = 1;
-  bool is_let_down_ = false;  ///< a helper has kept the caller waiting for long
-  int num_alone_ = 0;         ///< times to be opened without helpers
+  bool is_let_down_ = false;   ///< a helper has kept the caller waiting for long
+  int looks_for_arrival_ = 0;  ///< that are left
+  int num_alone_ = 0;          ///< times to be opened without helpers
+  int next_alone_ = 0;         ///< the same when the next one is stopped
+  int num_helped_ = 0;         ///< times with helpers since next_alone_ has changed
   /// Made by open(): a group belongs to the parallel loop that it was first used in, for ever.
   std::optional<tbb::task_group> helpers_;
 };

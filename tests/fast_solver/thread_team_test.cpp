@@ -81,6 +81,48 @@ TEST(ThreadTeam, IsHelped) {
   EXPECT_TRUE(is_helped);
 }
 
+/// Has a helper that takes 100 ms for a part, as one that other programs have stopped; false if none came.
+bool is_let_down(ThreadTeam& team) {
+  const ThreadTeam::Scope scope(team, 2);
+  std::atomic<bool> was_helper = false;
+  const std::thread::id caller = std::this_thread::get_id();
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+  while (!was_helper && std::chrono::steady_clock::now() < end) {
+    team.run(2, [&](int part) {
+      if (part == 1 && std::this_thread::get_id() != caller) {
+        was_helper = true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      }
+    });
+  }
+  return was_helper;
+}
+
+int times_alone(ThreadTeam& team) {
+  for (int count = 0;; ++count) {
+    const ThreadTeam::Scope scope(team, 2);
+    if (team.num_threads() == 2) return count;
+  }
+}
+
+TEST(ThreadTeam, IsAloneTwiceAsOftenAfterEachStop) {
+  const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
+  tbb::task_arena arena(2);
+  arena.execute([&] {
+    ThreadTeam team;
+    EXPECT_EQ(times_alone(team), 0);
+    for (const int expected : {8, 16, 32}) {
+      ASSERT_TRUE(is_let_down(team));
+      EXPECT_EQ(times_alone(team), expected);
+    }
+    for (int time = 0; time < 1000; ++time) {  // without a stop: as at first
+      const ThreadTeam::Scope scope(team, 2);
+    }
+    ASSERT_TRUE(is_let_down(team));
+    EXPECT_EQ(times_alone(team), 8);
+  });
+}
+
 TEST(ThreadTeam, CanBeOpenedAgain) {
   ThreadTeam alone;
   const std::vector<long> expected = chain(alone, 4, 5);
