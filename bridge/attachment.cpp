@@ -34,7 +34,8 @@ void SoftBodySolver::Attachment::sum_laws() {
 
 void SoftBodySolver::Attachment::predict(btScalar time_step) {
   const auto predict_fast = [&] { fast->predict(*body, time_step, positions, velocities); };
-  if (fast && !deferred.is_in_flight() && laws.is_node_by_node()) {
+  const bool fits = masses.size() == body->m_nodes.size();  // if not, the laws say so
+  if (fast && fits && !deferred.is_in_flight() && laws.is_node_by_node()) {
     const auto threads = fast->hold_threads();
     if (add_forces_node_by_node(time_step)) return predict_fast();
   }

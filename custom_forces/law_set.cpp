@@ -102,8 +102,11 @@ ForceReport LawSet<Scalar>::add_forces(const State<Scalar>& state, VelocityLaws 
 
 template <class Scalar>
 bool LawSet<Scalar>::is_node_by_node() const {
-  return std::all_of(laws_.begin(), laws_.end(),
-                     [](const auto& law) { return law->info().traits.node_by_node; });
+  return std::all_of(laws_.begin(), laws_.end(), [](const auto& law) {
+    const LawTraits& traits = law->info().traits;
+    return traits.node_by_node && traits.level != LawTraits::Level::kInertia &&
+           law->scratch_columns() == 0;
+  });
 }
 
 template <class Scalar>

@@ -20,8 +20,8 @@ constexpr int kLooksForArrival = 200;
 /// stopped, which comes back after milliseconds. Less may be a part with more work: contacts are where an object is.
 constexpr int kLongTimes = 4;
 constexpr std::chrono::microseconds kLongWait{1000};
-/// How often a team is opened without helpers after that, at first and at most: some four and some two hundred steps of
-/// a single body, which opens it twice or more in each.
+/// How often a team is opened without helpers after that, at first and at most: four and some two hundred steps of a
+/// single body, which opens it twice in each.
 constexpr int kLeastAlone = 8;
 constexpr int kMostAlone = 512;
 
@@ -53,12 +53,12 @@ class Patience {
 }  // namespace
 
 void ThreadTeam::open(int num_threads) {
+  if (num_threads <= 1) return;
   if (num_alone_ > 0) {
     --num_alone_;
     return;
   }
-  num_threads_ = std::clamp(num_threads, 1, kMostParts);
-  if (num_threads_ == 1) return;
+  num_threads_ = std::min(num_threads, kMostParts);
   is_let_down_ = false;
   looks_for_arrival_ = kLooksForArrival;
   num_helpers_.store(0, std::memory_order_relaxed);
@@ -85,10 +85,10 @@ void ThreadTeam::learn() {
   if (is_let_down_) {
     num_alone_ = next_alone_;
     next_alone_ = std::min(2 * next_alone_, kMostAlone);
-    num_helped_ = 0;
-  } else if (++num_helped_ >= next_alone_) {
+    num_good_ = 0;
+  } else if (++num_good_ >= next_alone_) {
     next_alone_ /= 2;
-    num_helped_ = 0;
+    num_good_ = 0;
   }
 }
 

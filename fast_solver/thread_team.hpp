@@ -32,27 +32,23 @@ class ThreadTeam {
   ThreadTeam& operator=(ThreadTeam&&) = delete;
   ~ThreadTeam() { close(); }
 
-  /// Calls for helpers; only one thread at a time may use a team. num_threads: with the caller's, at most.
-  void open(int num_threads);
-  /// Sends them away. Without effect on a team that is not open.
-  void close();
-  /// Open as long as the result exists; without effect on a team that is open already.
+  /// Open as long as the outermost of them exists, unless helpers were stopped lately; only one thread at a time may use a
+  /// team. num_threads: with the caller's, at most.
   class Scope {
    public:
-    Scope(ThreadTeam& team, int num_threads) : team_(team), opens_(team.num_threads() == 1) {
-      if (opens_) team_.open(num_threads);
+    Scope(ThreadTeam& team, int num_threads) : team_(team) {
+      if (team_.num_scopes_++ == 0) team_.open(num_threads);
     }
     Scope(const Scope&) = delete;
     Scope& operator=(const Scope&) = delete;
     Scope(Scope&&) = delete;
     Scope& operator=(Scope&&) = delete;
     ~Scope() {
-      if (opens_) team_.close();
+      if (--team_.num_scopes_ == 0) team_.close();
     }
 
    private:
     ThreadTeam& team_;
-    bool opens_;
   };
 
   /// Closed as long as the result exists, for work that waits for tasks of oneTBB; then open if it was, and if no helper
@@ -106,6 +102,10 @@ class ThreadTeam {
     std::atomic<std::uint64_t> loop{0};
   };
 
+  /// Calls for helpers.
+  void open(int num_threads);
+  /// Sends them away. Without effect on a team that is not open.
+  void close();
   void run_shared(int num_parts, Call call, const void* job);
   void help();
   void help_with(std::uint64_t loop, int member);
@@ -124,12 +124,13 @@ class ThreadTeam {
   std::atomic<int> num_helpers_{0};                     ///< that have come
   alignas(64) std::atomic<std::uint64_t> num_done_{0};  ///< parts of all loops, by helpers
   std::array<Ticket, kMostParts> tickets_;
+  int num_scopes_ = 0;
   int num_threads_ = 1;
   bool is_let_down_ = false;   ///< a helper has kept the caller waiting for long
   int looks_for_arrival_ = 0;  ///< that are left
   int num_alone_ = 0;          ///< times to be opened without helpers
   int next_alone_ = 0;         ///< the same when the next one is stopped
-  int num_helped_ = 0;         ///< times with helpers since next_alone_ has changed
+  int num_good_ = 0;           ///< times open without a stop since next_alone_ has changed
   /// Made by open(): a group belongs to the parallel loop that it was first used in, for ever.
   std::optional<tbb::task_group> helpers_;
 };

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -261,6 +262,31 @@ TEST(FastBody, GainsNoEnergyFromAStiffSheetThatMeetsAnObstacle) {
     scene.step();
     const double energy = 0.5 * 0.0014 / 64 * scene.velocities().squaredNorm();
     ASSERT_LT(energy, 2 * start) << i;  // twice: the nodes' masses are not alike
+  }
+}
+
+// A body whose parts threads share, and one that is too small for that.
+TEST(FastBody, IsFrozenBeforeItExplodes) {
+  const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
+  for (const int n : {8, 60}) {
+    for (const bool is_finite : {true, false}) {
+      Scene scene(cloth(n, 1, 1), {kGravity, law("tension", "stiffness", 300)});
+      scene.step(3);
+      const Matrix3X<double> before = scene.positions();
+      const int node = n * n - 3;
+      btSoftBody::Node& wrong = scene.body().m_nodes[node];
+      wrong.m_v.setX(is_finite ? btScalar(2e6) : std::numeric_limits<btScalar>::quiet_NaN());
+      scene.step(2);
+      const auto blow_up = scene.solver().blow_up(scene.body());
+      ASSERT_TRUE(blow_up.has_value()) << n;
+      EXPECT_EQ(blow_up->node, node);
+      EXPECT_EQ(blow_up->reason, is_finite ? "speed 2e+06 m/s is over 1e+06 m/s"
+                                           : "position or velocity is not finite");
+      EXPECT_EQ(scene.positions(), before) << n;
+      for (int i = 0; i < scene.body().m_nodes.size(); ++i) {
+        ASSERT_TRUE(scene.body().m_nodes[i].m_f.isZero()) << i;
+      }
+    }
   }
 }
 
