@@ -44,10 +44,12 @@ void SoftBodySolver::predictMotion(btScalar time_step) {
 
 // What touches only the body: several at the same time. Each is one task, whose bits depend on no other.
 void SoftBodySolver::for_bodies(const std::function<void(btSoftBody&, Attachment*)>& work) {
-  tbb::parallel_for(0, m_softBodySet.size(), [&](int i) {
+  const auto work_on = [&](int i) {
     btSoftBody& body = *m_softBodySet[i];
     if (body.isActive() && !is_still(body)) work(body, find(body));
-  });
+  };
+  if (m_softBodySet.size() == 1) return work_on(0);
+  tbb::parallel_for(0, m_softBodySet.size(), work_on);
 }
 
 namespace {

@@ -1,6 +1,7 @@
 // What contacts and what leads a node do to it during a solve.
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 
 #include <weft/fast_solver/implicit_solver.hpp>
 
@@ -28,7 +29,6 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bo
   held_before_.swap(holds_);
   std::fill(holds_.begin(), holds_.end(), Hold::kFree);
   std::fill(contact_of_.begin(), contact_of_.end(), -1);
-  held_.clear();
   links_.clear();
   for (const LedNode<Scalar>& led : problem.led) holds_[at(led.node)] = Hold::kFixed;
   const auto gap_at = [&](const PlaneContact<Scalar>& contact, const auto& place) {
@@ -44,7 +44,7 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bo
     }
   }
   // Each node is that of one contact by now.
-  constexpr int kTogether = 128;
+  constexpr int kTogether = 32;
   const auto num_contacts = static_cast<int>(problem.contacts.size());
   const int num_parts =
       std::clamp((num_contacts + kTogether - 1) / kTogether, 1, ThreadTeam::kMostParts);
@@ -53,14 +53,15 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bo
     for (auto c = static_cast<int>(count * part / num_parts);
          c < static_cast<int>(count * (part + 1) / num_parts); ++c) {
       const int i = problem.contacts[at(c)].node;
-      if (contact_of_[at(i)] == c) decide_hold(problem.contacts[at(c)], is_first);
+      if (contact_of_[at(i)] != c) continue;
+      decide_hold(problem.contacts[at(c)], is_first);
+      if (holds_[at(i)] == Hold::kFree) contact_of_[at(i)] = -1;  // it lets the node go
     }
   });
-  for (const PlaneContact<Scalar>& contact : problem.contacts) {
+  for (std::size_t c = 0; c < problem.contacts.size() && !bodies_.empty(); ++c) {
+    const PlaneContact<Scalar>& contact = problem.contacts[c];
     const int i = contact.node;
-    if (contact.body < 0 || contact_of_[at(i)] < 0) continue;
-    if (&problem.contacts[at(contact_of_[at(i)])] != &contact) continue;
-    if (holds_[at(i)] == Hold::kFree) continue;
+    if (contact.body < 0 || contact_of_[at(i)] != static_cast<int>(c)) continue;
     const bool sticks = holds_[at(i)] == Hold::kFixed;
     link(i, contact.body, contact.arm, sticks ? Vector3<Scalar>::Zero().eval() : contact.normal);
   }
@@ -69,14 +70,24 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bo
     normals_.col(led.node).setZero();
     if (led.body >= 0) link(led.node, led.body, turned(led.body, led.arm), Vector3<Scalar>::Zero());
   }
-  for (int i = 0; i < num_nodes(); ++i) {
-    if (holds_[at(i)] == Hold::kFree) {
-      contact_of_[at(i)] = -1;  // it lets the node go
-    } else {
-      held_.push_back(i);
+  list_held();
+  release_bodies();
+}
+
+// Most nodes are free: eight are looked at together.
+template <class Scalar>
+void ImplicitSolver<Scalar>::list_held() {
+  constexpr std::size_t kTogether = sizeof(std::uint64_t) / sizeof(Hold);
+  static_assert(Hold::kFree == Hold{} && kNodeLine % kTogether == 0);
+  held_.clear();
+  for (std::size_t first = 0; first < holds_.size(); first += kTogether) {
+    std::uint64_t some = 0;
+    std::memcpy(&some, &holds_[first], sizeof some);
+    if (some == 0) continue;
+    for (std::size_t i = first; i < first + kTogether; ++i) {
+      if (holds_[i] != Hold::kFree) held_.push_back(static_cast<int>(i));
     }
   }
-  release_bodies();
 }
 
 // One contact's node: what it would do if it stuck decides.

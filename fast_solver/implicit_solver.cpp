@@ -85,10 +85,12 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
   }
   held_.clear();
   held_.reserve(at(static_cast<int>(n)));
-  for (auto* holds : {&holds_, &held_before_}) holds->assign(at(static_cast<int>(n)), Hold::kFree);
   contact_of_.assign(at(static_cast<int>(n)), -1);
   for (auto* vectors : {&normals_, &friction_}) vectors->setZero(3, n);
   const Eigen::Index n_filled = fill_up(static_cast<int>(n));
+  for (auto* holds : {&holds_, &held_before_}) {
+    holds->assign(static_cast<std::size_t>(n_filled), Hold::kFree);
+  }
   for (Nodes* vectors :
        {&targets_, &starts_, &places_, &unbalanced_, &holding_forces_, &unmoved_, &remainders_}) {
     vectors->setZero(n_filled, 3);
@@ -220,7 +222,7 @@ void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body:
 
 // correction_ = P residual, with its product with the stiffness.
 template <class Scalar>
-typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition() {
+typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition(bool is_first) {
   for (Body& body : bodies_) body.correction = body.stiffness.solve(body.residual);
   add_motions(&Body::correction, correction_);
   multiply(correction_, &Body::correction, correction_product_, &Body::correction_product,
@@ -237,8 +239,8 @@ typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition()
            [&](NodeRange nodes, int part) {
              of_part[at(part)] = vector_kernel().add_correction(
                  coarse_.data(), coarse_product_.data(), residual_vector_.data(),
-                 direction_product_.data(), static_cast<int>(coarse_.rows()), nodes,
-                 correction_.data(), correction_product_.data());
+                 is_first ? nullptr : direction_product_.data(), static_cast<int>(coarse_.rows()),
+                 nodes, correction_.data(), correction_product_.data());
            });
   Overlaps sum{0, 0, 0};
   for (int part = 0; part < parts_.count(); ++part) {
@@ -260,9 +262,7 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
   for_each_part([&](NodeRange nodes) {
     const int count = nodes.end - nodes.begin;
-    for (Floats* vectors : {&step_, &direction_, &direction_product_}) {
-      vectors->middleRows(nodes.begin, count).setZero();
-    }
+    step_.middleRows(nodes.begin, count).setZero();
     residual_vector_.middleRows(nodes.begin, count) =
         unbalanced_.middleRows(nodes.begin, count).template cast<float>();
     vector_kernel().invert_blocks(inertia_.data(), kSmoothing, static_cast<int>(blocks_.rows()),
@@ -318,7 +318,7 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem, in
   float curvature = 1;
   float first_gain = 0;
   for (int k = 0; k < iterations; ++k) {
-    const Overlaps overlaps = precondition();
+    const Overlaps overlaps = precondition(k == 0);
     // The residual has nothing of the last direction any more.
     const float gain = overlaps.by_residual;
     if (!(gain > 0)) break;
@@ -329,8 +329,8 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem, in
     if (k == 0) first_gain = gain;
     const bool is_last = k + 1 == iterations || gain <= kLastGain * first_gain;
     for_each_part([&](NodeRange nodes) {
-      vector_kernel().advance(correction_.data(), correction_product_.data(), share, length,
-                              static_cast<int>(step_.rows()), nodes, direction_.data(),
+      vector_kernel().advance(correction_.data(), correction_product_.data(), share, length, k == 0,
+                              is_last, static_cast<int>(step_.rows()), nodes, direction_.data(),
                               direction_product_.data(), step_.data(), residual_vector_.data());
       if (!is_last) smooth(nodes);
     });

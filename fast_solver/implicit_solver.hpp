@@ -126,6 +126,7 @@ class ImplicitSolver {
   void evaluate(bool linearises = true);
   void decide_holds(const StepProblem<Scalar>& problem, bool is_first);
   void decide_hold(const PlaneContact<Scalar>& contact, bool is_first);
+  void list_held();
   [[nodiscard]] Scalar first_push(int node, const Vector3<Scalar>& normal) const;
   void project(NodeRange nodes, Floats& vectors) const;
   void smooth(NodeRange nodes);
@@ -163,7 +164,7 @@ class ImplicitSolver {
     float by_direction;
     float by_product;
   };
-  [[nodiscard]] Overlaps precondition();
+  [[nodiscard]] Overlaps precondition(bool is_first);
   void move();
   void do_round(const StepProblem<Scalar>& problem, int iterations, bool is_first,
                 bool linearises = true);
@@ -225,7 +226,7 @@ class ImplicitSolver {
   Nodes holding_forces_;
   Nodes remainders_;
   Nodes unmoved_;
-  std::vector<Hold> holds_;        ///< of each node
+  std::vector<Hold> holds_;        ///< of each node, filled up
   std::vector<Hold> held_before_;  ///< the same in the round before
   std::vector<int> contact_of_;    ///< of each node: the contact that holds it, or -1
   Matrix3X<float> normals_;        ///< of each node on a plane

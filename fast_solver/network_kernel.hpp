@@ -99,15 +99,16 @@ struct VectorKernel {
   void (*multiply_blocks)(const float* blocks, int stride, NodeRange nodes, const float* vectors,
                           float* result);
   /// correction += more, product += more_product. Returns correction . residual, correction . direction_product
-  /// and correction . product.
+  /// and correction . product. direction_product: nullptr if there is none; its sum is 0 then.
   Products (*add_correction)(const float* more, const float* more_product, const float* residual,
                              const float* direction_product, int stride, NodeRange nodes,
                              float* correction, float* product);
   /// direction = correction - share direction, the same for its product; step += length direction,
-  /// residual -= length direction_product
+  /// residual -= length direction_product. is_first: direction and its product are not set yet, and taken for zero.
+  /// is_last: of all these only step is set.
   void (*advance)(const float* correction, const float* correction_product, float share,
-                  float length, int stride, NodeRange nodes, float* direction,
-                  float* direction_product, float* step, float* residual);
+                  float length, bool is_first, bool is_last, int stride, NodeRange nodes,
+                  float* direction, float* direction_product, float* step, float* residual);
   /// result of each row = sum of its weights times values of its columns; all in fours
   void (*sum_terms)(const RowsOfTerms& rows, const float* values, float* result);
   /// In half precision; size: a multiple of kNodeBlock, numbers below 65504.
