@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstddef>
+#include <optional>
 #include <thread>
 
 namespace weft::fast {
@@ -16,14 +16,26 @@ constexpr int kLooks = 400;
 /// The same that the caller spends on waiting for helpers that are still to come, before it begins what is theirs: some
 /// 10 us. What they find in its cache later takes as long again.
 constexpr int kLooksForArrival = 200;
-/// A loop that takes so many times what the caller's own parts took, and this beyond, has waited for a thread that was
-/// stopped, which comes back after milliseconds. Less may be a part with more work: contacts are where an object is.
-constexpr int kLongTimes = 4;
-constexpr std::chrono::microseconds kLongWait{1000};
-/// How often a team is opened without helpers after that, at first and at most: four and some two hundred steps of a
-/// single body, which opens it twice in each.
+/// Of the time that a team is open: what helpers gain. Two threads take some .6 of the time of one.
+constexpr double kGain = 0.5;
+/// [s] What a team may lose right after it has come back.
+constexpr double kLeastCredit = 2e-3;
+/// How often a team is opened without helpers when it has lost too much, at first and at most: four and some two hundred
+/// steps of a single body, which opens it twice in each.
 constexpr int kLeastAlone = 8;
 constexpr int kMostAlone = 512;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Flags of the parts begin ... end - 1.
+std::uint64_t flags(int begin, int end) {
+  const auto below = [](int part) {
+    return part < ThreadTeam::kMostParts ? (std::uint64_t{1} << part) - 1 : ~std::uint64_t{0};
+  };
+  return below(end) & ~below(begin);
+}
 
 /// Tells the processor that this thread only waits.
 void pause() {
@@ -59,7 +71,9 @@ void ThreadTeam::open(int num_threads) {
     return;
   }
   num_threads_ = std::min(num_threads, kMostParts);
-  is_let_down_ = false;
+  opened_ = Clock::now();
+  lost_ = 0;
+  away_ = 0;
   looks_for_arrival_ = kLooksForArrival;
   num_helpers_.store(0, std::memory_order_relaxed);
   is_open_.store(true, std::memory_order_release);
@@ -72,17 +86,22 @@ void ThreadTeam::open(int num_threads) {
 void ThreadTeam::close() {
   if (num_threads_ == 1) return;
   is_open_.store(false, std::memory_order_release);
-  helpers_->wait();
+  const Clock::time_point start = Clock::now();
+  helpers_->wait();  // for one that is stopped, too
+  lost_ += seconds_since(start);
   helpers_.reset();
   num_threads_ = 1;
   learn();
 }
 
-// One stop costs some milliseconds. A host that takes a processor away now and then is worth coming back to at once;
-// where other programs run all the time, every helper will be stopped.
+// A host that takes a processor away now and then costs less than helpers gain; where other programs run all the time,
+// every helper will be stopped.
 void ThreadTeam::learn() {
+  const double gained = kGain * (seconds_since(opened_) - lost_);
+  credit_ = std::min(kMostCredit, credit_ + gained - lost_);
   next_alone_ = std::max(next_alone_, kLeastAlone);
-  if (is_let_down_) {
+  if (credit_ < 0) {
+    credit_ = kLeastCredit;
     num_alone_ = next_alone_;
     next_alone_ = std::min(2 * next_alone_, kMostAlone);
     num_good_ = 0;
@@ -93,7 +112,6 @@ void ThreadTeam::learn() {
 }
 
 void ThreadTeam::run_shared(int num_parts, Call call, const void* job) {
-  const Clock::time_point start = Clock::now();
   const std::uint64_t loop = ++num_loops_;
   loop_.number.store(kNone, std::memory_order_relaxed);
   loop_.call.store(call, std::memory_order_release);
@@ -101,27 +119,55 @@ void ThreadTeam::run_shared(int num_parts, Call call, const void* job) {
   loop_.num_parts.store(num_parts, std::memory_order_release);
   loop_.number.store(loop, std::memory_order_release);
   int num_left = num_parts;
+  std::uint64_t mine = 0;
   const auto take = [&](int part) {
     if (!take_part(loop, part)) return;
     call(job, part);
     --num_left;
+    mine |= flags(part, part + 1);
   };
   for (int part = 0; part < first_part(1, num_parts); ++part) take(part);
+  const std::uint64_t awaited = awaited_parts(num_parts);
   // From the end: who comes now begins at the other one of what is its own.
-  for (int part = num_parts - 1; part >= first_part(num_present(), num_parts); --part) take(part);
+  for (int part = num_parts - 1; part >= first_part(1, num_parts); --part) {
+    if ((awaited & flags(part, part + 1)) == 0) take(part);
+  }
   Patience patience;
-  Clock::time_point end_of_patience = start;
+  std::optional<Clock::time_point> end_of_patience;
   while (num_done_.load(std::memory_order_acquire) !=
          num_done_before_ + static_cast<std::uint64_t>(num_left)) {
     if (!patience.wait()) continue;
-    if (end_of_patience == start) end_of_patience = Clock::now();
-    for (int part = 0; part < num_parts; ++part) take(part);
+    for (int part = first_part(1, num_parts); part < num_parts; ++part) take(part);
+    if (!end_of_patience) end_of_patience = Clock::now();
   }
   num_done_before_ += static_cast<std::uint64_t>(num_left);
-  if (end_of_patience != start) {
-    const auto usual = kLongTimes * (end_of_patience - start) + kLongWait;
-    is_let_down_ = Clock::now() - start > usual;
+  if (end_of_patience) lost_ += seconds_since(*end_of_patience);
+  note_away(num_parts, mine);
+}
+
+// Of helpers that are there, or whose arrival is worth waiting for.
+std::uint64_t ThreadTeam::awaited_parts(int num_parts) {
+  const int num_present = this->num_present();
+  std::uint64_t awaited = flags(first_part(1, num_parts), first_part(num_present, num_parts));
+  for (int member = 1; member < num_present && away_ != 0; ++member) {
+    if ((away_ & flags(member, member + 1)) != 0) awaited &= ~parts_of(member, num_parts);
   }
+  return awaited;
+}
+
+// A helper that has left all that was its own to the caller does something else; once it takes a part, it is back.
+void ThreadTeam::note_away(int num_parts, std::uint64_t parts_of_caller) {
+  if (away_ == 0 && (parts_of_caller & ~parts_of(0, num_parts)) == 0) return;
+  for (int member = 1; member < num_threads_; ++member) {
+    const std::uint64_t parts = parts_of(member, num_parts);
+    const std::uint64_t flag = flags(member, member + 1);
+    if (parts == 0) continue;
+    away_ = (parts_of_caller & parts) == parts ? away_ | flag : away_ & ~flag;
+  }
+}
+
+std::uint64_t ThreadTeam::parts_of(int member, int num_parts) const {
+  return flags(first_part(member, num_parts), first_part(member + 1, num_parts));
 }
 
 // With the caller, and those whose arrival it waits for.

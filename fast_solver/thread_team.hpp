@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <optional>
 
@@ -16,8 +17,8 @@ namespace weft::fast {
 /// has parts, and each thread has the same ones in every loop, which are in its cache; the caller takes those of a
 /// helper that does not begin. What a part computes may not depend on who does it.
 ///
-/// Where other programs need the processors, a helper may be stopped in the middle of a part. Then the caller does without
-/// helpers for a while, a longer one each time.
+/// Where other programs need the processors, a helper may be stopped. In the middle of a part its caller has to wait for
+/// it; if that costs more than helpers gain, the caller does without them for a while, a longer one each time.
 ///
 /// While a team is open its caller must not wait for other tasks of oneTBB: it might be given a helper's.
 class ThreadTeam {
@@ -51,8 +52,8 @@ class ThreadTeam {
     ThreadTeam& team_;
   };
 
-  /// Closed as long as the result exists, for work that waits for tasks of oneTBB; then open if it was, and if no helper
-  /// has been stopped.
+  /// Closed as long as the result exists, for work that waits for tasks of oneTBB; then open if it was, unless helpers
+  /// were stopped lately.
   class Pause {
    public:
     explicit Pause(ThreadTeam& team) : team_(team), num_threads_(team.num_threads()) {
@@ -77,7 +78,7 @@ class ThreadTeam {
   /// program: others may be at work on the same.
   template <class Work>
   void run(int num_parts, const Work& work) noexcept {
-    if (num_threads_ <= 1 || num_parts <= 1 || is_let_down_) {
+    if (num_threads_ <= 1 || num_parts <= 1) {
       for (int part = 0; part < num_parts; ++part) work(part);
       return;
     }
@@ -89,6 +90,8 @@ class ThreadTeam {
  private:
   using Call = void (*)(const void* job, int part);
   static constexpr std::uint64_t kNone = 0;
+  /// [s] What a team that has been good for long may lose to stopped helpers before its caller does without them.
+  static constexpr double kMostCredit = 20e-3;
   /// The present loop. In one line of the cache, so that who waits for its number has the rest as well. While the rest
   /// is written the number is kNone; who has read it looks at the number again.
   struct alignas(64) Loop {
@@ -114,7 +117,10 @@ class ThreadTeam {
   [[nodiscard]] int first_part(int member, int num_parts) const {
     return num_parts * member / num_threads_;
   }
+  [[nodiscard]] std::uint64_t parts_of(int member, int num_parts) const;  ///< flags
   [[nodiscard]] int num_present();
+  [[nodiscard]] std::uint64_t awaited_parts(int num_parts);  ///< flags
+  void note_away(int num_parts, std::uint64_t parts_of_caller);
   void learn();
 
   Loop loop_;
@@ -126,11 +132,14 @@ class ThreadTeam {
   std::array<Ticket, kMostParts> tickets_;
   int num_scopes_ = 0;
   int num_threads_ = 1;
-  bool is_let_down_ = false;   ///< a helper has kept the caller waiting for long
+  std::uint64_t away_ = 0;     ///< flags of members
   int looks_for_arrival_ = 0;  ///< that are left
-  int num_alone_ = 0;          ///< times to be opened without helpers
-  int next_alone_ = 0;         ///< the same when the next one is stopped
-  int num_good_ = 0;           ///< times open without a stop since next_alone_ has changed
+  std::chrono::steady_clock::time_point opened_;
+  double lost_ = 0;              ///< since then, in waiting for stopped helpers [s]
+  double credit_ = kMostCredit;  ///< gained by helpers over lost, at most kMostCredit [s]
+  int num_alone_ = 0;            ///< times to be opened without helpers
+  int next_alone_ = 0;           ///< the same when the credit is used up
+  int num_good_ = 0;             ///< times open with credit left since next_alone_ has changed
   /// Made by open(): a group belongs to the parallel loop that it was first used in, for ever.
   std::optional<tbb::task_group> helpers_;
 };
