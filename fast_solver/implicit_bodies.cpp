@@ -36,13 +36,6 @@ void ImplicitSolver<Scalar>::link(int node, int body, const Vector3<Scalar>& arm
   links_.push_back({node, body, arm.template cast<float>(), normal.template cast<float>()});
 }
 
-template <class Scalar>
-Vector3<float> ImplicitSolver<Scalar>::motion_of(const Link& link, const Floats6& motion) {
-  Vector3<float> way = motion.template head<3>() + motion.template tail<3>().cross(link.arm);
-  if (link.normal.isZero(0)) return way;
-  return link.normal.dot(way) * link.normal;
-}
-
 // Of the present state; none of what is no body.
 template <class Scalar>
 Vector3<Scalar> ImplicitSolver<Scalar>::motion_with(int body, const Vector3<Scalar>& arm) const {
@@ -68,28 +61,21 @@ Vector3<Scalar> ImplicitSolver<Scalar>::place_of(const LedNode<Scalar>& led) con
 template <class Scalar>
 void ImplicitSolver<Scalar>::add_motions(Floats6 Body::*motion, Floats& displacements) const {
   for (const Link& link : links_) {
-    displacements.row(link.node) += motion_of(link, bodies_[at(link.body)].*motion).transpose();
+    displacements.row(link.node) += link.motion_with(bodies_[at(link.body)].*motion).transpose();
   }
 }
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::gather(const Floats& forces, Floats6 Body::*sum) {
-  for (const Link& link : links_) add_force(link, forces, bodies_[at(link.body)].*sum);
+  for (const Link& link : links_)
+    link.add_force(at_node(forces, link.node), bodies_[at(link.body)].*sum);
 }
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::gather_of(int body, const Floats& forces, Floats6& sum) const {
   for (const Link& link : links_) {
-    if (link.body == body) add_force(link, forces, sum);
+    if (link.body == body) link.add_force(at_node(forces, link.node), sum);
   }
-}
-
-template <class Scalar>
-void ImplicitSolver<Scalar>::add_force(const Link& link, const Floats& forces, Floats6& sum) {
-  Vector3<float> force = at_node(forces, link.node);
-  if (!link.normal.isZero(0)) force = link.normal.dot(force) * link.normal;
-  sum.template head<3>() += force;
-  sum.template tail<3>() += link.arm.cross(force);
 }
 
 // A body that nothing is linked to in this round has moved as if left alone.
@@ -107,7 +93,8 @@ void ImplicitSolver<Scalar>::release_bodies() {
 template <class Scalar>
 void ImplicitSolver<Scalar>::factorise_bodies() {
   if (bodies_.empty()) return;
-  correction_.setZero();
+  Floats& correction = corrections_[0];
+  correction.setZero();
   for (Body& other : bodies_) other.correction.setZero();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     Body& body = bodies_[b];
@@ -121,12 +108,12 @@ void ImplicitSolver<Scalar>::factorise_bodies() {
                          linked_blocks_.end());
     for (int k = 0; k < 6 && !linked_blocks_.empty(); ++k) {
       body.correction = Floats6::Unit(k);
-      add_motions(&Body::correction, correction_);
-      forces_.multiply(linked_blocks_, inertia_, correction_, correction_product_);
+      add_motions(&Body::correction, correction);
+      forces_.multiply(linked_blocks_, inertia_, correction, correction_product_);
       body.correction_product = body.inertia.col(k);
       gather_of(static_cast<int>(b), correction_product_, body.correction_product);
       stiffness.col(k) = body.correction_product;
-      for (const Link& link : links_) correction_.row(link.node).setZero();
+      for (const Link& link : links_) correction.row(link.node).setZero();
     }
     body.correction.setZero();
     body.stiffness.compute((stiffness + stiffness.transpose()) / 2);

@@ -101,10 +101,11 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
   weights_.setZero(n_filled);
   if (blocks_.rows() == n_filled) return;  // the others keep no number from one step to the next
   blocks_.setZero(n_filled, 6);
-  for (Floats* vectors : {&step_, &residual_vector_, &direction_, &direction_product_, &correction_,
+  for (Floats* vectors : {&step_, &residual_vector_, &direction_, &direction_product_,
                           &correction_product_, &work_, &coarse_, &coarse_product_}) {
     vectors->setZero(n_filled, 3);
   }
+  for (Floats& correction : corrections_) correction.setZero(n_filled, 3);
 }
 
 template <class Scalar>
@@ -192,11 +193,11 @@ void ImplicitSolver<Scalar>::evaluate(bool linearises) {
 
 // By each node's own block of the diagonal, which says most about motion across the sheet.
 template <class Scalar>
-void ImplicitSolver<Scalar>::smooth(NodeRange nodes) {
+void ImplicitSolver<Scalar>::smooth(NodeRange nodes, Floats& correction) {
   const auto stride = static_cast<int>(blocks_.rows());
   vector_kernel().multiply_blocks(blocks_.data(), stride, nodes, residual_vector_.data(),
-                                  correction_.data());
-  project(nodes, correction_);
+                                  correction.data());
+  project(nodes, correction);
 }
 
 // Rows of linked nodes hold their own motion across the normal, if any, and get that of the body.
@@ -220,12 +221,13 @@ void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body:
   team_->run(parts_.count(), [&](int part) { finish(parts_[part], part); });
 }
 
-// correction_ = P residual, with its product with the stiffness.
+// correction = P residual, with its product with the stiffness.
 template <class Scalar>
-typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition(bool is_first) {
+typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition(Floats& correction,
+                                                                               bool is_first) {
   for (Body& body : bodies_) body.correction = body.stiffness.solve(body.residual);
-  add_motions(&Body::correction, correction_);
-  multiply(correction_, &Body::correction, correction_product_, &Body::correction_product,
+  add_motions(&Body::correction, correction);
+  multiply(correction, &Body::correction, correction_product_, &Body::correction_product,
            [&](NodeRange nodes, int) {
              global_.set_residual(nodes, residual_vector_, correction_product_);
            });
@@ -240,7 +242,7 @@ typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition(b
              of_part[at(part)] = vector_kernel().add_correction(
                  coarse_.data(), coarse_product_.data(), residual_vector_.data(),
                  is_first ? nullptr : direction_product_.data(), static_cast<int>(coarse_.rows()),
-                 nodes, correction_.data(), correction_product_.data());
+                 nodes, correction.data(), correction_product_.data());
            });
   Overlaps sum{0, 0, 0};
   for (int part = 0; part < parts_.count(); ++part) {
@@ -297,7 +299,7 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
       residual_vector_.middleRows(nodes.begin, count) -= work_.middleRows(nodes.begin, count);
     }
     project(nodes, residual_vector_);
-    smooth(nodes);
+    smooth(nodes, corrections_[0]);
   });
   if (!moves_held || links_.empty()) return;
   for (Body& body : bodies_) body.coarse_product.setZero();
@@ -305,6 +307,7 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
   for (Body& body : bodies_) body.residual -= body.coarse_product;
 }
 
+// Leaves the corrections of the last iterations, which move() adds to the step.
 template <class Scalar>
 void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem, int iterations) {
   factorise_bodies();
@@ -317,8 +320,10 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem, in
   }
   float curvature = 1;
   float first_gain = 0;
+  directions_.clear();
+  has_direction_ = false;
   for (int k = 0; k < iterations; ++k) {
-    const Overlaps overlaps = precondition(k == 0);
+    const Overlaps overlaps = precondition(corrections_[at(directions_.count())], k == 0);
     // The residual has nothing of the last direction any more.
     const float gain = overlaps.by_residual;
     if (!(gain > 0)) break;
@@ -326,28 +331,51 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem, in
     curvature = overlaps.by_product - share * overlaps.by_direction;
     if (!(curvature > 0)) break;
     const float length = gain / curvature;
-    if (k == 0) first_gain = gain;
-    const bool is_last = k + 1 == iterations || gain <= kLastGain * first_gain;
-    for_each_part([&](NodeRange nodes) {
-      vector_kernel().advance(correction_.data(), correction_product_.data(), share, length, k == 0,
-                              is_last, static_cast<int>(step_.rows()), nodes, direction_.data(),
-                              direction_product_.data(), step_.data(), residual_vector_.data());
-      if (!is_last) smooth(nodes);
-    });
+    directions_.add(share, length);
     for (Body& body : bodies_) {
       body.direction = body.correction - share * body.direction;
       body.direction_product = body.correction_product - share * body.direction_product;
       body.step += length * body.direction;
       body.residual -= length * body.direction_product;
     }
-    if (is_last) break;
+    if (k == 0) first_gain = gain;
+    if (k + 1 == iterations || gain <= kLastGain * first_gain) break;
+    for_each_part([&](NodeRange nodes) {
+      vector_kernel().advance(correction_product_.data(), share, length, k == 0,
+                              static_cast<int>(step_.rows()), nodes, direction_product_.data(),
+                              residual_vector_.data());
+      if (directions_.is_full()) sum_up(nodes, true);
+      smooth(nodes, corrections_[at(directions_.count() % DirectionWeights::kMost)]);
+    });
+    if (!directions_.is_full()) continue;
+    directions_.clear();
+    has_direction_ = true;
   }
+}
+
+// What the corrections that are kept add to the step, and the last direction in their place if there is an iteration to follow.
+template <class Scalar>
+void ImplicitSolver<Scalar>::sum_up(NodeRange nodes, bool keeps_direction) {
+  const int count = directions_.count();
+  std::array<const float*, DirectionWeights::kMost + 1> vectors{};
+  for (int k = 0; k < count; ++k) vectors[at(k)] = corrections_[at(k)].data();
+  vectors[at(count)] = direction_.data();
+  const auto stride = static_cast<int>(step_.rows());
+  const DirectionWeights::Weights of_step = directions_.of_step();
+  vector_kernel().add_vectors(vectors.data(), of_step.data(), count + (has_direction_ ? 1 : 0), 1,
+                              stride, nodes, step_.data());
+  if (!keeps_direction) return;
+  const DirectionWeights::Weights of_last = directions_.of_last_direction();
+  vector_kernel().add_vectors(vectors.data(), of_last.data(), count,
+                              has_direction_ ? of_last[at(count)] : 0, stride, nodes,
+                              direction_.data());
 }
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::move() {
   const auto stride = static_cast<int>(step_.rows());
   work_done_ = sum_over_parts([&](NodeRange nodes) {
+    sum_up(nodes, false);
     return sum_kernel<Scalar>().move(unbalanced_.data(), step_.data(), stride, nodes,
                                      places_.data());
   });
@@ -359,9 +387,10 @@ void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, int it
                                       bool is_first, bool linearises) {
   decide_holds(problem, is_first);
   solve_linear(problem, iterations);
-  const double of_others = work_of_bodies() - work_of_held(held_.size());
+  const double of_bodies = work_of_bodies();
   move();
   const std::size_t num_held = held_.size();
+  const double of_others = of_bodies - work_of_held(num_held);
   clamp(problem);
   evaluate(linearises);
   if (!hold_back(work_done_ + of_others, num_held)) return;

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <weft/fast_solver/correction_maker.hpp>
+#include <weft/fast_solver/direction_weights.hpp>
 #include <weft/fast_solver/global_correction.hpp>
 #include <weft/fast_solver/linked_body.hpp>
 #include <weft/fast_solver/network_forces.hpp>
@@ -129,10 +130,9 @@ class ImplicitSolver {
   void list_held();
   [[nodiscard]] Scalar first_push(int node, const Vector3<Scalar>& normal) const;
   void project(NodeRange nodes, Floats& vectors) const;
-  void smooth(NodeRange nodes);
+  void smooth(NodeRange nodes, Floats& correction);
   void load_bodies(const StepProblem<Scalar>& problem);
   void link(int node, int body, const Vector3<Scalar>& arm, const Vector3<Scalar>& normal);
-  [[nodiscard]] static Vector3<float> motion_of(const Link& link, const Floats6& motion);
   /// Of what is at the end of an arm, to first order.
   [[nodiscard]] static Vector3<Scalar> motion_at(const Vector6& motion,
                                                  const Vector3<Scalar>& arm) {
@@ -147,7 +147,6 @@ class ImplicitSolver {
   /// Adds the rows of linked nodes to the forces on their bodies: the transpose.
   void gather(const Floats& forces, Floats6 Body::*sum);
   void gather_of(int body, const Floats& forces, Floats6& sum) const;
-  static void add_force(const Link& link, const Floats& forces, Floats6& sum);
   void release_bodies();
   void factorise_bodies();
   void find_unbalanced(Floats6 Body::*result);
@@ -159,12 +158,9 @@ class ImplicitSolver {
   void start_linear(const StepProblem<Scalar>& problem);
   void solve_linear(const StepProblem<Scalar>& problem, int iterations);
   /// Of a correction c and the direction d before it, with their products: c . r, c . A d and c . A c.
-  struct Overlaps {
-    float by_residual;
-    float by_direction;
-    float by_product;
-  };
-  [[nodiscard]] Overlaps precondition(bool is_first);
+  using Overlaps = VectorKernel::Products;
+  [[nodiscard]] Overlaps precondition(Floats& correction, bool is_first);
+  void sum_up(NodeRange nodes, bool keeps_direction);
   void move();
   void do_round(const StepProblem<Scalar>& problem, int iterations, bool is_first,
                 bool linearises = true);
@@ -233,7 +229,10 @@ class ImplicitSolver {
   Matrix3X<float> friction_;       ///< of each sliding node [N]
   BlockArrays blocks_;             ///< inverse of the diagonal's
   Floats step_, residual_vector_, direction_, direction_product_;
-  Floats correction_, correction_product_, work_, coarse_, coarse_product_;
+  Floats correction_product_, work_, coarse_, coarse_product_;
+  std::array<Floats, DirectionWeights::kMost> corrections_;
+  DirectionWeights directions_;    ///< made of them
+  bool has_direction_ = false;     ///< from before the first of them, in direction_
   double work_left_ = 0;           ///< unbalanced_ . step_ [J]
   double unbalanced_squares_ = 0;  ///< of unbalanced_ [N^2]
   double work_done_ = 0;           ///< the same before the step was taken [J]

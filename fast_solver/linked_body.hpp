@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 
 #include <weft/custom_forces/core/types.hpp>
 
@@ -12,6 +13,21 @@ struct BodyLink {
   int body;
   Vector3<float> arm;     ///< [m]
   Vector3<float> normal;  ///< zero: in all directions
+
+  /// Of the node's place, with the body's motion: of its centre, and about it.
+  [[nodiscard]] Vector3<float> motion_with(const Eigen::Matrix<float, 6, 1>& motion) const {
+    return along_link(motion.head<3>() + motion.tail<3>().cross(arm));
+  }
+  /// The transpose: adds to the force on the body, and about its centre, what pushes the node.
+  void add_force(const Vector3<float>& force, Eigen::Matrix<float, 6, 1>& sum) const {
+    const Vector3<float> felt = along_link(force);
+    sum.head<3>() += felt;
+    sum.tail<3>() += arm.cross(felt);
+  }
+  [[nodiscard]] Vector3<float> along_link(const Vector3<float>& vector) const {
+    if (normal.isZero(0)) return vector;
+    return normal.dot(vector) * normal;
+  }
 };
 
 /// What a step solves for of a rigid body that gives way: motions and forces of its centre, and about it.

@@ -103,12 +103,14 @@ struct VectorKernel {
   Products (*add_correction)(const float* more, const float* more_product, const float* residual,
                              const float* direction_product, int stride, NodeRange nodes,
                              float* correction, float* product);
-  /// direction = correction - share direction, the same for its product; step += length direction,
-  /// residual -= length direction_product. is_first: direction and its product are not set yet, and taken for zero.
-  /// is_last: of all these only step is set.
-  void (*advance)(const float* correction, const float* correction_product, float share,
-                  float length, bool is_first, bool is_last, int stride, NodeRange nodes,
-                  float* direction, float* direction_product, float* step, float* residual);
+  /// direction_product = correction_product - share direction_product, residual -= length direction_product.
+  /// is_first: there is no direction before, and direction_product is not read.
+  void (*advance)(const float* correction_product, float share, float length, bool is_first,
+                  int stride, NodeRange nodes, float* direction_product, float* residual);
+  /// sum = own_weight sum + weights_k vectors_k, k = 0 ... count - 1; unchanged for a count of 0. Not read for an own_weight
+  /// of 0.
+  void (*add_vectors)(const float* const* vectors, const float* weights, int count,
+                      float own_weight, int stride, NodeRange nodes, float* sum);
   /// result of each row = sum of its weights times values of its columns; all in fours
   void (*sum_terms)(const RowsOfTerms& rows, const float* values, float* result);
   /// In half precision; size: a multiple of kNodeBlock, numbers below 65504.

@@ -128,6 +128,57 @@ TEST(ImplicitSolver, FewIterationsComeClose) {
   EXPECT_LT((solve({2, 6}) - exact).norm(), 0.05 * moved);
 }
 
+// One linear system, whose error each iteration makes smaller: also where more corrections are made than are kept.
+TEST(ImplicitSolver, EachIterationComesCloser) {
+  ClothGrid grid;
+  grid.nodes = {30, 30};
+  grid.v_axis = {0, -1, 0};
+  grid.total_mass = 0.25;
+  const ClothMesh mesh = make_cloth_grid(grid);
+  const SpringNetwork network = springs(mesh, 300.0);
+  const auto is_free = all_free_but(mesh, {0, 29});
+  const Matrix3X<double> q = mesh.rest_positions;
+  const Matrix3X<double> y = fallen(q, Matrix3X<double>::Zero(3, q.cols()), is_free);
+  ImplicitSolver<double> solver(network, mesh.masses, is_free, kTimeStep);
+  const auto solved = [&](int rounds, int iterations) {
+    Matrix3X<double> x = q;
+    solver.solve({y, q, kTimeStep, kTimeStep}, {rounds, iterations}, x);
+    return x;
+  };
+  const Matrix3X<double> expected = solved(20, 20);
+  double last = (q - expected).norm();
+  for (int iterations = 1; iterations <= 2 * DirectionWeights::kMost + 1; ++iterations) {
+    const double error = (solved(1, iterations) - expected).norm();
+    EXPECT_LT(error, 0.9 * last) << iterations << " iterations";
+    last = error;
+  }
+}
+
+// By the recursion itself, with directions that are numbers.
+TEST(DirectionWeights, AreThoseOfTheRecursion) {
+  const std::array<float, 4> corrections{3.0F, -1.0F, 0.5F, 2.0F};
+  const std::array<float, 4> shares{0.25F, -0.5F, 0.75F, 0.125F};
+  const std::array<float, 4> lengths{0.5F, 0.75F, 1.5F, -0.25F};
+  const float before = 5.0F;
+  DirectionWeights weights;
+  float direction = before;
+  float step = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_FALSE(weights.is_full());
+    weights.add(shares[k], lengths[k]);
+    direction = corrections[k] - shares[k] * direction;
+    step += lengths[k] * direction;
+    const auto sum = [&](const DirectionWeights::Weights& of) {
+      float total = of[k + 1] * before;
+      for (std::size_t j = 0; j <= k; ++j) total += of[j] * corrections[j];
+      return total;
+    };
+    EXPECT_FLOAT_EQ(sum(weights.of_last_direction()), direction);
+    EXPECT_FLOAT_EQ(sum(weights.of_step()), step);
+  }
+  EXPECT_TRUE(weights.is_full());
+}
+
 TEST(ImplicitSolver, ThreadsChangeNoBit) {
   const ClothMesh mesh = cloth(100);  // sixteen parts
   const auto is_free = all_free_but(mesh, {0, 99});

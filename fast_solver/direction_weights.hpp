@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace weft::fast {
+
+/// What the directions of conjugate gradients and their step are made of: with corrections c,
+///
+///   d_k = c_k - share_k d_(k-1),   step = sum of length_k d_k,
+///
+/// so that only corrections have to be kept, and nobody asks for a direction before the end.
+class DirectionWeights {
+ public:
+  /// Corrections that are kept; then step and direction are summed up.
+  static constexpr int kMost = 4;
+  /// Of c_0, c_1, ... and, at count(), of the direction before c_0.
+  using Weights = std::array<float, kMost + 1>;
+
+  void clear() { count_ = 0; }
+  void add(float share, float length) {
+    shares_[static_cast<std::size_t>(count_)] = share;
+    lengths_[static_cast<std::size_t>(count_)] = length;
+    ++count_;
+  }
+  [[nodiscard]] int count() const { return count_; }
+  [[nodiscard]] bool is_full() const { return count_ == kMost; }
+
+  [[nodiscard]] Weights of_step() const { return sum_of(lengths_); }
+  [[nodiscard]] Weights of_last_direction() const {
+    std::array<float, kMost> only_last{};
+    if (count_ > 0) only_last[static_cast<std::size_t>(count_ - 1)] = 1;
+    return sum_of(only_last);
+  }
+
+ private:
+  /// Of the sum of factors_k d_k.
+  [[nodiscard]] Weights sum_of(const std::array<float, kMost>& factors) const {
+    Weights weights{};
+    float of_next = 0;  // of d_(k+1), times -share_(k+1)
+    for (int k = count_ - 1; k >= 0; --k) {
+      const auto i = static_cast<std::size_t>(k);
+      weights[i] = factors[i] + of_next;
+      of_next = -shares_[i] * weights[i];
+    }
+    weights[static_cast<std::size_t>(count_)] = of_next;
+    return weights;
+  }
+
+  int count_ = 0;
+  std::array<float, kMost> shares_{};
+  std::array<float, kMost> lengths_{};
+};
+
+}  // namespace weft::fast
