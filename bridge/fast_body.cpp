@@ -91,6 +91,8 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
   }
   contacts_.clear();
   obstacles_.clear();
+  forget_supports();
+  is_support_missing_ = false;
   ways_.outdate();
   excess_ = 0;
   wake();
@@ -135,6 +137,8 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
   });
   contacts_.clear();
   obstacles_.clear();
+  forget_supports();
+  is_support_missing_ = false;
   ways_.outdate();
   if (is_plain(body)) {
     predict_nodes(body, time_step, last_velocities_, scratch_, team_);
@@ -405,6 +409,7 @@ void FastBody::look_again(btSoftBody& body, btScalar time_step) {
   const TraceScope trace("look again");
   const fast::ThreadTeam::Scope scope(team_, team_size());
   is_contact_missing_ = find_missed_contacts(body, time_step);
+  is_support_missing_ = are_supports_wrong(body);
 }
 
 bool FastBody::looks_alone() const {

@@ -13,6 +13,7 @@
 #include <weft/bridge/node_normals.hpp>
 #include <weft/bridge/precision.hpp>
 #include <weft/bridge/rigid_contacts.hpp>
+#include <weft/bridge/rigid_motion.hpp>
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
 #include <weft/fast_solver/implicit_solver.hpp>
@@ -101,9 +102,10 @@ class FastBody {
   void prepare(const btSoftBody& body, btScalar time_step);
   void begin_solve(btSoftBody& body, btScalar time_step,
                    std::span<const btRigidBody* const> pushed);
-  /// Looks for contacts that the solution needs: is_contact_missing() says whether it found any.
+  /// Looks for contacts that the solution needs, and for bodies that it has pushed into others: is_unfinished() says
+  /// whether it found any.
   void look_again(btSoftBody& body, btScalar time_step);
-  [[nodiscard]] bool is_contact_missing() const { return is_contact_missing_; }
+  [[nodiscard]] bool is_unfinished() const { return is_contact_missing_ || is_support_missing_; }
   /// Whether look_again() touches only the body too.
   [[nodiscard]] bool looks_alone() const;
   void solve_again(btSoftBody& body, btScalar time_step,
@@ -142,15 +144,22 @@ class FastBody {
   void read_prediction(const btSoftBody& body);
   [[nodiscard]] btVector3 in_world(int node) const;
   void write_places(btSoftBody& body);
-  using Way = Eigen::Matrix<btScalar, 6, 1>;  ///< [m, rad]
-  [[nodiscard]] Way way_of(const btRigidBody& rigid) const;
+  [[nodiscard]] RigidWay way_of(const btRigidBody& rigid) const;
   void remember_ways();
-  [[nodiscard]] int number_of(const btRigidBody& rigid, btScalar time_step, bool is_again);
+  [[nodiscard]] int number_of(const btSoftBody& body, const btRigidBody& rigid, btScalar time_step,
+                              bool is_again);
+  [[nodiscard]] const std::vector<Support>& supports_of(const btSoftBody& body,
+                                                        const btRigidBody& rigid,
+                                                        btScalar time_step);
+  [[nodiscard]] bool are_supports_wrong(const btSoftBody& body);
+  void forget_supports();
   void read_constraints(const btSoftBody& body, btScalar time_step, bool is_again);
   void give_impulses(btSoftBody& body, btScalar time_step);
   void keep_out_of_missed(btSoftBody& body, btScalar time_step);
   void leave_depths();
   void stay_outside(btSoftBody& body, bool of_movable) const;
+  [[nodiscard]] btVector3 motion_since_solution(const btRigidBody& rigid,
+                                                const btVector3& place) const;
   [[nodiscard]] bool gets_work_from_outside() const;
   /// True if velocities_ had to be slowed down.
   bool keep_energy(btScalar time_step);
@@ -191,6 +200,7 @@ class FastBody {
   bool is_placed_ = false;           ///< before end_solve()
   double excess_ = 0;                ///< energy in springs that nothing has put in [J]
   bool is_contact_missing_ = false;  ///< in the present solution, for all that is known
+  bool is_support_missing_ = false;  ///< likewise
   std::vector<Obstacle> obstacles_;  ///< of this step
   NodeWays ways_;
   NodeNormals normals_;
@@ -205,10 +215,15 @@ class FastBody {
   std::vector<const btRigidBody*>
       pushed_;  ///< those that the body may push, and what they are to the solver
   std::vector<fast::RigidInertia<btScalar>> inertias_;
+  std::vector<btTransform> pushed_places_;  ///< where they were in the last solution
+  std::vector<btScalar> pushed_shares_;  ///< of what they give way in it: other cloth has the rest
+  std::vector<Support> supports_;        ///< of supported_, of the present step
+  std::vector<const btRigidBody*> supported_;
+  std::vector<const btRigidBody*> last_held_;    ///< with a loaded support in the step before
   std::vector<int> scratch_;                     ///< kept for its memory
   std::vector<const btRigidBody*> all_pushed_;   ///< by all bodies, in order
   std::vector<const btRigidBody*> last_pushed_;  ///< in the last solution, and how far
-  std::vector<Way> last_ways_;
+  std::vector<RigidWay> last_ways_;
 };
 
 }  // namespace WEFT_BULLET_PRECISION

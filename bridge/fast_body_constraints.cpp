@@ -3,6 +3,7 @@
 
 #include <weft/bridge/bullet_vector.hpp>
 #include <weft/bridge/fast_body.hpp>
+#include <weft/bridge/rigid_motion.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -39,6 +40,9 @@ void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& place) 
 
 /// Of the margin: how far below its plane a node may end a step.
 constexpr btScalar kDepthShare = btScalar(0.5);
+/// Of the margin: how near to another rigid object a body touches it, and how far it may be pressed into it in a step.
+constexpr btScalar kTouchShare = btScalar(0.1);
+constexpr btScalar kPressShare = btScalar(0.001);
 
 }  // namespace
 
@@ -116,15 +120,25 @@ void FastBody::leave_depths() {
   }
 }
 
-// The solution counts on a body that gives way at once. Bullet has moved it before, and moves it next by the impulse
-// that it gets now: until then nodes stand where it is, with the velocities of the solution.
+// In front of where an object is by now: one that gives way has moved since the solution, if not always as far.
 void FastBody::stay_outside(btSoftBody& body, bool of_movable) const {
   for (const RigidContact& contact : contacts_) {
-    if ((movable(contact.object) != nullptr) != of_movable) continue;
+    const btRigidBody* const rigid = movable(contact.object);
+    if ((rigid != nullptr) != of_movable) continue;
     btSoftBody::Node& node = body.m_nodes[contact.node];
-    const btScalar gap = btDot(contact.normal, node.m_x) - contact.offset;
+    btScalar gap = btDot(contact.normal, node.m_x) - contact.offset;
+    if (rigid != nullptr) gap -= btDot(contact.normal, motion_since_solution(*rigid, node.m_x));
     if (gap < 0 && node.m_im > 0) node.m_x -= gap * contact.normal;
   }
+}
+
+// Of what is at a place now, with the body.
+btVector3 FastBody::motion_since_solution(const btRigidBody& rigid, const btVector3& place) const {
+  for (std::size_t b = 0; b < pushed_.size(); ++b) {
+    if (pushed_[b] != &rigid) continue;
+    return place - pushed_places_[b] * (rigid.getCenterOfMassTransform().inverse() * place);
+  }
+  return {0, 0, 0};
 }
 
 // Those that are only near are not meant: a cloth that holds a body alone has to move all of it.
@@ -144,11 +158,11 @@ void FastBody::list_pushed(const btSoftBody& body, std::vector<const btRigidBody
 }
 
 /// How far a rigid body gave way in the last solution.
-FastBody::Way FastBody::way_of(const btRigidBody& rigid) const {
+RigidWay FastBody::way_of(const btRigidBody& rigid) const {
   for (std::size_t b = 0; b < last_pushed_.size(); ++b) {
     if (last_pushed_[b] == &rigid) return last_ways_[b];
   }
-  return Way::Zero();
+  return RigidWay::Zero();
 }
 
 void FastBody::remember_ways() {
@@ -160,7 +174,8 @@ void FastBody::remember_ways() {
 }
 
 // A body that is pushed for the first time in this step gets the next number.
-int FastBody::number_of(const btRigidBody& rigid, btScalar time_step, bool is_again) {
+int FastBody::number_of(const btSoftBody& body, const btRigidBody& rigid, btScalar time_step,
+                        bool is_again) {
   for (std::size_t b = 0; b < pushed_.size(); ++b) {
     if (pushed_[b] == &rigid) return static_cast<int>(b);
   }
@@ -173,12 +188,51 @@ int FastBody::number_of(const btRigidBody& rigid, btScalar time_step, bool is_ag
   given.motion = from_bullet<btScalar>(time_step * rigid.getLinearVelocity());
   given.turn = from_bullet<btScalar>(time_step * rigid.getAngularVelocity());
   if (is_again) given.guess = way_of(rigid);
+  given.held = share * inertia_of_supports(rigid, supports_of(body, rigid, time_step));
   inertias_.push_back(given);
+  pushed_places_.push_back(rigid.getCenterOfMassTransform());
+  pushed_shares_.push_back(share);
   return static_cast<int>(pushed_.size()) - 1;
+}
+
+// Those of a body that was held in the last step are likely to hold it again: the others have to be found out.
+const std::vector<Support>& FastBody::supports_of(const btSoftBody& body, const btRigidBody& rigid,
+                                                  btScalar time_step) {
+  const bool is_known = std::find(supported_.begin(), supported_.end(), &rigid) != supported_.end();
+  if (is_known) return supports_;
+  supported_.push_back(&rigid);
+  const std::size_t first = supports_.size();
+  const btScalar reach = kTouchShare * body.getCollisionShape()->getMargin();
+  add_supports(rigid, body.m_worldInfo->m_dispatcher, time_step, reach, supports_);
+  const bool was_held = std::find(last_held_.begin(), last_held_.end(), &rigid) != last_held_.end();
+  for (std::size_t k = first; k < supports_.size(); ++k) supports_[k].is_loaded = was_held;
+  return supports_;
+}
+
+// Whether rigid bodies were pushed into others that had not held them in the last solution, or the other way round.
+bool FastBody::are_supports_wrong(const btSoftBody& body) {
+  const btScalar least = kPressShare * body.getCollisionShape()->getMargin();
+  bool are_wrong = false;
+  for (std::size_t b = 0; b < pushed_.size() && !supports_.empty(); ++b) {
+    const RigidWay way = solver_->body_motion(static_cast<int>(b));
+    are_wrong = update_loads(*pushed_[b], way, least, supports_) || are_wrong;
+  }
+  return are_wrong;
+}
+
+void FastBody::forget_supports() {
+  last_held_.clear();
+  for (const Support& support : supports_) {
+    if (support.is_loaded) last_held_.push_back(support.body);
+  }
+  supports_.clear();
+  supported_.clear();
 }
 
 void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool is_again) {
   pushed_.clear();
+  pushed_places_.clear();
+  pushed_shares_.clear();
   inertias_.clear();
   const auto arm_of = [](const btRigidBody& rigid, const btVector3& place) {
     return from_bullet<btScalar>(place - rigid.getCenterOfMassPosition());
@@ -192,7 +246,7 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     plane.motion = from_bullet<btScalar>(contact.motion);
     plane.friction = body.m_cfg.kDF * contact.object->getFriction();
     if (const btRigidBody* const rigid = movable(contact.object)) {
-      plane.body = number_of(*rigid, time_step, is_again);
+      plane.body = number_of(body, *rigid, time_step, is_again);
       // Where the surface holds the node, which is predicted to be deep inside.
       const btVector3& place = body.m_nodes[contact.node].m_x;
       const btScalar gap = btDot(contact.normal, place) - contact.offset;
@@ -213,24 +267,28 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     led.node = node;
     led.place = from_bullet<btScalar>(place) - origin_;
     if (const btRigidBody* const rigid = movable(anchor.m_body)) {
-      led.body = number_of(*rigid, time_step, is_again);
+      led.body = number_of(body, *rigid, time_step, is_again);
       led.arm = arm_of(*rigid, place);
     }
     led_.push_back(led);
   }
 }
 
-// A body gets the momentum of the motion that the solution has given to it.
+// A body gets the momentum of the motion that the solution has given to it, and that motion: Bullet has moved it before, and
+// would leave nodes inside of it until the next step.
 void FastBody::give_impulses(btSoftBody& body, btScalar time_step) {
   for (std::size_t b = 0; b < pushed_.size(); ++b) {
     const auto motion = solver_->body_motion(static_cast<int>(b));
     if (motion.isZero(0)) continue;
     auto& rigid = const_cast<btRigidBody&>(*pushed_[b]);
-    const btScalar rate = time_step / (inertia_step_ * inertia_step_);
+    const fast::RigidInertia<btScalar>& inertia = inertias_[b];
+    RigidWay impulse;  // what holds it has felt the rest
+    impulse.head<3>() = inertia.mass.cwiseProduct(motion.template head<3>()) / time_step;
+    impulse.tail<3>() = inertia.inertia * motion.template tail<3>() / time_step;
     rigid.activate();
-    rigid.applyCentralImpulse(
-        to_bullet(rate * inertias_[b].mass.cwiseProduct(motion.template head<3>())));
-    rigid.applyTorqueImpulse(to_bullet(rate * (inertias_[b].inertia * motion.template tail<3>())));
+    rigid.applyCentralImpulse(to_bullet(impulse.head<3>().eval()));
+    rigid.applyTorqueImpulse(to_bullet(impulse.tail<3>().eval()));
+    move_at_once(rigid, pushed_shares_[b] * motion);
   }
   for (int a = 0; a < body.m_anchors.size(); ++a) {  // that push with a part only
     const btSoftBody::Anchor& anchor = body.m_anchors[a];

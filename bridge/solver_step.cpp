@@ -124,7 +124,7 @@ void SoftBodySolver::solve_listed_bodies() {
     for (Attachment* one : asked) {
       if (!one->fast->looks_alone()) one->fast->look_again(*one->body, time_step_);
     }
-    std::erase_if(asked, [](const Attachment* one) { return !one->fast->is_contact_missing(); });
+    std::erase_if(asked, [](const Attachment* one) { return !one->fast->is_unfinished(); });
     list_pushed();
     in_parallel(asked,
                 [&](Attachment& one) { one.fast->solve_again(*one.body, time_step_, pushed); });

@@ -236,6 +236,9 @@ void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterat
 template <class Scalar>
 std::optional<Vector3<Scalar>> ImplicitSolver<Scalar>::find_balance() {
   if (!pinned_.empty() || links_.size() != held_.size()) return std::nullopt;
+  for (const Body& body : bodies_) {
+    if (body.is_linked && body.is_held) return std::nullopt;
+  }
   const auto sum = sum_over_parts<Eigen::Vector4d>([&](NodeRange nodes) {  // of forces, of inertia
     const int count = nodes.end - nodes.begin;
     Eigen::Vector4d part;

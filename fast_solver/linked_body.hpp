@@ -40,7 +40,7 @@ struct LinkedBody {
   Vector6 motion = Vector6::Zero();   ///< beyond that of the body left alone [m, rad]
   Vector6 unmoved = Vector6::Zero();  ///< the same where nothing has moved in the step
   Vector6 motion_alone = Vector6::Zero();
-  Matrix6 inertia = Matrix6::Zero();  ///< over h'^2
+  Matrix6 inertia = Matrix6::Zero();  ///< over h^2
   Eigen::LLT<Matrix6> stiffness;      ///< with what is linked to it
   // Of conjugate gradients, as those of nodes.
   Floats6 step, residual, direction, direction_product;
@@ -48,6 +48,7 @@ struct LinkedBody {
   Floats6 none = Floats6::Zero();  ///< the motion that goes with the global correction
   Floats6 unbalanced;
   bool is_linked = false;  ///< any node, in the present round
+  bool is_held = false;    ///< by what is not among bodies
 };
 
 }  // namespace weft::fast

@@ -11,6 +11,8 @@ template <class Scalar>
 struct RigidInertia {
   Vector3<Scalar> mass = Vector3<Scalar>::Zero();     ///< in each direction of the world [kg], > 0
   Matrix3<Scalar> inertia = Matrix3<Scalar>::Zero();  ///< about its centre, in the world [kg m^2]
+  /// What holds it adds so much, for motions of its centre and about it [kg, kg m, kg m^2].
+  Eigen::Matrix<Scalar, 6, 6> held = Eigen::Matrix<Scalar, 6, 6>::Zero();
   /// How it moves during the step if left alone: of its centre [m], about it [rad].
   Vector3<Scalar> motion = Vector3<Scalar>::Zero();
   Vector3<Scalar> turn = Vector3<Scalar>::Zero();

@@ -10,11 +10,14 @@ namespace weft::bridge {
 namespace {
 
 constexpr double kMass = 2;  // [kg]
-/// [J] Twice what the box can fall for.
-constexpr double kLargeGain = 30;
 
-/// The most energy beyond that of its start, of ten seconds [J].
-double most_energy(int number) {
+/// Of ten seconds.
+struct Extremes {
+  double energy = -1;  ///< beyond that of the start [J]
+  double gap = 0;      ///< between an anchor and its node [m]
+};
+
+Extremes extremes_of(int number) {
   ClothMesh mesh = cloth(9, 1, 2);
   mesh.pinned = {0, 8};
   Scene scene(mesh,
@@ -22,50 +25,41 @@ double most_energy(int number) {
   btRigidBody& load = scene.add(box(0.5, 0.1, 0.1), kMass + 1e-4 * number, at(0, 2, -0.5));
   scene.body().appendAnchor(72, &load, false, 1);
   scene.body().appendAnchor(80, &load, false, 1);
-  double most = -1;
-  btScalar lag = 0;  // [m]
+  Extremes most;
   for (int i = 0; i < 40; ++i) {
     scene.step(15);
     const double energy =
         kMass / 2 * static_cast<double>(load.getLinearVelocity().length2()) +
         kMass * 9.81 * static_cast<double>(load.getCenterOfMassPosition().y() - 2) +
         scene.mechanical_energy(2);
-    most = std::max(most, energy);
-    // Bullet moves the box by the step's impulses in the next step.
+    most.energy = std::max(most.energy, energy);
     for (int a = 0; a < 2; ++a) {
       const btSoftBody::Anchor& anchor = scene.body().m_anchors[a];
       const btVector3 place = load.getWorldTransform() * anchor.m_local;
-      lag = std::max(lag, (anchor.m_node->m_x - place).length());
+      most.gap = std::max(most.gap, static_cast<double>((anchor.m_node->m_x - place).length()));
     }
   }
   EXPECT_FALSE(scene.solver().blow_up(scene.body()));
-  if (most <= 0.5) {
-    EXPECT_LT(lag, 0.1) << number;
-    // What it may have fallen from its start by then is no more than 0.5 m.
-    EXPECT_LT(load.getLinearVelocity().length(), std::sqrt(2 * 9.81 * 0.5)) << number;
-    EXPECT_GT(load.getCenterOfMassPosition().y(), 0.5) << number;
-  }
+  // What it may have fallen from its start by then is no more than 0.5 m.
+  EXPECT_LT(load.getLinearVelocity().length(), std::sqrt(2 * 9.81 * 0.5)) << number;
+  EXPECT_GT(load.getCenterOfMassPosition().y(), 0.5) << number;
   return most;
 }
 
 TEST(FastBody, HoldsABoxOnAnchors) {
   int num_gains = 0;
-  int num_large = 0;
-  double largest = 0;
+  Extremes most;
   for (int k = 0; k < WEFT_NUM_BOXES; ++k) {
-    const double energy = most_energy(k);
-    num_gains += energy > 0.5 ? 1 : 0;
-    num_large += energy > kLargeGain ? 1 : 0;
-    largest = std::max(largest, energy);
+    const Extremes of_box = extremes_of(k);
+    num_gains += of_box.energy > 0.5 ? 1 : 0;
+    most.energy = std::max(most.energy, of_box.energy);
+    most.gap = std::max(most.gap, of_box.gap);
   }
-  std::cout << WEFT_NUM_BOXES << " boxes: " << num_gains << " gain energy, " << num_large
-            << " more than " << kLargeGain << " J, most " << largest << " J\n";
-  // What is known of it (docs/fast_solver.md, limits): 5 % gain energy, .5 % a lot; and four standard deviations.
-  const auto most = [](double share) {
-    return share * WEFT_NUM_BOXES + 4 * std::sqrt(share * WEFT_NUM_BOXES);
-  };
-  EXPECT_LE(num_gains, most(0.05));
-  EXPECT_LE(num_large, std::max(1.0, most(0.005)));
+  std::cout << WEFT_NUM_BOXES << " boxes: " << num_gains << " gain energy, most " << most.energy
+            << " J; largest gap " << most.gap << " m\n";
+  // Of 480 none does. An anchor leads to first order in the turn of a step, the box is turned by all of it.
+  EXPECT_EQ(num_gains, 0);
+  EXPECT_LT(most.gap, 0.02);
 }
 
 }  // namespace

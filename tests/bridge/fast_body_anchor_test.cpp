@@ -26,8 +26,8 @@ TEST(FastBody, AnchorsStayAtABoxThatHangsAtRest) {
   for (int a = 0; a < 2; ++a) {
     const btSoftBody::Anchor& anchor = scene.body().m_anchors[a];
     const btVector3 place = load.getWorldTransform() * anchor.m_local;
-    // Its weight moves the box by g h^2 before the cloth holds it back.
-    EXPECT_LT((anchor.m_node->m_x - place).length(), 1.2 * 9.81 * kTimeStep * kTimeStep) << a;
+    // Its weight moves the box by g h^2 = 2.7 mm a step before the cloth holds it back, to single precision at 1 m.
+    EXPECT_LT((anchor.m_node->m_x - place).length(), 2e-6) << a;
   }
 }
 
