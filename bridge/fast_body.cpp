@@ -91,8 +91,6 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
   }
   contacts_.clear();
   obstacles_.clear();
-  forget_supports();
-  is_support_missing_ = false;
   ways_.outdate();
   excess_ = 0;
   wake();
@@ -259,7 +257,7 @@ bool FastBody::keep_energy(btScalar time_step) {
   // Springs are only asked when motion does not tell.
   if (now <= given && contacts_.empty() && excess_ == 0) return false;
   const double slack = kEnergySlack * solver_->step_energy();
-  const bool is_as_solved = !is_contact_missing_ && deep_.empty();
+  const bool is_as_solved = !is_unfinished() && deep_.empty();
   const auto& [known_before, known_after] = solver_->known_energies();
   const double before = known_before ? *known_before : solver_->spring_energy(starts_, team_);
   const double after =
@@ -409,7 +407,7 @@ void FastBody::look_again(btSoftBody& body, btScalar time_step) {
   const TraceScope trace("look again");
   const fast::ThreadTeam::Scope scope(team_, team_size());
   is_contact_missing_ = find_missed_contacts(body, time_step);
-  is_support_missing_ = are_supports_wrong(body);
+  is_support_missing_ = are_supports_wrong(time_step);
 }
 
 bool FastBody::looks_alone() const {

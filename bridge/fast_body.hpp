@@ -29,7 +29,7 @@ inline namespace WEFT_BULLET_PRECISION {
 ///
 /// Solved together: springs and dampers of the network, stabilised bending, anchors, contact with rigid
 /// shapes and Coulomb friction. Contacts with cloth (m_scontacts) are projected afterwards, as Bullet
-/// does it. A dynamic body takes part with its inertia, and gets the impulses at the end of the step.
+/// does it. A dynamic body takes part with its inertia; at the end of the step it gets the impulses, and is moved by them.
 /// Bullet's own links are not looked at.
 class FastBody {
  public:
@@ -95,8 +95,8 @@ class FastBody {
   [[nodiscard]] bool is_predicted() const { return is_predicted_; }
   /// Appends the rigid bodies that this one may push in this step, each once.
   void list_pushed(const btSoftBody& body, std::vector<const btRigidBody*>& list) const;
-  /// In place of btSoftBody::solveConstraints, in parts. prepare(), begin_solve() and solve_again() touch only the body, so that
-  /// those of several bodies may run at the same time; the others look things up in the world and push rigid bodies.
+  /// In place of btSoftBody::solveConstraints, in parts. prepare(), begin_solve(), solve_again() and end_solve() change only the
+  /// body, so that those of several bodies may run at the same time; place() pushes and moves rigid bodies.
   /// pushed: those of all bodies, in order. Each of several that push one rigid body has a part of its inertia: they are
   /// solved apart, and each alone would stop it.
   void prepare(const btSoftBody& body, btScalar time_step);
@@ -151,7 +151,7 @@ class FastBody {
   [[nodiscard]] const std::vector<Support>& supports_of(const btSoftBody& body,
                                                         const btRigidBody& rigid,
                                                         btScalar time_step);
-  [[nodiscard]] bool are_supports_wrong(const btSoftBody& body);
+  [[nodiscard]] bool are_supports_wrong(btScalar time_step);
   void forget_supports();
   void read_constraints(const btSoftBody& body, btScalar time_step, bool is_again);
   void give_impulses(btSoftBody& body, btScalar time_step);
@@ -216,8 +216,8 @@ class FastBody {
       pushed_;  ///< those that the body may push, and what they are to the solver
   std::vector<fast::RigidInertia<btScalar>> inertias_;
   std::vector<btTransform> pushed_places_;  ///< where they were in the last solution
-  std::vector<btScalar> pushed_shares_;  ///< of what they give way in it: other cloth has the rest
-  std::vector<Support> supports_;        ///< of supported_, of the present step
+  std::vector<std::pair<btVector3, btVector3>> velocities_before_;  ///< of pushed_, and angular
+  std::vector<Support> supports_;  ///< of supported_, of the present step
   std::vector<const btRigidBody*> supported_;
   std::vector<const btRigidBody*> last_held_;    ///< with a loaded support in the step before
   std::vector<int> scratch_;                     ///< kept for its memory

@@ -40,9 +40,10 @@ void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& place) 
 
 /// Of the margin: how far below its plane a node may end a step.
 constexpr btScalar kDepthShare = btScalar(0.5);
-/// Of the margin: how near to another rigid object a body touches it, and how far it may be pressed into it in a step.
-constexpr btScalar kTouchShare = btScalar(0.1);
-constexpr btScalar kPressShare = btScalar(0.001);
+/// [m] How near to a rigid object a body touches it.
+constexpr btScalar kTouch = btScalar(1e-3);
+/// [m/s^2] From which acceleration on it is pushed into it.
+constexpr btScalar kLeastPush = btScalar(0.05);
 
 }  // namespace
 
@@ -91,7 +92,7 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
 
 // What the last solution needs too: nodes that slide from one facet into the next.
 void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
-  if (!is_contact_missing_) return;
+  if (!is_unfinished()) return;
   const std::size_t num_solved = contacts_.size();
   for (int look = 0; look <= kMostLooks && find_missed_contacts(body, time_step); ++look) {
     for (const RigidContact& contact : contacts_) {
@@ -191,7 +192,6 @@ int FastBody::number_of(const btSoftBody& body, const btRigidBody& rigid, btScal
   given.held = share * inertia_of_supports(rigid, supports_of(body, rigid, time_step));
   inertias_.push_back(given);
   pushed_places_.push_back(rigid.getCenterOfMassTransform());
-  pushed_shares_.push_back(share);
   return static_cast<int>(pushed_.size()) - 1;
 }
 
@@ -202,16 +202,15 @@ const std::vector<Support>& FastBody::supports_of(const btSoftBody& body, const 
   if (is_known) return supports_;
   supported_.push_back(&rigid);
   const std::size_t first = supports_.size();
-  const btScalar reach = kTouchShare * body.getCollisionShape()->getMargin();
-  add_supports(rigid, body.m_worldInfo->m_dispatcher, time_step, reach, supports_);
+  add_supports(rigid, body.m_worldInfo->m_dispatcher, time_step, kTouch, supports_);
   const bool was_held = std::find(last_held_.begin(), last_held_.end(), &rigid) != last_held_.end();
   for (std::size_t k = first; k < supports_.size(); ++k) supports_[k].is_loaded = was_held;
   return supports_;
 }
 
 // Whether rigid bodies were pushed into others that had not held them in the last solution, or the other way round.
-bool FastBody::are_supports_wrong(const btSoftBody& body) {
-  const btScalar least = kPressShare * body.getCollisionShape()->getMargin();
+bool FastBody::are_supports_wrong(btScalar time_step) {
+  const btScalar least = kLeastPush * time_step * time_step;
   bool are_wrong = false;
   for (std::size_t b = 0; b < pushed_.size() && !supports_.empty(); ++b) {
     const RigidWay way = solver_->body_motion(static_cast<int>(b));
@@ -232,7 +231,6 @@ void FastBody::forget_supports() {
 void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool is_again) {
   pushed_.clear();
   pushed_places_.clear();
-  pushed_shares_.clear();
   inertias_.clear();
   const auto arm_of = [](const btRigidBody& rigid, const btVector3& place) {
     return from_bullet<btScalar>(place - rigid.getCenterOfMassPosition());
@@ -277,18 +275,20 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
 // A body gets the momentum of the motion that the solution has given to it, and that motion: Bullet has moved it before, and
 // would leave nodes inside of it until the next step.
 void FastBody::give_impulses(btSoftBody& body, btScalar time_step) {
+  velocities_before_.clear();
+  for (const btRigidBody* const rigid : pushed_) {
+    velocities_before_.emplace_back(rigid->getLinearVelocity(), rigid->getAngularVelocity());
+  }
   for (std::size_t b = 0; b < pushed_.size(); ++b) {
     const auto motion = solver_->body_motion(static_cast<int>(b));
     if (motion.isZero(0)) continue;
     auto& rigid = const_cast<btRigidBody&>(*pushed_[b]);
     const fast::RigidInertia<btScalar>& inertia = inertias_[b];
-    RigidWay impulse;  // what holds it has felt the rest
-    impulse.head<3>() = inertia.mass.cwiseProduct(motion.template head<3>()) / time_step;
-    impulse.tail<3>() = inertia.inertia * motion.template tail<3>() / time_step;
+    const Vector3<btScalar> impulse = inertia.mass.cwiseProduct(motion.template head<3>());
+    const Vector3<btScalar> turning = inertia.inertia * motion.template tail<3>();
     rigid.activate();
-    rigid.applyCentralImpulse(to_bullet(impulse.head<3>().eval()));
-    rigid.applyTorqueImpulse(to_bullet(impulse.tail<3>().eval()));
-    move_at_once(rigid, pushed_shares_[b] * motion);
+    rigid.applyCentralImpulse(to_bullet((impulse / time_step).eval()));
+    rigid.applyTorqueImpulse(to_bullet((turning / time_step).eval()));
   }
   for (int a = 0; a < body.m_anchors.size(); ++a) {  // that push with a part only
     const btSoftBody::Anchor& anchor = body.m_anchors[a];
@@ -296,6 +296,13 @@ void FastBody::give_impulses(btSoftBody& body, btScalar time_step) {
     const auto node = static_cast<int>(anchor.m_node - &body.m_nodes[0]);
     const btVector3 impulse = time_step * to_bullet(solver_->holding_force(node));
     push(*anchor.m_body, (1 - anchor.m_influence) * impulse, in_world(node));
+  }
+  for (std::size_t b = 0; b < pushed_.size(); ++b) {
+    const bool touches = std::any_of(supports_.begin(), supports_.end(),
+                                     [&](const Support& one) { return one.body == pushed_[b]; });
+    if (touches) continue;  // friction may hold it
+    move_at_once(const_cast<btRigidBody&>(*pushed_[b]), velocities_before_[b].first,
+                 velocities_before_[b].second, time_step);
   }
 }
 

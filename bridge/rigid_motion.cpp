@@ -1,5 +1,7 @@
 #include <weft/bridge/rigid_motion.hpp>
 
+#include <cmath>
+
 #include <Eigen/Geometry>
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
@@ -35,14 +37,14 @@ void add_supports(const btRigidBody& body, btDispatcher* dispatcher, btScalar ti
     const bool is_first = manifold.getBody0() == &body;
     if (!is_first && manifold.getBody1() != &body) continue;
     const btCollisionObject& other = is_first ? *manifold.getBody1() : *manifold.getBody0();
-    if (!other.isStaticOrKinematicObject() || !other.hasContactResponse()) continue;
+    if (!other.isStaticOrKinematicObject() || !dispatcher->needsResponse(&body, &other)) continue;
     for (int p = 0; p < manifold.getNumContacts(); ++p) {
       const btManifoldPoint& point = manifold.getContactPoint(p);
       const btVector3 place =
           body.getCenterOfMassTransform() * (is_first ? point.m_localPointA : point.m_localPointB);
       const btVector3 out = is_first ? point.m_normalWorldOnB : -point.m_normalWorldOnB;
       const btScalar speed = speed_out(body, place, out) - speed_out(other, place, out);
-      if (point.getDistance() + time_step * speed > reach) continue;
+      if (point.getDistance() > reach || std::abs(time_step * speed) > reach) continue;
       supports.push_back({&body, from_bullet<btScalar>(place - body.getCenterOfMassPosition()),
                           from_bullet<btScalar>(out)});
     }
@@ -55,7 +57,8 @@ bool update_loads(const btRigidBody& body, const RigidWay& way, btScalar least,
   for (Support& support : supports) {
     if (support.body != &body) continue;
     const btScalar out = support.way_out(way);
-    const bool is_loaded = support.is_loaded ? out < least / kImmovable : out < -least;
+    // Once loaded it lets go of what pulls, not of what rocks.
+    const bool is_loaded = out < (support.is_loaded ? least / kImmovable : -least);
     has_changed = has_changed || is_loaded != support.is_loaded;
     support.is_loaded = is_loaded;
   }
@@ -74,10 +77,12 @@ Eigen::Matrix<btScalar, 6, 6> inertia_of_supports(const btRigidBody& body,
   return inertia;
 }
 
-void move_at_once(btRigidBody& body, const RigidWay& way) {
+void move_at_once(btRigidBody& body, const btVector3& last_velocity,
+                  const btVector3& last_angular_velocity, btScalar time_step) {
+  if (body.getActivationState() == DISABLE_SIMULATION || body.getNumConstraintRefs() > 0) return;
   btTransform place = body.getCenterOfMassTransform();
-  place.setOrigin(place.getOrigin() + to_bullet(way.head<3>().eval()));
-  const btVector3 turn = to_bullet(way.tail<3>().eval());
+  place.setOrigin(place.getOrigin() + time_step * (body.getLinearVelocity() - last_velocity));
+  const btVector3 turn = time_step * (body.getAngularVelocity() - last_angular_velocity);
   const btScalar angle = turn.length();
   if (angle > 0) place.setRotation(btQuaternion(turn / angle, angle) * place.getRotation());
   body.setCenterOfMassTransform(place);

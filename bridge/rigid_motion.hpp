@@ -27,13 +27,13 @@ struct Support {
   [[nodiscard]] btScalar way_out(const RigidWay& way) const;
 };
 
-/// Appends the points in which a body touches such objects, by the last look of the dispatcher (if any), before Bullet has moved
-/// it over time_step [s]; within reach [m].
+/// Appends the points in which a body rests on such objects or leans on them, by the last look of the dispatcher (if any),
+/// before Bullet has moved it over time_step [s]: within reach [m], and no faster than reach a step.
 void add_supports(const btRigidBody& body, btDispatcher* dispatcher, btScalar time_step,
                   btScalar reach, std::vector<Support>& supports);
 
 /// Whether each is loaded, from how the body gave way in a solution that took those for immovable that were. True if any
-/// has changed. least: what a body may be led into another [m].
+/// has changed. least: what a body may be led into another without that [m].
 bool update_loads(const btRigidBody& body, const RigidWay& way, btScalar least,
                   std::vector<Support>& supports);
 
@@ -41,8 +41,10 @@ bool update_loads(const btRigidBody& body, const RigidWay& way, btScalar least,
 [[nodiscard]] Eigen::Matrix<btScalar, 6, 6> inertia_of_supports(
     const btRigidBody& body, const std::vector<Support>& supports);
 
-/// Moves a dynamic body by what it gives way to. Its velocities stay.
-void move_at_once(btRigidBody& body, const RigidWay& way);
+/// Moves a dynamic body by what a change of its velocities makes of a step, unless something may hold it by friction or by a
+/// joint: Bullet takes such a velocity away before it moves the body.
+void move_at_once(btRigidBody& body, const btVector3& last_velocity,
+                  const btVector3& last_angular_velocity, btScalar time_step);
 
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

@@ -53,11 +53,12 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bo
     for (auto c = static_cast<int>(count * part / num_parts);
          c < static_cast<int>(count * (part + 1) / num_parts); ++c) {
       const int i = problem.contacts[at(c)].node;
-      if (contact_of_[at(i)] != c) continue;
-      decide_hold(problem.contacts[at(c)], is_first);
-      if (holds_[at(i)] == Hold::kFree) contact_of_[at(i)] = -1;  // it lets the node go
+      if (contact_of_[at(i)] == c) decide_hold(problem.contacts[at(c)], is_first);
     }
   });
+  for (const PlaneContact<Scalar>& contact : problem.contacts) {
+    if (holds_[at(contact.node)] == Hold::kFree) contact_of_[at(contact.node)] = -1;  // it lets go
+  }
   for (std::size_t c = 0; c < problem.contacts.size() && !bodies_.empty(); ++c) {
     const PlaneContact<Scalar>& contact = problem.contacts[c];
     const int i = contact.node;

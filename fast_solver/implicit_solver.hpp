@@ -81,7 +81,7 @@ class ImplicitSolver {
     return contact_of_[static_cast<std::size_t>(node)];
   }
   /// After solve(): how far a body of the problem gives way, of its centre [m] and about it [rad]: the nodes have pushed
-  /// it with inertia motion / h^2.
+  /// it and what holds it with (inertia + held) motion / h^2.
   [[nodiscard]] Vector6 body_motion(int body) const {
     return bodies_[static_cast<std::size_t>(body)].motion;
   }

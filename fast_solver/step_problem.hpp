@@ -16,7 +16,7 @@ template <class Scalar>
 struct StepProblem {
   Eigen::Ref<const Matrix3X<Scalar>> targets;  ///< y, 3 x n [m]; of pinned nodes: where they go
   Eigen::Ref<const Matrix3X<Scalar>> starts;   ///< q, 3 x n [m] at the start of the step
-  Scalar time_step;                            ///< h [s]: of dampers
+  Scalar time_step;                            ///< h [s]: of dampers and of rigid bodies
   Scalar inertia_step;                         ///< h' [s]
   std::span<const PlaneContact<Scalar>> contacts = {};
   std::span<const LedNode<Scalar>> led = {};
