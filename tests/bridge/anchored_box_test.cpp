@@ -59,7 +59,8 @@ TEST(FastBody, HoldsABoxOnAnchors) {
             << " J; largest gap " << most.gap << " m\n";
   // Of 480 none does. An anchor leads to first order in the turn of a step, the box is turned by all of it.
   EXPECT_EQ(num_gains, 0);
-  EXPECT_LT(most.gap, 0.02);
+  // Without any turn eight boxes have a gap of 1 cm, with it of 1.3 mm; 480 of 1.1 cm in some flinging.
+  EXPECT_LT(most.gap, WEFT_NUM_BOXES > 100 ? 0.02 : 0.004);
 }
 
 }  // namespace
