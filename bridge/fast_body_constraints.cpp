@@ -3,7 +3,6 @@
 
 #include <weft/bridge/bullet_vector.hpp>
 #include <weft/bridge/fast_body.hpp>
-#include <weft/bridge/rigid_motion.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {

@@ -41,8 +41,8 @@ bool update_loads(const btRigidBody& body, const RigidWay& way, btScalar least,
 [[nodiscard]] Eigen::Matrix<btScalar, 6, 6> inertia_of_supports(
     const btRigidBody& body, const std::vector<Support>& supports);
 
-/// Moves a dynamic body by what a change of its velocities makes of a step, unless something may hold it by friction or by a
-/// joint: Bullet takes such a velocity away before it moves the body.
+/// Moves a dynamic body by what a change of its velocities makes of a step, unless it hangs on a joint or does not take
+/// part. What holds a body, a joint or friction on what it touches, would take that velocity away before Bullet moves it.
 void move_at_once(btRigidBody& body, const btVector3& last_velocity,
                   const btVector3& last_angular_velocity, btScalar time_step);
 
