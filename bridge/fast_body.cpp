@@ -19,10 +19,6 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-/// Between the inertia of an Euler step and the 9/4 of it of a BDF2 step: one factor serves both.
-constexpr btScalar kInertiaStep = btScalar(0.816496580927726);  // sqrt(2 / 3)
-/// A step may be longer or shorter than that of the factor by this before it is made anew.
-constexpr btScalar kStepRatio = btScalar(1.3);
 /// Of m |y - q|^2 / (2 h^2), what a step may gain: rounding, and BDF2 gives back a little of what it took before.
 constexpr double kEnergySlack = 0.01;
 
@@ -192,8 +188,7 @@ void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& o
 }
 
 void FastBody::prepare_solver(const btSoftBody& body, btScalar time_step) {
-  const bool is_same = solver_ != nullptr && time_step < solver_step_ * kStepRatio &&
-                       time_step > solver_step_ / kStepRatio && pins_ == solver_pins_ &&
+  const bool is_same = solver_ != nullptr && pins_ == solver_pins_ &&
                        is_free_.size() == static_cast<std::size_t>(body.m_nodes.size());
   if (!is_same) {
     is_free_.assign(static_cast<std::size_t>(body.m_nodes.size()), true);
@@ -204,17 +199,12 @@ void FastBody::prepare_solver(const btSoftBody& body, btScalar time_step) {
     weights_ = masses_.transpose().cast<btScalar>().replicate(3, 1);
     for (const int pin : pins_) weights_.col(pin).setZero();
   }
-  if (is_same && solver_->is_renewed()) return;
+  if (is_same) return;
   const fast::ThreadTeam::Pause pause(team_);  // what follows are tasks of oneTBB
-  if (is_same) {
-    solver_->renew({&network_, &torn_nodes_, &torn_springs_}, masses_);
-    return;
-  }
   settle_network();
   const TraceScope trace("factorise");
-  solver_ = std::make_unique<fast::ImplicitSolver<btScalar>>(
-      network_, masses_, is_free_, static_cast<double>(time_step * kInertiaStep));
-  solver_step_ = time_step;
+  solver_ = std::make_unique<fast::ImplicitSolver<btScalar>>(network_, masses_, is_free_,
+                                                             static_cast<double>(time_step));
 }
 
 bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {

@@ -177,7 +177,6 @@ class FastBody {
   std::vector<int> solver_pins_;  ///< likewise
   std::vector<int> pins_;         ///< of the present step
   Matrix3X<btScalar> weights_;    ///< masses, each thrice [kg]; 0 for pins
-  btScalar solver_step_ = 0;      ///< [s] of the steps that solver_ was made for
 
   fast::ThreadTeam team_;
   int num_threads_ = 1;

@@ -20,6 +20,11 @@ constexpr int kHalvings = 6;
 /// Of the energy of the motion without springs: what a round must take away for another one to follow.
 constexpr double kLastDescent = 1e-4;
 constexpr int kExtraIterations = 4;
+/// Of that energy: the work of the last round from which on a touched body gets more of them; how many, and of how many
+/// times the iterations.
+constexpr double kUnsettled = 0.1;
+constexpr int kMoreRounds = 2;
+constexpr int kMoreIterations = 2;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -169,12 +174,11 @@ template <class Scalar>
 bool ImplicitSolver<Scalar>::go_downhill(const StepProblem<Scalar>& problem, int iterations) {
   go_back();
   evaluate();
-  // What springs will hold back would be held by a plane that it would reach without them.
-  std::fill(holds_.begin(), holds_.end(), Hold::kFree);
   bool is_careful = false;
   bool went_down = false;
   for (int round = 0; round < kExtraRounds; ++round) {
-    do_round(problem, kExtraIterations * iterations, false);
+    do_round(problem,
+             {.iterations = kExtraIterations * iterations, .factorises = round == 0 || is_careful});
     const double before = energy(problem, unmoved_, &Body::unmoved).total;
     const bool goes_down = descend(problem);
     if (goes_down) {
@@ -199,6 +203,18 @@ bool ImplicitSolver<Scalar>::go_downhill(const StepProblem<Scalar>& problem, int
   return went_down;
 }
 
+// Where a body meets something, springs may have to turn far, and a few iterations carry little of that to the others. What the last
+// round was worth tells what another one would be. Whether there was one.
+template <class Scalar>
+bool ImplicitSolver<Scalar>::settle(const StepProblem<Scalar>& problem, int iterations) {
+  int rounds = 0;
+  while (rounds < kMoreRounds && !held_.empty() && work_done_ > kUnsettled * step_energy_) {
+    if (rounds++ == 0) evaluate();
+    do_round(problem, {.iterations = kMoreIterations * iterations});
+  }
+  return rounds > 0;
+}
+
 // The exact solution has no more of the energy that it minimises than the places at the start. One
 // that has is thrown away: Newton's method starts there once more, and now each of its steps must go
 // downhill. So an implicit step gains no energy, however badly its linear systems are solved.
@@ -219,12 +235,20 @@ void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterat
   add_energy_of_holds(problem, unmoved_, &Body::unmoved, before);
   add_energy_of_holds(problem, places_, &Body::motion, after);
   if (is_unmoved) known_.before = before.of_springs;
-  if (after.total <= before.total + kRoundingShare * step_energy_) {
+  const double most = before.total + kRoundingShare * step_energy_;
+  if (after.total <= most && settle(problem, iterations)) {
+    after = energy(problem, places_, &Body::motion);
+  }
+  if (after.total <= most) {
     known_.after = after.of_springs;
     return;
   }
   if (go_downhill(problem, iterations)) return;
+  // What springs will hold back would be held by a plane that it would reach without them.
+  std::fill(holds_.begin(), holds_.end(), Hold::kFree);
+  if (go_downhill(problem, iterations)) return;
   has_friction_ = false;
+  std::fill(holds_.begin(), holds_.end(), Hold::kFree);
   (void)go_downhill(problem, iterations);
   has_friction_ = true;
 }
@@ -234,7 +258,8 @@ void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterat
 // rounding. Where something does, what is left over is no error of the whole body's: in a stiff sheet a
 // micrometre is worth many newtons.
 template <class Scalar>
-std::optional<Vector3<Scalar>> ImplicitSolver<Scalar>::find_balance() {
+std::optional<Vector3<Scalar>> ImplicitSolver<Scalar>::find_balance(
+    const StepProblem<Scalar>& problem) {
   if (!pinned_.empty() || links_.size() != held_.size()) return std::nullopt;
   for (const Body& body : bodies_) {
     if (body.is_linked && body.is_held) return std::nullopt;
@@ -260,6 +285,11 @@ std::optional<Vector3<Scalar>> ImplicitSolver<Scalar>::find_balance() {
     left -= of_body.cwiseProduct(body.motion.template head<3>().template cast<double>());
   }
   const Vector3<Scalar> shift = left.cwiseQuotient(inertia).template cast<Scalar>();
+  for (const PlaneContact<Scalar>& contact : problem.contacts) {
+    if (contact.body >= 0 && bodies_[at(contact.body)].is_linked) continue;
+    const Vector3<Scalar> place = at_node(places_, contact.node) + shift;
+    if (contact.normal.dot(place) < contact.offset) return std::nullopt;
+  }
   for (Body& body : bodies_) {
     if (body.is_linked) body.motion.template head<3>() += shift;
   }

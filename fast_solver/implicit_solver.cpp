@@ -7,6 +7,7 @@
 
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/trace.hpp>
+#include <weft/fast_solver/isotropic_network.hpp>
 
 namespace weft::fast {
 namespace {
@@ -46,31 +47,28 @@ int iterations_of(const StepProblem<Scalar>& problem, const SolverEffort& effort
   return effort.iterations + (round == effort.rounds - 1 ? effort.iterations / 4 : 0);
 }
 
-GlobalCorrection correction_of(const SpringNetwork& network, const VectorX<double>& masses,
-                               const std::vector<bool>& is_free, double inertia_step) {
-  const auto n = static_cast<std::size_t>(masses.size());
-  if (is_free.size() != n) {
+CoarseCorrection correction_of(const SpringNetwork& network, const std::vector<bool>& is_free,
+                               Eigen::Index num_nodes, double time_step) {
+  if (static_cast<Eigen::Index>(is_free.size()) != num_nodes) {
     throw InvalidArgument("implicit solver: " + std::to_string(is_free.size()) +
                           " flags of free nodes, expected one for each of the " +
-                          std::to_string(n) + " nodes");
+                          std::to_string(num_nodes) + " nodes");
   }
+  const auto n = static_cast<int>(num_nodes);
   const std::vector<int> names = free_nodes(is_free);
-  const SpringNetwork none;
-  const std::vector<char> nowhere;
-  return {isotropic_matrix({&network, &nowhere, &none}, masses, names, inertia_step), names,
-          static_cast<int>(n)};
+  return {isotropic_network(network, n, names, time_step), names, n};
 }
 
 }  // namespace
 
 template <class Scalar>
 ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const VectorX<double>& masses,
-                                       const std::vector<bool>& is_free, double inertia_step)
+                                       const std::vector<bool>& is_free, double time_step)
     : parts_(static_cast<int>(masses.size())),
       forces_(network, static_cast<int>(masses.size())),
-      global_(correction_of(network, masses, is_free, inertia_step)),
-      inertia_step_(inertia_step) {
+      coarse_correction_(correction_of(network, is_free, masses.size(), time_step)) {
   set_nodes(masses, is_free);
+  coarse_correction_.note_springs(forces_.slots(), {});
 }
 
 template <class Scalar>
@@ -113,27 +111,11 @@ void ImplicitSolver<Scalar>::tear(const SpringNetwork& springs, const std::vecto
                                   const VectorX<double>& masses, const std::vector<int>& origins) {
   std::vector<bool> is_free = is_free_;
   for (const int origin : origins) is_free.push_back(is_free_[at(origin)]);
-  forces_.replace(springs, is_changed, static_cast<int>(masses.size()));
+  const std::vector<char> blocks =
+      forces_.replace(springs, is_changed, static_cast<int>(masses.size()));
   set_nodes(masses, is_free);
-  global_.add_copies(origins);
-  copies_.insert(copies_.end(), origins.begin(), origins.end());
-  is_outdated_ = true;
-}
-
-template <class Scalar>
-void ImplicitSolver<Scalar>::renew(const ChangedNetwork& network, const VectorX<double>& masses) {
-  if (next_global_) {
-    if (!next_global_->advance()) return;
-    global_ = next_global_->take();
-    global_.add_copies(copies_);
-    next_global_.reset();
-  } else if (is_outdated_) {
-    const std::vector<int> names = free_nodes(is_free_);
-    next_global_ = std::make_unique<CorrectionMaker>(
-        isotropic_matrix(network, masses, names, inertia_step_), names, num_nodes());
-    copies_.clear();
-    is_outdated_ = false;
-  }
+  coarse_correction_.add_copies(origins);
+  coarse_correction_.note_springs(forces_.slots(), blocks);
 }
 
 template <class Scalar>
@@ -228,14 +210,12 @@ typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition(F
   for (Body& body : bodies_) body.correction = body.stiffness.solve(body.residual);
   add_motions(&Body::correction, correction);
   multiply(correction, &Body::correction, correction_product_, &Body::correction_product,
-           [&](NodeRange nodes, int) {
-             global_.set_residual(nodes, residual_vector_, correction_product_);
+           [&](NodeRange, int part) {
+             coarse_correction_.set_residual(part, held_, residual_vector_, correction_product_);
            });
-  global_.solve(*team_);
-  team_->run(global_.num_parts(), [&](int part) {
-    global_.interpolate(part, coarse_);
-    project(global_.nodes_of(part), coarse_);
-  });
+  coarse_correction_.solve(*team_);
+  team_->run(parts_.count(),
+             [&](int part) { coarse_correction_.interpolate(part, held_, coarse_); });
   std::array<VectorKernel::Products, ThreadTeam::kMostParts> of_part;
   multiply(coarse_, &Body::none, coarse_product_, &Body::coarse_product,
            [&](NodeRange nodes, int part) {
@@ -383,19 +363,21 @@ void ImplicitSolver<Scalar>::move() {
 }
 
 template <class Scalar>
-void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, int iterations,
-                                      bool is_first, bool linearises) {
-  decide_holds(problem, is_first);
-  solve_linear(problem, iterations);
+void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, const Round& round) {
+  decide_holds(problem, round.is_first);
+  if (round.is_first || round.factorises) {
+    forces_.factorise(coarse_correction_, holds_, inertia_, *team_);
+  }
+  solve_linear(problem, round.iterations);
   const double of_bodies = work_of_bodies();
   move();
   const std::size_t num_held = held_.size();
   const double of_others = of_bodies - work_of_held(num_held);
   clamp(problem);
-  evaluate(linearises);
+  evaluate(round.linearises);
   if (!hold_back(work_done_ + of_others, num_held)) return;
   clamp(problem);
-  evaluate(linearises);
+  evaluate(round.linearises);
 }
 
 template <class Scalar>
@@ -424,17 +406,19 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const Sol
   const double first = std::sqrt(unbalanced_squares_);
   for (int round = 0; round < effort.rounds; ++round) {
     const bool is_last = round == effort.rounds - 1 && problem.bodies.empty();
-    do_round(problem, iterations_of(problem, effort, round), round == 0, !is_last);
+    do_round(problem, {.iterations = iterations_of(problem, effort, round),
+                       .is_first = round == 0,
+                       .linearises = !is_last});
   }
   for (int extra = 0; !links_.empty() && extra < kLinkedRounds; ++extra) {
     find_holding_forces();
     if (left_over() <= kLinkedResidual * first) break;
-    do_round(problem, effort.iterations, false);
+    do_round(problem, {.iterations = effort.iterations});
   }
   if (is_suspicious(problem)) tame(problem, effort.iterations);
   find_holding_forces();
   residual_ = first > 0 ? left_over() / first : 0.0;
-  const std::optional<Vector3<Scalar>> shift = find_balance();
+  const std::optional<Vector3<Scalar>> shift = find_balance(problem);
   for_each_part([&](NodeRange nodes) {
     const int end = std::min(nodes.end, num_nodes());
     if (shift) places_.middleRows(nodes.begin, end - nodes.begin).rowwise() += shift->transpose();

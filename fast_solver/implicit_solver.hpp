@@ -8,9 +8,8 @@
 
 #include <Eigen/Geometry>
 
-#include <weft/fast_solver/correction_maker.hpp>
+#include <weft/fast_solver/coarse_correction.hpp>
 #include <weft/fast_solver/direction_weights.hpp>
-#include <weft/fast_solver/global_correction.hpp>
 #include <weft/fast_solver/linked_body.hpp>
 #include <weft/fast_solver/network_forces.hpp>
 #include <weft/fast_solver/node_arrays.hpp>
@@ -46,18 +45,13 @@ class ImplicitSolver {
                  const std::vector<bool>& is_free, double inertia_step);
 
   [[nodiscard]] int num_nodes() const { return forces_.num_nodes(); }
-  [[nodiscard]] const GlobalCorrection& global_correction() const { return global_; }
+  [[nodiscard]] const CoarseCorrection& coarse_correction() const { return coarse_correction_; }
 
   /// The cloth has come apart: springs in the place of all that have an end among the changed nodes (flags),
   /// copies of the origins behind the other nodes, masses of all [kg]. Takes a small part of what a
   /// solver made anew takes, for the global correction stays: copies have their origins' parts in it.
   void tear(const SpringNetwork& springs, const std::vector<char>& is_changed,
             const VectorX<double>& masses, const std::vector<int>& origins);
-  /// To be called once in every step: after a tear the global correction is made anew in parts, one in
-  /// each call, some twenty in all; nothing happens otherwise. network, masses: the present ones. What a
-  /// step gives depends on how many there were since the tear, and on no clock or thread.
-  void renew(const ChangedNetwork& network, const VectorX<double>& masses);
-  [[nodiscard]] bool is_renewed() const { return !is_outdated_ && !next_global_; }
 
   /// places: 3 x n [m], in: a guess; out: the solution.
   void solve(const StepProblem<Scalar>& problem, const SolverEffort& effort,
@@ -162,8 +156,14 @@ class ImplicitSolver {
   [[nodiscard]] Overlaps precondition(Floats& correction, bool is_first);
   void sum_up(NodeRange nodes, bool keeps_direction);
   void move();
-  void do_round(const StepProblem<Scalar>& problem, int iterations, bool is_first,
-                bool linearises = true);
+  /// Of Newton's method.
+  struct Round {
+    int iterations;
+    bool is_first = false;    ///< of a step
+    bool linearises = true;   ///< for another round
+    bool factorises = false;  ///< makes the coarse correction anew
+  };
+  void do_round(const StepProblem<Scalar>& problem, const Round& round);
   struct Energy {
     double total = 0;
     double of_springs = 0;
@@ -183,6 +183,7 @@ class ImplicitSolver {
   void go_back();
   bool descend(const StepProblem<Scalar>& problem);
   void tame(const StepProblem<Scalar>& problem, int iterations);
+  bool settle(const StepProblem<Scalar>& problem, int iterations);
   bool go_downhill(const StepProblem<Scalar>& problem, int iterations);
   /// Only part of the last step, if it went too far; evaluate() is due then. num_held: of the linear system, not of clamp().
   bool hold_back(double work_before, std::size_t num_held);
@@ -193,19 +194,15 @@ class ImplicitSolver {
   /// Norm of the forces that nothing balances [N].
   [[nodiscard]] double left_over();
   /// A shift of all nodes [m]; bodies are shifted already.
-  [[nodiscard]] std::optional<Vector3<Scalar>> find_balance();
+  [[nodiscard]] std::optional<Vector3<Scalar>> find_balance(const StepProblem<Scalar>& problem);
   void find_remainders(NodeRange nodes);
   void clamp(const StepProblem<Scalar>& problem);
 
   ThreadTeam* team_ = nullptr;  ///< during solve()
   NodeParts parts_;
   NetworkForces<Scalar> forces_;
-  GlobalCorrection global_;
-  double inertia_step_;                           ///< [s] of the global correction
-  std::unique_ptr<CorrectionMaker> next_global_;  ///< for the network as it was at some tear
-  std::vector<int> copies_;                       ///< since then, their origins
-  bool is_outdated_ = false;                      ///< there was a tear since then
-  VectorX<Scalar> masses_;                        ///< [kg], filled up with zeros
+  CoarseCorrection coarse_correction_;
+  VectorX<Scalar> masses_;  ///< [kg], filled up with zeros
   std::vector<bool> is_free_;
   std::vector<int> pinned_;
   std::vector<int> held_;  ///< nodes with a hold, in order while linear systems are solved

@@ -116,12 +116,13 @@ void NetworkForces<Scalar>::write(std::size_t place, const Spring& values) {
 }
 
 template <class Scalar>
-void NetworkForces<Scalar>::replace(const SpringNetwork& springs,
-                                    const std::vector<char>& is_changed, int num_nodes) {
+std::vector<char> NetworkForces<Scalar>::replace(const SpringNetwork& springs,
+                                                 const std::vector<char>& is_changed,
+                                                 int num_nodes) {
   has_damping_ = has_damping_ || (springs.damping.array() != 0).any();
   has_stabiliser_ = has_stabiliser_ || (springs.stabiliser.array() != 0).any();
   note_stiffest(springs);
-  const std::vector<char> blocks = blocks_to_change(springs, is_changed);
+  std::vector<char> blocks = blocks_to_change(springs, is_changed);
   std::vector<std::vector<Spring>> of_block(blocks.size());
   for (int block = 0; block < slots_.num_blocks(); ++block) {
     if (blocks[at(block)] != 0) keep_springs(block, is_changed, of_block[at(block)]);
@@ -149,6 +150,7 @@ void NetworkForces<Scalar>::replace(const SpringNetwork& springs,
     if (blocks[at(block)] != 0) lay_out(block, of_block[at(block)]);
   }
   resize_arrays();
+  return blocks;
 }
 
 /// Flags, of the new number of blocks.

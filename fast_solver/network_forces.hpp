@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <weft/fast_solver/coarse_correction.hpp>
 #include <weft/fast_solver/edge_slots.hpp>
 #include <weft/fast_solver/network_kernel.hpp>
 #include <weft/fast_solver/node_arrays.hpp>
@@ -30,7 +31,9 @@ class NetworkForces {
   /// has such an end; without stabilisers, those with one such end only are taken to be as they were.
   /// Takes time for what changes only: blocks that grow are laid out anew behind the others. Results are
   /// those of a network made anew, but for the order in which the springs of some nodes are summed.
-  void replace(const SpringNetwork& springs, const std::vector<char>& is_changed, int num_nodes);
+  /// Returns flags of the blocks of kNodeBlock nodes that were laid out anew.
+  std::vector<char> replace(const SpringNetwork& springs, const std::vector<char>& is_changed,
+                            int num_nodes);
   /// Share of the slots that no block uses any more [-].
   [[nodiscard]] double unused_share() const;
 
@@ -64,6 +67,13 @@ class NetworkForces {
 
   /// The 3 x 3 blocks of the diagonal of that stiffness [N/m].
   [[nodiscard]] const BlockArrays& diagonal_blocks() const { return diagonal_; }
+
+  [[nodiscard]] const EdgeSlots& slots() const { return slots_; }
+  /// Makes a correction for the last linearisation.
+  void factorise(CoarseCorrection& correction, const std::vector<Hold>& holds,
+                 const VectorX<float>& inertia, ThreadTeam& team) const {
+    correction.factorise(linear_.data(), root_scale_, holds, inertia, team);
+  }
 
  private:
   /// A spring as one of its ends sees it.

@@ -1,3 +1,4 @@
+#include <weft/fast_solver/coarse_kernel.hpp>
 #include <weft/fast_solver/network_kernel.hpp>
 
 #ifdef WEFT_VECTOR_KERNELS
@@ -17,6 +18,8 @@ template <class Scalar>
 const SumKernel<Scalar>& sum_kernel_avx512();
 const VectorKernel& vector_kernel_avx2();
 const VectorKernel& vector_kernel_avx512();
+const CoarseKernel& coarse_kernel_avx2();
+const CoarseKernel& coarse_kernel_avx512();
 #endif
 
 namespace {
@@ -27,6 +30,8 @@ constexpr int kVectorBytes = 16;
 #include "network_kernel_body.inc"
 
 #include "vector_kernel_body.inc"
+
+#include "coarse_kernel_body.inc"
 
 #ifdef WEFT_VECTOR_KERNELS
 // Half precision goes with AVX2 in every processor, but not in every virtual machine; not all compilers know its name.
@@ -75,6 +80,14 @@ const VectorKernel& vector_kernel() {
   if (has_avx2()) return vector_kernel_avx2();
 #endif
   return kVectors;
+}
+
+const CoarseKernel& coarse_kernel() {
+#ifdef WEFT_VECTOR_KERNELS
+  if (has_avx512()) return coarse_kernel_avx512();
+  if (has_avx2()) return coarse_kernel_avx2();
+#endif
+  return kCoarse;
 }
 
 template const NetworkKernel<float>& network_kernel();

@@ -76,15 +76,6 @@ struct SumKernel {
                           const Scalar* forces);
 };
 
-/// Rows of a sparse matrix that have equally many terms, one row after the other.
-struct RowsOfTerms {
-  const int* rows;
-  long num_rows;
-  long num_terms;
-  const int* columns;
-  const float* weights;
-};
-
 /// Loops of conjugate gradients over some nodes.
 struct VectorKernel {
   struct Products {
@@ -111,21 +102,7 @@ struct VectorKernel {
   /// of 0.
   void (*add_vectors)(const float* const* vectors, const float* weights, int count,
                       float own_weight, int stride, NodeRange nodes, float* sum);
-  /// result of each row = sum of its weights times values of its columns; all in fours
-  void (*sum_terms)(const RowsOfTerms& rows, const float* values, float* result);
-  /// In half precision; size: a multiple of kNodeBlock, numbers below 65504.
-  void (*to_halves)(const float* values, int size, unsigned short* halves);
-  /// result = scale times kDenseRows rows of a matrix, column after column, times `size` vectors, a multiple of
-  /// kDenseRows; vectors in fours.
-  void (*multiply_dense)(const unsigned short* matrix, int size, float scale, const float* fours,
-                         float* result);
-  /// x, y, z and a zero of a - b of each node in a row, and back.
-  void (*to_fours)(const float* a, const float* b, int stride, NodeRange nodes, float* fours);
-  void (*from_fours)(const float* fours, int stride, NodeRange nodes, float* arrays);
 };
-
-/// Rows of a dense matrix that are multiplied together.
-inline constexpr int kDenseRows = 32;
 
 /// The fastest that this processor runs. Same results in every call, but not those of another
 /// processor: AVX2 brings fused operations, and each maker has its own estimate of a root.

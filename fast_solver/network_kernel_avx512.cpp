@@ -1,6 +1,7 @@
 // Compiled for AVX-512 (CMakeLists.txt), called only on processors that have it.
 #include <immintrin.h>
 
+#include <weft/fast_solver/coarse_kernel.hpp>
 #include <weft/fast_solver/network_kernel.hpp>
 
 namespace weft::fast {
@@ -13,6 +14,8 @@ constexpr int kVectorBytes = 64;
 
 #include "vector_kernel_body.inc"
 
+#include "coarse_kernel_body.inc"
+
 }  // namespace
 
 template <class Scalar>
@@ -20,6 +23,7 @@ const NetworkKernel<Scalar>& network_kernel_avx512();
 template <class Scalar>
 const SumKernel<Scalar>& sum_kernel_avx512();
 const VectorKernel& vector_kernel_avx512();
+const CoarseKernel& coarse_kernel_avx512();
 
 template <class Scalar>
 const NetworkKernel<Scalar>& network_kernel_avx512() {
@@ -33,6 +37,10 @@ const SumKernel<Scalar>& sum_kernel_avx512() {
 
 const VectorKernel& vector_kernel_avx512() {
   return kVectors;
+}
+
+const CoarseKernel& coarse_kernel_avx512() {
+  return kCoarse;
 }
 
 template const NetworkKernel<float>& network_kernel_avx512();

@@ -45,31 +45,4 @@ struct SpringNetwork {
 void replace_springs(const std::vector<char>& is_changed, const SpringNetwork& springs,
                      SpringNetwork& network);
 
-/// A network in which springs stand in the place of all that have an end among the changed nodes, without being
-/// made: what replace_springs() would give. is_changed may be empty: none.
-struct ChangedNetwork {
-  const SpringNetwork* network;
-  const std::vector<char>* is_changed;
-  const SpringNetwork* springs;
-
-  /// take(part, e): the springs in order, spring e of one of the two networks.
-  template <class Take>
-  void for_each(const Take& take) const {
-    Eigen::Index next = 0;  // of springs
-    const auto& edges = network->edges;
-    const auto& others = springs->edges;
-    const auto flag = [&](int node) { return (*is_changed)[static_cast<std::size_t>(node)] != 0; };
-    for (Eigen::Index e = 0; e < edges.cols(); ++e) {
-      if (!is_changed->empty() && (flag(edges(0, e)) || flag(edges(1, e)))) continue;
-      const auto is_before = [&](Eigen::Index o) {
-        return others(0, o) != edges(0, e) ? others(0, o) < edges(0, e)
-                                           : others(1, o) < edges(1, e);
-      };
-      for (; next < others.cols() && is_before(next); ++next) take(*springs, next);
-      take(*network, e);
-    }
-    for (; next < others.cols(); ++next) take(*springs, next);
-  }
-};
-
 }  // namespace weft::fast

@@ -1,0 +1,315 @@
+#include <weft/fast_solver/coarse_correction.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <weft/fast_solver/smoothed_aggregates.hpp>
+
+namespace weft::fast {
+namespace {
+
+/// Hats are at least so many, or 2.5 sqrt(nodes): what it takes to factorise grows slower than the network then.
+constexpr int kLeastHats = 24;
+constexpr double kHatsPerRoot = 2.5;
+/// Of a spring's largest one, terms that are left out.
+constexpr float kLeastTerm = 0.1F;
+/// Springs of a hat that are enough to know the stiffness between it and its neighbours, about.
+constexpr int kSpringsOfHat = 60;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+int hats_for(int num_unknowns) {
+  return std::max(kLeastHats, static_cast<int>(kHatsPerRoot * std::sqrt(num_unknowns)));
+}
+
+}  // namespace
+
+CoarseCorrection::CoarseCorrection(const IsotropicNetwork& springs, const std::vector<int>& names,
+                                   int num_nodes)
+    : num_nodes_(num_nodes), parts_(num_nodes), weights_(at(fill_up(num_nodes))) {
+  if (springs.matrix.size() == 0) return;
+  const Interpolation hats = smoothed_aggregates(springs, hats_for(springs.matrix.size()));
+  num_hats_ = hats.num_coarse;
+  for (int unknown = 0; unknown < hats.size(); ++unknown) {
+    HatWeights& of_node = weights_[at(names[at(unknown)])];
+    int k = 0;
+    for (int e = hats.starts[at(unknown)]; e < hats.starts[at(unknown) + 1]; ++e, ++k) {
+      of_node.hats[k] = hats.columns[at(e)];
+      of_node.weights[k] = static_cast<float>(hats.values[at(e)]);
+    }
+  }
+  fill_gaps();
+  stride_ = std::max(
+      1, static_cast<int>(springs.matrix.columns.size() / 2) / (kSpringsOfHat * num_hats_));
+  find_pairs(springs, names);
+  band_ = BorderedBand(num_hats_, pairs_);
+  for (Fours* fours : {&residual_, &solution_}) fours->setZero(4, num_hats_);
+  sums_.assign(at(band_.num_blocks()) * kBlockNumbers, 0.0F);
+  masses_.assign(at(num_hats_), 0.0F);
+  alone_.resize(weights_.size());
+  for (int node = 0; node < num_nodes; ++node) note_alone(node);
+  add_copies({});
+}
+
+// Where there is no part in a hat, one that is near, so that hats of parts of the nodes are.
+void CoarseCorrection::fill_gaps() {
+  int last = weights_[0].hats[0];
+  for (HatWeights& of_node : weights_) {
+    if (of_node.weights[0] != 0) last = of_node.hats[0];
+    for (int k = 0; k < kMostWeights; ++k) {
+      if (of_node.weights[k] == 0) of_node.hats[k] = last;
+    }
+  }
+}
+
+CoarseCorrection::Row CoarseCorrection::row_of(int node) const {
+  const HatWeights& of_node = weights_[at(node)];
+  Row row;
+  for (int k = 0; k < kMostWeights; ++k) {
+    if (of_node.weights[k] != 0) row.emplace_back(of_node.hats[k], of_node.weights[k]);
+  }
+  return row;
+}
+
+// Of hats that a spring or a node knows.
+void CoarseCorrection::find_pairs(const IsotropicNetwork& springs, const std::vector<int>& names) {
+  std::vector<std::vector<int>> higher(at(num_hats_));
+  const auto add = [&](int i, int j) {
+    const HatWeights& a = weights_[at(names[at(i)])];
+    const HatWeights& b = weights_[at(names[at(j)])];
+    for (int k = 0; k < kMostWeights; ++k) {
+      for (int l = 0; l < kMostWeights; ++l) {
+        if (a.weights[k] == 0 || b.weights[l] == 0 || a.hats[k] == b.hats[l]) continue;
+        const auto [low, high] = std::minmax(a.hats[k], b.hats[l]);
+        std::vector<int>& list = higher[at(low)];
+        if (std::find(list.begin(), list.end(), high) == list.end()) list.push_back(high);
+      }
+    }
+  };
+  for (int i = 0; i < springs.matrix.size(); ++i) {
+    add(i, i);
+    for (int e = springs.matrix.starts[at(i)]; e < springs.matrix.starts[at(i) + 1]; ++e) {
+      if (springs.matrix.columns[at(e)] > i) add(i, springs.matrix.columns[at(e)]);
+    }
+  }
+  for (int hat = 0; hat < num_hats_; ++hat) {
+    first_pairs_.push_back(static_cast<int>(pairs_.size()));
+    std::sort(higher[at(hat)].begin(), higher[at(hat)].end());
+    for (const int other : higher[at(hat)]) pairs_.emplace_back(hat, other);
+  }
+  first_pairs_.push_back(static_cast<int>(pairs_.size()));
+}
+
+/// -1 for hats that do not know each other.
+int CoarseCorrection::pair_of(int a, int b) const {
+  const std::pair<int, int> both = std::minmax(a, b);
+  const auto end = pairs_.begin() + first_pairs_[at(both.first) + 1];
+  const auto found = std::lower_bound(pairs_.begin() + first_pairs_[at(both.first)], end, both);
+  return found != end && *found == both ? static_cast<int>(found - pairs_.begin()) : -1;
+}
+
+// The energy of sum d_a x_a over a spring, as springs between hats and to what does not move.
+void CoarseCorrection::add_terms(const Row& row, std::vector<CoarseTerm>& terms) const {
+  float sum = 0;
+  float largest = 0;
+  for (const auto& [hat, d] : row) {
+    sum += d;
+    largest = std::max(largest, std::abs(d));
+  }
+  const float least = kLeastTerm * largest * largest;
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    const auto [hat, d] = row[k];
+    for (std::size_t l = k + 1; l < row.size(); ++l) {
+      const float factor = -d * row[l].second;
+      const int pair = pair_of(hat, row[l].first);
+      if (pair >= 0 && std::abs(factor) > least) terms.push_back({band_.pair_block(pair), factor});
+    }
+    if (std::abs(d * sum) > least) terms.push_back({band_.own_block(hat), d * sum});
+  }
+}
+
+void CoarseCorrection::note_alone(int node) {
+  std::vector<CoarseTerm> terms;
+  add_terms(row_of(node), terms);
+  alone_[at(node)].num_terms = static_cast<int>(terms.size());
+  std::copy(terms.begin(), terms.end(), alone_[at(node)].terms);
+}
+
+void CoarseCorrection::add_copies(const std::vector<int>& origins) {
+  if (num_hats_ == 0) return;
+  for (const int origin : origins) {
+    const int node = num_nodes_++;
+    weights_.resize(at(fill_up(num_nodes_)));
+    alone_.resize(weights_.size());
+    weights_[at(node)] = weights_[at(origin)];
+    note_alone(node);
+  }
+  parts_ = NodeParts(num_nodes_);
+}
+
+void CoarseCorrection::note_springs(const EdgeSlots& slots, const std::vector<char>& blocks) {
+  if (num_hats_ == 0) return;
+  const auto num_before = blocks_.size();
+  blocks_.resize(at(slots.num_blocks()));
+  for (int b = 0; b < slots.num_blocks(); ++b) {
+    if (at(b) < num_before && blocks[at(b)] == 0) continue;
+    Block& block = blocks_[at(b)];
+    block.springs.clear();
+    block.terms.clear();
+    const SlotRange& range = slots.blocks[at(b)];
+    for (int slot = range.begin; slot < range.end; ++slot) {
+      for (int lane = 0; lane < kNodeBlock; ++lane) {
+        const auto place = at(slot) * kNodeBlock + at(lane);
+        const int node = b * kNodeBlock + lane;
+        const int other = slots.others[place];
+        if (slots.edges[place] < 0 || node >= slots.num_nodes || other <= node) continue;
+        Row row = row_of(node);
+        for (const auto& [hat, weight] : row_of(other)) {
+          const auto same = std::find_if(row.begin(), row.end(),
+                                         [h = hat](const auto& entry) { return entry.first == h; });
+          if (same == row.end()) {
+            row.emplace_back(hat, -weight);
+          } else {
+            same->second -= weight;
+          }
+        }
+        float sum = 0;
+        for (const auto& [hat, d] : row) sum += d;
+        const bool is_bound = std::abs(sum) > 0.01F;
+        if (!is_bound && (lane + slot) % stride_ != 0) continue;
+        const std::size_t first = block.terms.size();
+        add_terms(row, block.terms);
+        block.springs.push_back({slot, lane, node, other,
+                                 static_cast<int>(block.terms.size() - first),
+                                 is_bound ? 1.0F : static_cast<float>(stride_)});
+      }
+    }
+  }
+  find_ranges();
+}
+
+// A network's nodes are in an order in which few hats are those of a part's nodes.
+void CoarseCorrection::find_ranges() {
+  of_parts_.resize(at(parts_.count()));
+  for (int p = 0; p < parts_.count(); ++p) {
+    Part& part = of_parts_[at(p)];
+    part.hats = {num_hats_, 0};
+    part.sums = {band_.num_blocks(), 0};
+    const auto include = [](int number, Range& range) {
+      range.begin = std::min(range.begin, number);
+      range.end = std::max(range.end, number + 1);
+    };
+    const NodeRange nodes = parts_[p];
+    for (int i = nodes.begin; i < std::min(nodes.end, num_nodes_); ++i) {
+      for (const int hat : weights_[at(i)].hats) include(hat, part.hats);
+    }
+    for (int b = nodes.begin / kNodeBlock; b < nodes.end / kNodeBlock; ++b) {
+      if (at(b) >= blocks_.size()) break;
+      for (const CoarseTerm& term : blocks_[at(b)].terms) include(term.sum, part.sums);
+      for (const CoarseSpring& spring : blocks_[at(b)].springs) {
+        for (const int node : {spring.node, spring.other}) {
+          const CoarseNode& alone = alone_[at(node)];
+          for (int k = 0; k < alone.num_terms; ++k) include(alone.terms[k].sum, part.sums);
+        }
+      }
+    }
+    const auto num_hats = static_cast<std::size_t>(std::max(0, part.hats.end - part.hats.begin));
+    const auto num_sums = static_cast<std::size_t>(std::max(0, part.sums.end - part.sums.begin));
+    part.blocks.assign(num_sums * kBlockNumbers, 0.0F);
+    part.masses.assign(num_hats, 0.0F);
+    for (Fours* sums : {&part.residual, &part.other_residual}) sums->setZero(4, long(num_hats));
+  }
+}
+
+std::size_t CoarseCorrection::num_bytes() const {
+  std::size_t num = band_.num_bytes() + weights_.size() * sizeof(HatWeights);
+  for (const Block& block : blocks_) {
+    num += block.springs.size() * sizeof(CoarseSpring) + block.terms.size() * sizeof(CoarseTerm);
+  }
+  return num;
+}
+
+void CoarseCorrection::factorise(const unsigned short* linear, float root_scale,
+                                 const std::vector<Hold>& holds, const VectorX<float>& inertia,
+                                 ThreadTeam& team) {
+  if (num_hats_ == 0) return;
+  static_assert(sizeof(Hold) == 1 && Hold::kFree == Hold{});
+  const CoarseKernel& kernel = coarse_kernel();
+  const float scale = 1 / (root_scale * root_scale);
+  team.run(parts_.count(), [&](int p) {
+    Part& part = of_parts_[at(p)];
+    std::fill(part.blocks.begin(), part.blocks.end(), 0.0F);
+    std::fill(part.masses.begin(), part.masses.end(), 0.0F);
+    const NodeRange nodes = parts_[p];
+    for (int b = nodes.begin / kNodeBlock; b < nodes.end / kNodeBlock; ++b) {
+      if (at(b) >= blocks_.size()) break;
+      const Block& block = blocks_[at(b)];
+      kernel.add_springs(
+          {block.springs.data(), static_cast<int>(block.springs.size()), block.terms.data(),
+           alone_.data(), reinterpret_cast<const unsigned char*>(holds.data()), linear, scale},
+          part.blocks.data() - long{part.sums.begin} * kBlockNumbers);
+    }
+    for (int i = nodes.begin; i < std::min(nodes.end, num_nodes_); ++i) {
+      const HatWeights& of_node = weights_[at(i)];
+      for (int k = 0; k < kMostWeights; ++k) {
+        part.masses[at(of_node.hats[k] - part.hats.begin)] += inertia[i] * of_node.weights[k];
+      }
+    }
+  });
+  std::fill(sums_.begin(), sums_.end(), 0.0F);
+  std::fill(masses_.begin(), masses_.end(), 0.0F);
+  for (const Part& part : of_parts_) {
+    float* const to = sums_.data() + long{part.sums.begin} * kBlockNumbers;
+    for (std::size_t k = 0; k < part.blocks.size(); ++k) to[k] += part.blocks[k];
+    for (std::size_t k = 0; k < part.masses.size(); ++k)
+      masses_[at(part.hats.begin) + k] += part.masses[k];
+  }
+  band_.factorise(sums_.data(), masses_.data(), team);
+}
+
+void CoarseCorrection::set_residual(int part, const std::vector<int>& held,
+                                    const NodeArrays<float>& a, const NodeArrays<float>& b) {
+  if (num_hats_ == 0) return;
+  Part& of_part = of_parts_[at(part)];
+  of_part.residual.setZero();
+  of_part.other_residual.setZero();
+  const NodeRange nodes = parts_[part];
+  const long first = 4L * of_part.hats.begin;
+  coarse_kernel().restrict_to(weights_.data(), nodes.begin, nodes.end, a.data(), b.data(), a.rows(),
+                              of_part.residual.data() - first,
+                              of_part.other_residual.data() - first);
+  of_part.residual += of_part.other_residual;
+  for (const int i : in_range(held, nodes)) {
+    const HatWeights& of_node = weights_[at(i)];
+    for (int k = 0; k < kMostWeights; ++k) {
+      of_part.residual.col(of_node.hats[k] - of_part.hats.begin).head<3>() -=
+          of_node.weights[k] * (a.row(i) - b.row(i)).transpose();
+    }
+  }
+}
+
+void CoarseCorrection::solve(ThreadTeam& team) {
+  if (num_hats_ == 0) return;
+  residual_.setZero();
+  for (const Part& part : of_parts_) {
+    residual_.middleCols(part.hats.begin, part.residual.cols()) += part.residual;
+  }
+  band_.solve(residual_.data(), solution_.data(), team);
+}
+
+void CoarseCorrection::interpolate(int part, const std::vector<int>& held,
+                                   NodeArrays<float>& correction) const {
+  const NodeRange nodes = parts_[part];
+  const auto stride = correction.rows();
+  if (num_hats_ == 0) {
+    correction.middleRows(nodes.begin, nodes.end - nodes.begin).setZero();
+    return;
+  }
+  coarse_kernel().interpolate(weights_.data(), nodes.begin, nodes.end, solution_.data(),
+                              correction.data(), stride);
+  for (const int i : in_range(held, nodes)) correction.row(i).setZero();
+}
+
+}  // namespace weft::fast

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <weft/fast_solver/bordered_band.hpp>
+#include <weft/fast_solver/coarse_kernel.hpp>
+#include <weft/fast_solver/edge_slots.hpp>
+#include <weft/fast_solver/isotropic_network.hpp>
+#include <weft/fast_solver/network_kernel.hpp>
+#include <weft/fast_solver/node_arrays.hpp>
+#include <weft/fast_solver/node_constraints.hpp>
+#include <weft/fast_solver/node_parts.hpp>
+
+namespace weft::fast {
+
+/// Vectors of x, y, z and a number that is not used: what a processor loads and adds at once.
+using Fours = AlignedMatrix<float, 4, Eigen::Dynamic>;
+
+/// What a few iterations from node to node cannot carry: P (P^T A P)^-1 P^T residual, with A the linearised network as it is
+/// in the present step, and P hats over patches of some tens of nodes (smoothed_aggregates.hpp). Whatever a cloth does
+/// slowly and together, it does nearly so: carry a corner's load, swing, fold over an obstacle.
+///
+/// Nodes that are held have no part in P.
+/// Threads  one object from one thread at a time, but for calls that say otherwise. Allocates nothing after construction.
+class CoarseCorrection {
+ public:
+  CoarseCorrection() = default;
+  /// springs: of the unknowns, as isotropic_network(). names: the node of each unknown.
+  CoarseCorrection(const IsotropicNetwork& springs, const std::vector<int>& names, int num_nodes);
+
+  /// Nodes that come behind the others, copies of these: they have their origins' parts.
+  void add_copies(const std::vector<int>& origins);
+  /// The springs of some blocks of kNodeBlock nodes, flags; and of all that come behind them.
+  void note_springs(const EdgeSlots& slots, const std::vector<char>& blocks);
+
+  /// Coarse unknowns, of three components each.
+  [[nodiscard]] int size() const { return num_hats_; }
+  [[nodiscard]] std::size_t num_bytes() const;
+
+  /// For the present linearisation: linear as in NetworkView, root_scale too; holds and inertia of each node.
+  void factorise(const unsigned short* linear, float root_scale, const std::vector<Hold>& holds,
+                 const VectorX<float>& inertia, ThreadTeam& team);
+
+  /// residual = a - b, of the nodes of a part. Several calls may run at once.
+  void set_residual(int part, const std::vector<int>& held, const NodeArrays<float>& a,
+                    const NodeArrays<float>& b);
+  /// For coarse unknowns, after the residual of all nodes.
+  void solve(ThreadTeam& team);
+  /// From coarse unknowns to the nodes of a part. Several calls may run at once.
+  void interpolate(int part, const std::vector<int>& held, NodeArrays<float>& correction) const;
+
+ private:
+  /// Of a block of nodes.
+  struct Block {
+    std::vector<CoarseSpring> springs;
+    std::vector<CoarseTerm> terms;
+  };
+  /// begin ... end - 1
+  struct Range {
+    int begin = 0;
+    int end = 0;
+  };
+  /// What the nodes of a part add up.
+  struct Part {
+    Range hats;
+    Range sums;
+    AlignedVector<float> blocks;
+    AlignedVector<float> masses;
+    Fours residual;
+    Fours other_residual;
+  };
+  using Row = std::vector<std::pair<int, float>>;  ///< hats and numbers, ascending
+
+  [[nodiscard]] Row row_of(int node) const;
+  [[nodiscard]] int pair_of(int a, int b) const;
+  void find_pairs(const IsotropicNetwork& springs, const std::vector<int>& names);
+  void add_terms(const Row& row, std::vector<CoarseTerm>& terms) const;
+  void note_alone(int node);
+  void find_ranges();
+  void fill_gaps();
+
+  int num_nodes_ = 0;
+  int num_hats_ = 0;
+  int stride_ = 1;  ///< one spring of so many is looked at
+  NodeParts parts_;
+  std::vector<HatWeights> weights_;
+  std::vector<std::pair<int, int>> pairs_;  ///< of hats, ascending
+  std::vector<int> first_pairs_;            ///< of each hat as the lower one, and behind the last
+  std::vector<Block> blocks_;
+  std::vector<CoarseNode> alone_;  ///< of each node
+  BorderedBand band_;
+  std::vector<Part> of_parts_;
+  AlignedVector<float> sums_;    ///< blocks, of all parts
+  AlignedVector<float> masses_;  ///< likewise
+  Fours residual_;               ///< likewise
+  Fours solution_;
+};
+
+}  // namespace weft::fast

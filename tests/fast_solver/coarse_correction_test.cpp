@@ -1,0 +1,149 @@
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include <weft/custom_forces/core/cloth_grid.hpp>
+#include <weft/fast_solver/coarse_correction.hpp>
+#include <weft/fast_solver/isotropic_network.hpp>
+#include <weft/fast_solver/network_forces.hpp>
+#include <weft/fast_solver/smoothed_aggregates.hpp>
+
+#include "tests/fast_solver/node_arrays.hpp"
+
+namespace weft::fast {
+namespace {
+
+constexpr int kSide = 14;
+
+/// A sheet of which one side is pinned, crumpled a little, and its correction.
+struct Sheet {
+  explicit Sheet(float inertia_of_node) {
+    ClothGrid grid;
+    grid.nodes = {kSide, kSide};
+    mesh = make_cloth_grid(grid);
+    const SpringNetwork network = make_network(mesh, {{"tension", {}, {{"stiffness", {50.0}}}}});
+    forces.emplace(network, mesh.num_nodes());
+    for (int i = kSide; i < mesh.num_nodes(); ++i) names.push_back(i);
+    springs = isotropic_network(network, mesh.num_nodes(), names, 1.0 / 60);
+    correction = CoarseCorrection(springs, names, mesh.num_nodes());
+    correction.note_springs(forces->slots(), {});
+    std::srand(4);
+    const Matrix3X<double> x =
+        mesh.rest_positions + 0.02 * Matrix3X<double>::Random(3, mesh.num_nodes());
+    begin_step(*forces, mesh.rest_positions, 1.0 / 60);
+    (void)forces_at(*forces, x);
+    const int rows = fill_up(mesh.num_nodes());
+    inertia.setZero(rows);
+    for (const int i : names) inertia[i] = inertia_of_node;
+    holds.assign(static_cast<std::size_t>(rows), Hold::kFree);
+  }
+  void factorise() { forces->factorise(correction, holds, inertia, team); }
+  [[nodiscard]] NodeArrays<float> corrected(const NodeArrays<float>& residual) {
+    NodeArrays<float> zeros(residual.rows(), 3);
+    NodeArrays<float> result(residual.rows(), 3);
+    const NodeParts parts(mesh.num_nodes());
+    for (int part = 0; part < parts.count(); ++part) {
+      correction.set_residual(part, held, residual, zeros);
+    }
+    correction.solve(team);
+    for (int part = 0; part < parts.count(); ++part) correction.interpolate(part, held, result);
+    return result;
+  }
+  [[nodiscard]] NodeArrays<float> stiffness_times(const NodeArrays<float>& displacements) {
+    NodeArrays<float> product(displacements.rows(), 3);
+    forces->multiply(forces->all_nodes(), inertia, displacements, product);
+    for (int i = 0; i < kSide; ++i) product.row(i).setZero();
+    for (const int i : held) product.row(i).setZero();
+    return product;
+  }
+  [[nodiscard]] NodeArrays<float> any_residual() const {
+    NodeArrays<float> residual = NodeArrays<float>::Random(inertia.rows(), 3);
+    for (int i = 0; i < kSide; ++i) residual.row(i).setZero();
+    for (const int i : held) residual.row(i).setZero();
+    residual.bottomRows(inertia.rows() - mesh.num_nodes()).setZero();
+    return residual;
+  }
+
+  ClothMesh mesh;
+  std::optional<NetworkForces<double>> forces;
+  std::vector<int> names;
+  IsotropicNetwork springs;
+  CoarseCorrection correction;
+  VectorX<float> inertia;
+  std::vector<Hold> holds;
+  std::vector<int> held;
+  ThreadTeam team;
+};
+
+TEST(SmoothedAggregates, AreFewHatsThatShareEveryNode) {
+  const Sheet sheet(1);
+  const Interpolation hats = smoothed_aggregates(sheet.springs, 30);
+  EXPECT_LE(hats.num_coarse, 30);
+  EXPECT_GT(hats.num_coarse, 8);
+  std::vector<double> of_hat(static_cast<std::size_t>(hats.num_coarse), 0.0);
+  for (int i = 0; i < hats.size(); ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    ASSERT_LE(hats.starts[row + 1] - hats.starts[row], kMostWeights);
+    double sum = 0;
+    for (auto e = static_cast<std::size_t>(hats.starts[row]);
+         e < static_cast<std::size_t>(hats.starts[row + 1]); ++e) {
+      EXPECT_GT(hats.values[e], 0);
+      sum += hats.values[e];
+      of_hat[static_cast<std::size_t>(hats.columns[e])] += hats.values[e];
+    }
+    // The pinned side pulls down what is near it, and nothing else does.
+    const bool is_far = i / kSide > 10;
+    EXPECT_LE(sum, 1 + 1e-12);
+    if (is_far) {
+      EXPECT_NEAR(sum, 1, 1e-12) << i;
+    }
+    if (i / kSide == 0) {
+      EXPECT_LT(sum, 0.9) << i;
+    }
+  }
+  for (const double sum : of_hat) EXPECT_GT(sum, 0);
+}
+
+// A displacement that hats can have is its own correction, whatever directions the springs have: what is left to differ
+// are terms that are left out, and masses that are lumped.
+TEST(CoarseCorrection, FindsADisplacementFromItsForces) {
+  Sheet sheet(0.01F);
+  for (const bool is_held : {false, true}) {
+    if (is_held) {
+      sheet.held = {40, 75, 76, 90, 150};
+      for (const int i : sheet.held) {
+        sheet.holds[static_cast<std::size_t>(i)] = i % 2 == 0 ? Hold::kFixed : Hold::kOnPlane;
+      }
+    }
+    sheet.factorise();
+    const NodeArrays<float> displacements = sheet.corrected(sheet.any_residual());
+    for (const int i : sheet.held) EXPECT_TRUE(displacements.row(i).isZero(0));
+    const NodeArrays<float> found = sheet.corrected(sheet.stiffness_times(displacements));
+    EXPECT_LT((found - displacements).norm(), 0.1F * displacements.norm()) << is_held;
+    EXPECT_GT(displacements.norm(), 0);
+  }
+}
+
+TEST(CoarseCorrection, ASheetWithoutSpringsMovesAsItsMassesDo) {
+  Sheet sheet(1e6F);
+  sheet.factorise();
+  NodeArrays<float> residual(sheet.inertia.rows(), 3);
+  for (const int i : sheet.names) residual(i, 1) = 1e6F;
+  const NodeArrays<float> found = sheet.corrected(residual);
+  const int last = sheet.mesh.num_nodes() - 1;
+  EXPECT_NEAR(found(last, 1), 1, 1e-3);
+  EXPECT_NEAR(found(last, 0), 0, 1e-6);
+}
+
+TEST(CoarseCorrection, CorrectsNothingWhereAllIsPinned) {
+  CoarseCorrection correction(IsotropicNetwork{{{0}, {}, {}, {}}, {}}, {}, 3);
+  NodeArrays<float> values = NodeArrays<float>::Ones(fill_up(3), 3);
+  ThreadTeam team;
+  correction.set_residual(0, {}, values, values);
+  correction.solve(team);
+  correction.interpolate(0, {}, values);
+  EXPECT_TRUE(values.isZero(0));
+}
+
+}  // namespace
+}  // namespace weft::fast
