@@ -13,6 +13,8 @@ constexpr int kLeastHats = 24;
 constexpr double kHatsPerRoot = 2.5;
 /// Of a spring's largest one, terms that are left out.
 constexpr float kLeastTerm = 0.1F;
+/// Of the largest one of each of two hats: a tie that is taken for none.
+constexpr float kLeastTie = 0.03F;
 /// Springs of a hat that are enough to know the stiffness between it and its neighbours, about.
 constexpr int kSpringsOfHat = 60;
 
@@ -47,7 +49,7 @@ CoarseCorrection::CoarseCorrection(const IsotropicNetwork& springs, const std::v
   band_ = BorderedBand(num_hats_, pairs_);
   for (Fours* fours : {&residual_, &solution_}) fours->setZero(4, num_hats_);
   sums_.assign(at(band_.num_blocks()) * kBlockNumbers, 0.0F);
-  masses_.assign(at(num_hats_), 0.0F);
+  for (auto* numbers : {&masses_, &inertia_}) numbers->assign(at(num_hats_), 0.0F);
   alone_.resize(weights_.size());
   for (int node = 0; node < num_nodes; ++node) note_alone(node);
   add_copies({});
@@ -64,42 +66,68 @@ void CoarseCorrection::fill_gaps() {
   }
 }
 
+void CoarseCorrection::Row::add(int hat, float number) {
+  for (int k = 0; k < count; ++k) {
+    if (entries[at(k)].hat != hat) continue;
+    entries[at(k)].number += number;
+    return;
+  }
+  entries[at(count++)] = {hat, number};
+}
+
 CoarseCorrection::Row CoarseCorrection::row_of(int node) const {
   const HatWeights& of_node = weights_[at(node)];
   Row row;
   for (int k = 0; k < kMostWeights; ++k) {
-    if (of_node.weights[k] != 0) row.emplace_back(of_node.hats[k], of_node.weights[k]);
+    if (of_node.weights[k] != 0) row.add(of_node.hats[k], of_node.weights[k]);
   }
   return row;
 }
 
-// Of hats that a spring or a node knows.
+// Of hats that springs tie together, but for those that others tie much more: patches that are not next to each other.
 void CoarseCorrection::find_pairs(const IsotropicNetwork& springs, const std::vector<int>& names) {
-  std::vector<std::vector<int>> higher(at(num_hats_));
-  const auto add = [&](int i, int j) {
-    const HatWeights& a = weights_[at(names[at(i)])];
-    const HatWeights& b = weights_[at(names[at(j)])];
-    for (int k = 0; k < kMostWeights; ++k) {
-      for (int l = 0; l < kMostWeights; ++l) {
-        if (a.weights[k] == 0 || b.weights[l] == 0 || a.hats[k] == b.hats[l]) continue;
-        const auto [low, high] = std::minmax(a.hats[k], b.hats[l]);
-        std::vector<int>& list = higher[at(low)];
-        if (std::find(list.begin(), list.end(), high) == list.end()) list.push_back(high);
+  const SymmetricMatrix& matrix = springs.matrix;
+  std::vector<std::vector<std::pair<int, float>>> higher(at(num_hats_));
+  std::vector<float> largest(at(num_hats_), 0.0F);
+  for (int i = 0; i < matrix.size(); ++i) {
+    for (int e = matrix.starts[at(i)]; e < matrix.starts[at(i) + 1]; ++e) {
+      if (matrix.columns[at(e)] < i) continue;
+      const Row row = difference(names[at(i)], names[at(matrix.columns[at(e)])]);
+      const auto stiffness = static_cast<float>(-matrix.values[at(e)]);
+      for (const Row::Entry* one = row.begin(); one != row.end(); ++one) {
+        for (const Row::Entry* two = one + 1; two != row.end(); ++two) {
+          const auto [low, high] = std::minmax(one->hat, two->hat);
+          auto& list = higher[at(low)];
+          auto found = std::find_if(list.begin(), list.end(),
+                                    [h = high](const auto& tie) { return tie.first == h; });
+          if (found == list.end()) found = list.insert(list.end(), {high, 0.0F});
+          found->second -= stiffness * one->number * two->number;
+        }
       }
     }
-  };
-  for (int i = 0; i < springs.matrix.size(); ++i) {
-    add(i, i);
-    for (int e = springs.matrix.starts[at(i)]; e < springs.matrix.starts[at(i) + 1]; ++e) {
-      if (springs.matrix.columns[at(e)] > i) add(i, springs.matrix.columns[at(e)]);
+  }
+  for (int hat = 0; hat < num_hats_; ++hat) {
+    for (const auto& [other, tie] : higher[at(hat)]) {
+      for (const int one : {hat, other}) largest[at(one)] = std::max(largest[at(one)], tie);
     }
   }
   for (int hat = 0; hat < num_hats_; ++hat) {
     first_pairs_.push_back(static_cast<int>(pairs_.size()));
-    std::sort(higher[at(hat)].begin(), higher[at(hat)].end());
-    for (const int other : higher[at(hat)]) pairs_.emplace_back(hat, other);
+    auto& list = higher[at(hat)];
+    std::sort(list.begin(), list.end());
+    for (const auto& [other, tie] : list) {
+      const float least = kLeastTie * std::min(largest[at(hat)], largest[at(other)]);
+      if (std::abs(tie) > least) pairs_.emplace_back(hat, other);
+    }
   }
   first_pairs_.push_back(static_cast<int>(pairs_.size()));
+}
+
+/// Of the hats of two nodes.
+CoarseCorrection::Row CoarseCorrection::difference(int node, int other) const {
+  Row row = row_of(node);
+  for (const auto& [hat, weight] : row_of(other)) row.add(hat, -weight);
+  return row;
 }
 
 /// -1 for hats that do not know each other.
@@ -119,11 +147,11 @@ void CoarseCorrection::add_terms(const Row& row, std::vector<CoarseTerm>& terms)
     largest = std::max(largest, std::abs(d));
   }
   const float least = kLeastTerm * largest * largest;
-  for (std::size_t k = 0; k < row.size(); ++k) {
-    const auto [hat, d] = row[k];
-    for (std::size_t l = k + 1; l < row.size(); ++l) {
-      const float factor = -d * row[l].second;
-      const int pair = pair_of(hat, row[l].first);
+  for (const Row::Entry* one = row.begin(); one != row.end(); ++one) {
+    const auto [hat, d] = *one;
+    for (const Row::Entry* two = one + 1; two != row.end(); ++two) {
+      const float factor = -d * two->number;
+      const int pair = pair_of(hat, two->hat);
       if (pair >= 0 && std::abs(factor) > least) terms.push_back({band_.pair_block(pair), factor});
     }
     if (std::abs(d * sum) > least) terms.push_back({band_.own_block(hat), d * sum});
@@ -165,16 +193,7 @@ void CoarseCorrection::note_springs(const EdgeSlots& slots, const std::vector<ch
         const int node = b * kNodeBlock + lane;
         const int other = slots.others[place];
         if (slots.edges[place] < 0 || node >= slots.num_nodes || other <= node) continue;
-        Row row = row_of(node);
-        for (const auto& [hat, weight] : row_of(other)) {
-          const auto same = std::find_if(row.begin(), row.end(),
-                                         [h = hat](const auto& entry) { return entry.first == h; });
-          if (same == row.end()) {
-            row.emplace_back(hat, -weight);
-          } else {
-            same->second -= weight;
-          }
-        }
+        const Row row = difference(node, other);
         float sum = 0;
         for (const auto& [hat, d] : row) sum += d;
         const bool is_bound = std::abs(sum) > 0.01F;
@@ -218,8 +237,17 @@ void CoarseCorrection::find_ranges() {
     const auto num_hats = static_cast<std::size_t>(std::max(0, part.hats.end - part.hats.begin));
     const auto num_sums = static_cast<std::size_t>(std::max(0, part.sums.end - part.sums.begin));
     part.blocks.assign(num_sums * kBlockNumbers, 0.0F);
-    part.masses.assign(num_hats, 0.0F);
     for (Fours* sums : {&part.residual, &part.other_residual}) sums->setZero(4, long(num_hats));
+  }
+}
+
+void CoarseCorrection::set_masses(const VectorX<float>& masses) {
+  std::fill(masses_.begin(), masses_.end(), 0.0F);
+  for (int i = 0; i < num_nodes_ && num_hats_ > 0; ++i) {
+    const HatWeights& of_node = weights_[at(i)];
+    for (int k = 0; k < kMostWeights; ++k) {
+      masses_[at(of_node.hats[k])] += masses[i] * of_node.weights[k];
+    }
   }
 }
 
@@ -232,7 +260,7 @@ std::size_t CoarseCorrection::num_bytes() const {
 }
 
 void CoarseCorrection::factorise(const unsigned short* linear, float root_scale,
-                                 const std::vector<Hold>& holds, const VectorX<float>& inertia,
+                                 const std::vector<Hold>& holds, float inertia_over_mass,
                                  ThreadTeam& team) {
   if (num_hats_ == 0) return;
   static_assert(sizeof(Hold) == 1 && Hold::kFree == Hold{});
@@ -241,7 +269,6 @@ void CoarseCorrection::factorise(const unsigned short* linear, float root_scale,
   team.run(parts_.count(), [&](int p) {
     Part& part = of_parts_[at(p)];
     std::fill(part.blocks.begin(), part.blocks.end(), 0.0F);
-    std::fill(part.masses.begin(), part.masses.end(), 0.0F);
     const NodeRange nodes = parts_[p];
     for (int b = nodes.begin / kNodeBlock; b < nodes.end / kNodeBlock; ++b) {
       if (at(b) >= blocks_.size()) break;
@@ -251,22 +278,14 @@ void CoarseCorrection::factorise(const unsigned short* linear, float root_scale,
            alone_.data(), reinterpret_cast<const unsigned char*>(holds.data()), linear, scale},
           part.blocks.data() - long{part.sums.begin} * kBlockNumbers);
     }
-    for (int i = nodes.begin; i < std::min(nodes.end, num_nodes_); ++i) {
-      const HatWeights& of_node = weights_[at(i)];
-      for (int k = 0; k < kMostWeights; ++k) {
-        part.masses[at(of_node.hats[k] - part.hats.begin)] += inertia[i] * of_node.weights[k];
-      }
-    }
   });
   std::fill(sums_.begin(), sums_.end(), 0.0F);
-  std::fill(masses_.begin(), masses_.end(), 0.0F);
   for (const Part& part : of_parts_) {
     float* const to = sums_.data() + long{part.sums.begin} * kBlockNumbers;
     for (std::size_t k = 0; k < part.blocks.size(); ++k) to[k] += part.blocks[k];
-    for (std::size_t k = 0; k < part.masses.size(); ++k)
-      masses_[at(part.hats.begin) + k] += part.masses[k];
   }
-  band_.factorise(sums_.data(), masses_.data(), team);
+  for (std::size_t k = 0; k < masses_.size(); ++k) inertia_[k] = inertia_over_mass * masses_[k];
+  band_.factorise(sums_.data(), inertia_.data(), team);
 }
 
 void CoarseCorrection::set_residual(int part, const std::vector<int>& held,

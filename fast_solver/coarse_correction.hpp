@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -39,9 +40,11 @@ class CoarseCorrection {
   [[nodiscard]] int size() const { return num_hats_; }
   [[nodiscard]] std::size_t num_bytes() const;
 
-  /// For the present linearisation: linear as in NetworkView, root_scale too; holds and inertia of each node.
+  /// masses: of each node.
+  void set_masses(const VectorX<float>& masses);
+  /// For the present linearisation: linear as in NetworkView, root_scale too; holds of each node; inertia over mass.
   void factorise(const unsigned short* linear, float root_scale, const std::vector<Hold>& holds,
-                 const VectorX<float>& inertia, ThreadTeam& team);
+                 float inertia_over_mass, ThreadTeam& team);
 
   /// residual = a - b, of the nodes of a part. Several calls may run at once.
   void set_residual(int part, const std::vector<int>& held, const NodeArrays<float>& a,
@@ -67,13 +70,25 @@ class CoarseCorrection {
     Range hats;
     Range sums;
     AlignedVector<float> blocks;
-    AlignedVector<float> masses;
     Fours residual;
     Fours other_residual;
   };
-  using Row = std::vector<std::pair<int, float>>;  ///< hats and numbers, ascending
+  /// Numbers of some hats.
+  struct Row {
+    struct Entry {
+      int hat;
+      float number;
+    };
+    std::array<Entry, 6> entries;  ///< of two nodes at most
+    int count = 0;
+
+    [[nodiscard]] const Entry* begin() const { return entries.data(); }
+    [[nodiscard]] const Entry* end() const { return entries.data() + count; }
+    void add(int hat, float number);
+  };
 
   [[nodiscard]] Row row_of(int node) const;
+  [[nodiscard]] Row difference(int node, int other) const;
   [[nodiscard]] int pair_of(int a, int b) const;
   void find_pairs(const IsotropicNetwork& springs, const std::vector<int>& names);
   void add_terms(const Row& row, std::vector<CoarseTerm>& terms) const;
@@ -92,9 +107,10 @@ class CoarseCorrection {
   std::vector<CoarseNode> alone_;  ///< of each node
   BorderedBand band_;
   std::vector<Part> of_parts_;
-  AlignedVector<float> sums_;    ///< blocks, of all parts
-  AlignedVector<float> masses_;  ///< likewise
-  Fours residual_;               ///< likewise
+  AlignedVector<float> sums_;     ///< blocks, of all parts
+  AlignedVector<float> masses_;   ///< of hats
+  AlignedVector<float> inertia_;  ///< likewise
+  Fours residual_;                ///< likewise
   Fours solution_;
 };
 

@@ -69,6 +69,7 @@ ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const Vecto
       coarse_correction_(correction_of(network, is_free, masses.size(), time_step)) {
   set_nodes(masses, is_free);
   coarse_correction_.note_springs(forces_.slots(), {});
+  coarse_correction_.set_masses(masses_.template cast<float>());
 }
 
 template <class Scalar>
@@ -116,6 +117,7 @@ void ImplicitSolver<Scalar>::tear(const SpringNetwork& springs, const std::vecto
   set_nodes(masses, is_free);
   coarse_correction_.add_copies(origins);
   coarse_correction_.note_springs(forces_.slots(), blocks);
+  coarse_correction_.set_masses(masses_.template cast<float>());
 }
 
 template <class Scalar>
@@ -366,7 +368,8 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, const Round& round) {
   decide_holds(problem, round.is_first);
   if (round.is_first || round.factorises) {
-    forces_.factorise(coarse_correction_, holds_, inertia_, *team_);
+    const Scalar squared_step = problem.inertia_step * problem.inertia_step;
+    forces_.factorise(coarse_correction_, holds_, static_cast<float>(1 / squared_step), *team_);
   }
   solve_linear(problem, round.iterations);
   const double of_bodies = work_of_bodies();

@@ -71,8 +71,8 @@ class NetworkForces {
   [[nodiscard]] const EdgeSlots& slots() const { return slots_; }
   /// Makes a correction for the last linearisation.
   void factorise(CoarseCorrection& correction, const std::vector<Hold>& holds,
-                 const VectorX<float>& inertia, ThreadTeam& team) const {
-    correction.factorise(linear_.data(), root_scale_, holds, inertia, team);
+                 float inertia_over_mass, ThreadTeam& team) const {
+    correction.factorise(linear_.data(), root_scale_, holds, inertia_over_mass, team);
   }
 
  private:

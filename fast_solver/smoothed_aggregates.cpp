@@ -15,8 +15,10 @@ namespace {
 /// Of Jacobi's method.
 constexpr double kRelaxation = 2.0 / 3;
 constexpr int kSweeps = 4;
-/// Distances between seeds are made longer by it until there are few enough.
-constexpr double kWider = 1.05;
+/// Between seeds, over that of springs and the root of a patch's unknowns: what gives about as many as are wanted on a grid.
+constexpr double kMeanDistance = 0.6;
+/// Distances are made so much longer than a smaller number of seeds asks for.
+constexpr double kWider = 1.03;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -87,16 +89,17 @@ NearestSeeds seeds_at(double distance, const std::vector<int>& order,
 NearestSeeds choose_seeds(const IsotropicNetwork& network, int num_coarse) {
   const std::vector<int> order = corners_first(network.matrix);
   const double sum = std::accumulate(network.lengths.begin(), network.lengths.end(), 0.0);
-  double distance = sum / static_cast<double>(std::max<std::size_t>(1, network.lengths.size()));
+  const double mean = sum / static_cast<double>(std::max<std::size_t>(1, network.lengths.size()));
   const double share = static_cast<double>(network.matrix.size()) / num_coarse;
-  distance *= share > 1 ? 0.5 * std::sqrt(share) : 0.0;
-  NearestSeeds seeds = seeds_at(distance, order, network);
-  for (int last = -1; seeds.num_seeds() > num_coarse && seeds.num_seeds() != last;) {
-    last = kWider * distance > sum ? seeds.num_seeds() : last;
-    distance *= kWider;
-    seeds = seeds_at(distance, order, network);
+  double distance = share > 1 ? kMeanDistance * mean * std::sqrt(share) : 0.0;
+  while (true) {
+    NearestSeeds seeds = seeds_at(distance, order, network);
+    // No two seeds of a piece are farther from each other than all springs are long.
+    if (seeds.num_seeds() <= num_coarse || distance > sum) return seeds;
+    // In a sheet.
+    const double too_many = static_cast<double>(seeds.num_seeds()) / num_coarse;
+    distance = std::max(distance, mean / 2) * std::sqrt(too_many) * kWider;
   }
-  return seeds;
 }
 
 using Row = std::vector<std::pair<int, double>>;  // of coarse unknowns, ascending

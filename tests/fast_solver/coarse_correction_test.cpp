@@ -37,7 +37,10 @@ struct Sheet {
     for (const int i : names) inertia[i] = inertia_of_node;
     holds.assign(static_cast<std::size_t>(rows), Hold::kFree);
   }
-  void factorise() { forces->factorise(correction, holds, inertia, team); }
+  void factorise() {
+    correction.set_masses(inertia);
+    forces->factorise(correction, holds, 1, team);
+  }
   [[nodiscard]] NodeArrays<float> corrected(const NodeArrays<float>& residual) {
     NodeArrays<float> zeros(residual.rows(), 3);
     NodeArrays<float> result(residual.rows(), 3);
