@@ -20,11 +20,6 @@ constexpr int kHalvings = 6;
 /// Of the energy of the motion without springs: what a round must take away for another one to follow.
 constexpr double kLastDescent = 1e-4;
 constexpr int kExtraIterations = 4;
-/// Of that energy: the work of the last round from which on a touched body gets more of them; how many, and of how many
-/// times the iterations.
-constexpr double kUnsettled = 0.1;
-constexpr int kMoreRounds = 2;
-constexpr int kMoreIterations = 2;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -203,18 +198,6 @@ bool ImplicitSolver<Scalar>::go_downhill(const StepProblem<Scalar>& problem, int
   return went_down;
 }
 
-// Where a body meets something, springs may have to turn far, and a few iterations carry little of that to the others. What the last
-// round was worth tells what another one would be. Whether there was one.
-template <class Scalar>
-bool ImplicitSolver<Scalar>::settle(const StepProblem<Scalar>& problem, int iterations) {
-  int rounds = 0;
-  while (rounds < kMoreRounds && !held_.empty() && work_done_ > kUnsettled * step_energy_) {
-    if (rounds++ == 0) evaluate();
-    do_round(problem, {.iterations = kMoreIterations * iterations});
-  }
-  return rounds > 0;
-}
-
 // The exact solution has no more of the energy that it minimises than the places at the start. One
 // that has is thrown away: Newton's method starts there once more, and now each of its steps must go
 // downhill. So an implicit step gains no energy, however badly its linear systems are solved.
@@ -235,11 +218,7 @@ void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterat
   add_energy_of_holds(problem, unmoved_, &Body::unmoved, before);
   add_energy_of_holds(problem, places_, &Body::motion, after);
   if (is_unmoved) known_.before = before.of_springs;
-  const double most = before.total + kRoundingShare * step_energy_;
-  if (after.total <= most && settle(problem, iterations)) {
-    after = energy(problem, places_, &Body::motion);
-  }
-  if (after.total <= most) {
+  if (after.total <= before.total + kRoundingShare * step_energy_) {
     known_.after = after.of_springs;
     return;
   }
@@ -285,6 +264,7 @@ std::optional<Vector3<Scalar>> ImplicitSolver<Scalar>::find_balance(
     left -= of_body.cwiseProduct(body.motion.template head<3>().template cast<double>());
   }
   const Vector3<Scalar> shift = left.cwiseQuotient(inertia).template cast<Scalar>();
+  // A step that was taken back has left over what planes would have held.
   for (const PlaneContact<Scalar>& contact : problem.contacts) {
     if (contact.body >= 0 && bodies_[at(contact.body)].is_linked) continue;
     const Vector3<Scalar> place = at_node(places_, contact.node) + shift;

@@ -183,7 +183,6 @@ class ImplicitSolver {
   void go_back();
   bool descend(const StepProblem<Scalar>& problem);
   void tame(const StepProblem<Scalar>& problem, int iterations);
-  bool settle(const StepProblem<Scalar>& problem, int iterations);
   bool go_downhill(const StepProblem<Scalar>& problem, int iterations);
   /// Only part of the last step, if it went too far; evaluate() is due then. num_held: of the linear system, not of clamp().
   bool hold_back(double work_before, std::size_t num_held);
