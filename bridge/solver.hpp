@@ -126,8 +126,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   void replace_laws(btSoftBody& body, const ClothMesh& mesh,
                     const std::vector<forces::LawSpecification>& laws);
   /// Both for a tear, in time that goes by what it changes: laws_after() before the body is torn, with
-  /// errors as make_laws(); replace_laws() when it has its new nodes. The factor of a fast body is made
-  /// anew in parts, over the following steps.
+  /// errors as make_laws(); replace_laws() when it has its new nodes.
   [[nodiscard]] TornLaws laws_after(const btSoftBody& body, const Tear& tear,
                                     const std::vector<forces::LawSpecification>& laws) const;
   void replace_laws(btSoftBody& body, const Tear& tear, TornLaws laws);

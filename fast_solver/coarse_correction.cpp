@@ -15,6 +15,8 @@ constexpr double kHatsPerRoot = 2.5;
 constexpr float kLeastTerm = 0.1F;
 /// Of the largest one of each of two hats: a tie that is taken for none.
 constexpr float kLeastTie = 0.03F;
+/// Sum of the numbers of a spring's hats, from which on it ties them to what does not move: these springs all count.
+constexpr float kLeastBound = 0.01F;
 /// Springs of a hat that are enough to know the stiffness between it and its neighbours, about.
 constexpr int kSpringsOfHat = 60;
 
@@ -174,6 +176,7 @@ void CoarseCorrection::add_copies(const std::vector<int>& origins) {
     weights_[at(node)] = weights_[at(origin)];
     note_alone(node);
   }
+  fill_gaps();
   parts_ = NodeParts(num_nodes_);
 }
 
@@ -196,7 +199,7 @@ void CoarseCorrection::note_springs(const EdgeSlots& slots, const std::vector<ch
         const Row row = difference(node, other);
         float sum = 0;
         for (const auto& [hat, d] : row) sum += d;
-        const bool is_bound = std::abs(sum) > 0.01F;
+        const bool is_bound = std::abs(sum) > kLeastBound;
         if (!is_bound && (lane + slot) % stride_ != 0) continue;
         const std::size_t first = block.terms.size();
         add_terms(row, block.terms);

@@ -21,12 +21,10 @@
 
 namespace weft::fast {
 
-/// Newton's method, each linear system by a few conjugate gradients. Their preconditioner joins two
-/// halves that a cloth needs. The prefactored matrix of a network that resists equally in all
-/// directions, on few of the nodes, carries a corner's load through the whole cloth at once, but is far
-/// too stiff across the sheet. The blocks of the diagonal are exact there, where neighbours have little
-/// to say. Block smoothing, then the global correction of what is left (a two-level cycle) make each
-/// iteration take away about half of the error, whatever the number of nodes. Contacts are eliminated: a node on a plane moves in
+/// Newton's method, each linear system by a few conjugate gradients. Their preconditioner is a two-level cycle. The blocks of
+/// the diagonal smooth: they are exact where neighbours have little to say. What is left is corrected on hats over patches of
+/// nodes, which have the stiffness of the present step: what the cloth does slowly and together. So each iteration takes away
+/// more than half of the error, whatever the number of nodes. Contacts are eliminated: a node on a plane moves in
 /// the plane, one that sticks not at all (Baraff and Witkin 1998), and what it takes to hold them is
 /// the contact force, whose sign and friction decide how the next round holds them. Nodes that touch a rigid body
 /// which gives way, or hang on it, move with it: its six unknowns are solved for with the nodes.
@@ -39,17 +37,17 @@ class ImplicitSolver {
  public:
   using Vector6 = Eigen::Matrix<Scalar, 6, 1>;
 
-  /// masses: n [kg], > 0; is_free: n. inertia_step [s], > 0: of most steps; others converge more
-  /// slowly. Throws InvalidArgument for sizes that do not fit.
+  /// masses: n [kg], > 0; is_free: n. time_step [s], > 0: a typical one, which says how much dampers tie patches together.
+  /// Throws InvalidArgument for sizes that do not fit.
   ImplicitSolver(const SpringNetwork& network, const VectorX<double>& masses,
-                 const std::vector<bool>& is_free, double inertia_step);
+                 const std::vector<bool>& is_free, double time_step);
 
   [[nodiscard]] int num_nodes() const { return forces_.num_nodes(); }
   [[nodiscard]] const CoarseCorrection& coarse_correction() const { return coarse_correction_; }
 
   /// The cloth has come apart: springs in the place of all that have an end among the changed nodes (flags),
   /// copies of the origins behind the other nodes, masses of all [kg]. Takes a small part of what a
-  /// solver made anew takes, for the global correction stays: copies have their origins' parts in it.
+  /// solver made anew takes, for hats stay: copies have their origins' parts in them.
   void tear(const SpringNetwork& springs, const std::vector<char>& is_changed,
             const VectorX<double>& masses, const std::vector<int>& origins);
 

@@ -92,13 +92,15 @@ NearestSeeds choose_seeds(const IsotropicNetwork& network, int num_coarse) {
   const double mean = sum / static_cast<double>(std::max<std::size_t>(1, network.lengths.size()));
   const double share = static_cast<double>(network.matrix.size()) / num_coarse;
   double distance = share > 1 ? kMeanDistance * mean * std::sqrt(share) : 0.0;
-  while (true) {
+  for (int last = 0;;) {
     NearestSeeds seeds = seeds_at(distance, order, network);
     // No two seeds of a piece are farther from each other than all springs are long.
-    if (seeds.num_seeds() <= num_coarse || distance > sum) return seeds;
-    // In a sheet.
+    if (seeds.num_seeds() <= num_coarse || distance >= sum) return seeds;
+    // In a sheet. Many pieces have a seed each, whatever the distance.
     const double too_many = static_cast<double>(seeds.num_seeds()) / num_coarse;
-    distance = std::max(distance, mean / 2) * std::sqrt(too_many) * kWider;
+    distance = std::max(distance, mean / 2) * std::sqrt(too_many) *
+               (seeds.num_seeds() == last ? 2.0 : kWider);
+    last = seeds.num_seeds();
   }
 }
 

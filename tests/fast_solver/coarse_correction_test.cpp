@@ -107,6 +107,22 @@ TEST(SmoothedAggregates, AreFewHatsThatShareEveryNode) {
   for (const double sum : of_hat) EXPECT_GT(sum, 0);
 }
 
+TEST(SmoothedAggregates, HavePiecesAndLooseNodesToo) {
+  IsotropicNetwork network;  // forty pairs, and forty nodes alone
+  for (int i = 0; i < 120; ++i) {
+    network.matrix.starts.push_back(std::min(i, 80));
+    network.matrix.diagonal.push_back(i < 80 ? 1 : 0);
+    if (i >= 80) continue;
+    network.matrix.columns.push_back(i ^ 1);
+    network.matrix.values.push_back(-1);
+    network.lengths.push_back(0.1);
+  }
+  network.matrix.starts.push_back(80);
+  const Interpolation hats = smoothed_aggregates(network, 30);
+  EXPECT_EQ(hats.num_coarse, 80);
+  EXPECT_EQ(hats.starts.back(), 120);
+}
+
 // A displacement that hats can have is its own correction, whatever directions the springs have: what is left to differ
 // are terms that are left out, and masses that are lumped.
 TEST(CoarseCorrection, FindsADisplacementFromItsForces) {
