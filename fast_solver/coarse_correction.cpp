@@ -24,6 +24,10 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
+float sum_of(const HatWeights& of_node) {
+  return of_node.weights[0] + of_node.weights[1] + of_node.weights[2];
+}
+
 int hats_for(int num_unknowns) {
   return std::max(kLeastHats, static_cast<int>(kHatsPerRoot * std::sqrt(num_unknowns)));
 }
@@ -196,13 +200,11 @@ void CoarseCorrection::note_springs(const EdgeSlots& slots, const std::vector<ch
         const int node = b * kNodeBlock + lane;
         const int other = slots.others[place];
         if (slots.edges[place] < 0 || node >= slots.num_nodes || other <= node) continue;
-        const Row row = difference(node, other);
-        float sum = 0;
-        for (const auto& [hat, d] : row) sum += d;
-        const bool is_bound = std::abs(sum) > kLeastBound;
+        const bool is_bound =
+            std::abs(sum_of(weights_[at(node)]) - sum_of(weights_[at(other)])) > kLeastBound;
         if (!is_bound && (lane + slot) % stride_ != 0) continue;
         const std::size_t first = block.terms.size();
-        add_terms(row, block.terms);
+        add_terms(difference(node, other), block.terms);
         block.springs.push_back({slot, lane, node, other,
                                  static_cast<int>(block.terms.size() - first),
                                  is_bound ? 1.0F : static_cast<float>(stride_)});
