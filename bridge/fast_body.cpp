@@ -187,7 +187,7 @@ void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& o
   if (!can_wait(obstacles_.back())) find_contacts(body, obstacles_.back(), time_step, contacts_);
 }
 
-void FastBody::prepare_solver(const btSoftBody& body, btScalar time_step) {
+void FastBody::prepare_solver(const btSoftBody& body) {
   const bool is_same = solver_ != nullptr && pins_ == solver_pins_ &&
                        is_free_.size() == static_cast<std::size_t>(body.m_nodes.size());
   if (!is_same) {
@@ -203,8 +203,7 @@ void FastBody::prepare_solver(const btSoftBody& body, btScalar time_step) {
   const fast::ThreadTeam::Pause pause(team_);  // what follows are tasks of oneTBB
   settle_network();
   const TraceScope trace("factorise");
-  solver_ = std::make_unique<fast::ImplicitSolver<btScalar>>(network_, masses_, is_free_,
-                                                             static_cast<double>(time_step));
+  solver_ = std::make_unique<fast::ImplicitSolver<btScalar>>(network_, masses_, is_free_);
 }
 
 bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
@@ -352,10 +351,10 @@ void FastBody::solve(btSoftBody& body, btScalar time_step, const fast::SolverEff
   remember_ways();
 }
 
-void FastBody::prepare(const btSoftBody& body, btScalar time_step) {
+void FastBody::prepare(const btSoftBody& body) {
   const fast::ThreadTeam::Scope scope(team_, team_size());
   read_prediction(body);
-  prepare_solver(body, time_step);
+  prepare_solver(body);
 }
 
 void FastBody::begin_solve(btSoftBody& body, btScalar time_step,

@@ -100,7 +100,7 @@ class FastBody {
   /// body, so that those of several bodies may run at the same time; place() pushes and moves rigid bodies.
   /// pushed: those of all bodies, in order. Each of several that push one rigid body has a part of its inertia: they are
   /// solved apart, and each alone would stop it.
-  void prepare(const btSoftBody& body, btScalar time_step);
+  void prepare(const btSoftBody& body);
   void begin_solve(btSoftBody& body, btScalar time_step,
                    std::span<const btRigidBody* const> pushed);
   /// Looks for contacts that the solution needs, and for bodies that it has pushed into others: is_unfinished() says
@@ -134,7 +134,7 @@ class FastBody {
   void solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort, bool is_again);
   [[nodiscard]] int team_size() const;
   [[nodiscard]] bool take_pushed_places(const btSoftBody& body);
-  void prepare_solver(const btSoftBody& body, btScalar time_step);
+  void prepare_solver(const btSoftBody& body);
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
   void find_contacts(const btSoftBody& body, const Obstacle& obstacle, btScalar time_step,
                      std::vector<RigidContact>& contacts);

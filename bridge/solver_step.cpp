@@ -77,7 +77,7 @@ void SoftBodySolver::solve_fast_bodies() {
       1, tbb::this_task_arena::max_concurrency() / std::max(1, static_cast<int>(bodies.size())));
   for (Attachment* one : bodies) one->fast->set_num_threads(num_each);
   if (bodies.size() == 1) return solve_single_body(*bodies[0]);
-  in_parallel(bodies, [&](Attachment& one) { one.fast->prepare(*one.body, time_step_); });
+  in_parallel(bodies, [&](Attachment& one) { one.fast->prepare(*one.body); });
   solve_listed_bodies();
   place_listed_bodies(may_meet_cloth());
 }
@@ -86,7 +86,7 @@ void SoftBodySolver::solve_single_body(Attachment& one) {
   const bool may_meet = may_meet_cloth();
   {
     const auto threads = one.fast->hold_threads();  // to call for them takes longer than most loops
-    one.fast->prepare(*one.body, time_step_);
+    one.fast->prepare(*one.body);
     solve_listed_bodies();
     if (!may_meet) {
       place_listed_bodies(false);

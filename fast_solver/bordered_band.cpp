@@ -67,9 +67,9 @@ std::vector<int> narrow_order(const Neighbours& neighbours, std::vector<char> is
 }
 
 /// 0 or 1: the half of each unknown; 2: the ring between them.
-std::vector<char> halves_of(const Neighbours& neighbours) {
+std::vector<signed char> halves_of(const Neighbours& neighbours) {
   const auto n = static_cast<int>(neighbours.size());
-  std::vector<char> half(at(n), -1);
+  std::vector<signed char> half(at(n), -1);
   std::vector<char> is_in(at(n), 1);
   std::array<int, 2> sizes = {0, 0};
   for (int i = 0; i < n; ++i) {
@@ -78,14 +78,15 @@ std::vector<char> halves_of(const Neighbours& neighbours) {
     int num = 0;
     for (const auto& ring : rings) num += static_cast<int>(ring.size());
     const bool is_parted = 2 * num > n && rings.size() > 2;
-    const char smaller = sizes[1] < sizes[0] ? 1 : 0;
+    const int smaller = sizes[1] < sizes[0] ? 1 : 0;
     int before = 0;
     bool is_behind = false;
     for (std::size_t k = 0; k < rings.size(); ++k) {
       const int next = before + static_cast<int>(rings[k].size());
       const bool is_border = is_parted && !is_behind && k > 0 && 2 * next >= num;
       for (const int j : rings[k]) {
-        half[at(j)] = is_border ? char{2} : !is_parted ? smaller : is_behind ? char{1} : char{0};
+        const int number = is_border ? 2 : !is_parted ? smaller : is_behind ? 1 : 0;
+        half[at(j)] = static_cast<signed char>(number);
         is_in[at(j)] = 0;
         if (!is_border) ++sizes[at(half[at(j)])];
       }
@@ -132,7 +133,7 @@ BorderedBand::BorderedBand(int num_unknowns, const std::vector<std::pair<int, in
 }
 
 void BorderedBand::order(const std::vector<std::vector<int>>& neighbours) {
-  const std::vector<char> half = halves_of(neighbours);
+  const std::vector<signed char> half = halves_of(neighbours);
   for (int k = 0; k <= kHalves; ++k) {
     Band& band = bands_[at(k)];
     std::vector<char> is_in(half.size());
@@ -156,15 +157,11 @@ void BorderedBand::reserve(Band& band, int num_border) {
                      0.0F);
 }
 
-std::size_t BorderedBand::num_bytes() const {
-  std::size_t num = 0;
-  for (const Band& band : bands_) num += band.values.size() + band.corner.size();
-  return num * sizeof(float);
-}
-
 BandRows BorderedBand::rows_of(Band& band) const {
-  return {band.values.data(), band.diagonal.data(), filled_up(3 * band.width) + kRowPad,
-          &band == &bands_[kHalves] ? 0 : num_border_, band.width};
+  const int num_near = filled_up(3 * band.width) + kRowPad;
+  const int num_border = &band == &bands_[kHalves] ? 0 : num_border_;
+  return {band.values.data(), band.diagonal.data(),  num_near,
+          num_border,         num_near + num_border, band.width};
 }
 
 void BorderedBand::fill(Band& band, const float* blocks, const float* inertia) {
@@ -173,9 +170,9 @@ void BorderedBand::fill(Band& band, const float* blocks, const float* inertia) {
   const auto block_of = [&](int block) { return blocks + long{block} * kBlockNumbers; };
   static constexpr int kOf[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
   const auto add = [&](int place, long column, const float* block, float sign) {
-    float* const row = rows.values + 3L * (place - band.begin) * rows.stride() + column;
+    float* const row = rows.values + 3L * (place - band.begin) * rows.stride + column;
     for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c) row[r * rows.stride() + c] += sign * block[kOf[r][c]];
+      for (int c = 0; c < 3; ++c) row[r * rows.stride + c] += sign * block[kOf[r][c]];
     }
   };
   std::fill(band.values.begin(), band.values.end(), 0.0F);
@@ -183,8 +180,8 @@ void BorderedBand::fill(Band& band, const float* blocks, const float* inertia) {
     const int unknown = unknowns_[at(place)];
     add(place, 0, block_of(own_block(unknown)), 1);
     for (const int p : pairs_of_[at(unknown)]) add(place, 0, block_of(pair_block(p)), 1);
-    float* const row = rows.values + 3L * (place - band.begin) * rows.stride();
-    for (int r = 0; r < 3; ++r) row[r * rows.stride() + r] += inertia[unknown];
+    float* const row = rows.values + 3L * (place - band.begin) * rows.stride;
+    for (int r = 0; r < 3; ++r) row[r * rows.stride + r] += inertia[unknown];
   }
   for (const int p : band.pairs) {
     const int low = std::min(places_[at(pairs_[at(p)].first)], places_[at(pairs_[at(p)].second)]);
@@ -200,8 +197,8 @@ void BorderedBand::factorise(const float* blocks, const float* inertia, ThreadTe
   const auto set_scales = [&](Band& band) {
     const BandRows rows = rows_of(band);
     for (int i = 0; i < band.size(); ++i) {
-      const float* const row = rows.values + 3L * i * rows.stride();
-      rows.diagonal[6 * i] = row[0] + row[rows.stride() + 1] + row[2 * rows.stride() + 2];
+      const float* const row = rows.values + 3L * i * rows.stride;
+      rows.diagonal[6 * i] = row[0] + row[rows.stride + 1] + row[2 * rows.stride + 2];
     }
   };
   team.run(kHalves, [&](int half) {
@@ -209,7 +206,7 @@ void BorderedBand::factorise(const float* blocks, const float* inertia, ThreadTe
     fill(band, blocks, inertia);
     set_scales(band);
     std::fill(band.corner.begin(), band.corner.end(), 0.0F);
-    kernel.factorise(rows_of(band), 0, band.size(), kLeastPivot, band.corner.data());
+    kernel.factorise(rows_of(band), band.size(), kLeastPivot, band.corner.data());
   });
   Band& last = bands_[kHalves];
   if (last.size() == 0) return;
@@ -219,13 +216,13 @@ void BorderedBand::factorise(const float* blocks, const float* inertia, ThreadTe
   const int n = 3 * last.size();
   for (int r = 0; r < n; ++r) {
     const int own = r / 3 * 3;
-    float* const row = rows.values + long{r} * rows.stride() - own;
+    float* const row = rows.values + long{r} * rows.stride - own;
     for (int c = own; c < n; ++c) {
       const auto place = at(std::min(r, c) * num_border_ + std::max(r, c));
       for (int half = 0; half < kHalves; ++half) row[c] += bands_[at(half)].corner[place];
     }
   }
-  kernel.factorise(rows, 0, last.size(), kLeastPivot, nullptr);
+  kernel.factorise(rows, last.size(), kLeastPivot, nullptr);
 }
 
 void BorderedBand::solve(const float* right, float* solution, ThreadTeam& team) {
@@ -235,6 +232,8 @@ void BorderedBand::solve(const float* right, float* solution, ThreadTeam& team) 
       const float* const from = right + 4L * unknowns_[at(band.begin + i)];
       std::copy(from, from + 3, band.vector.begin() + 3L * i);
     }
+    // What is not a number must not get stuck behind them.
+    std::fill(band.vector.begin() + 3L * band.size(), band.vector.end(), 0.0F);
   };
   const auto unload = [&](const Band& band) {
     for (int i = 0; i < band.size(); ++i) {
@@ -246,20 +245,20 @@ void BorderedBand::solve(const float* right, float* solution, ThreadTeam& team) 
     Band& band = bands_[at(half)];
     load(band);
     std::fill(band.border.begin(), band.border.end(), 0.0F);
-    kernel.go_up(rows_of(band), 0, band.size(), band.vector.data(), band.border.data());
+    kernel.go_up(rows_of(band), band.size(), band.vector.data(), band.border.data());
   });
   Band& last = bands_[kHalves];
   load(last);
   for (int k = 0; k < 3 * last.size(); ++k) {
     for (int half = 0; half < kHalves; ++half) last.vector[at(k)] += bands_[at(half)].border[at(k)];
   }
-  kernel.go_up(rows_of(last), 0, last.size(), last.vector.data(), nullptr);
-  kernel.go_down(rows_of(last), 0, last.size(), last.vector.data(), nullptr);
+  kernel.go_up(rows_of(last), last.size(), last.vector.data(), nullptr);
+  kernel.go_down(rows_of(last), last.size(), last.vector.data(), nullptr);
   unload(last);
   team.run(kHalves, [&](int half) {
     Band& band = bands_[at(half)];
     std::copy(last.vector.begin(), last.vector.begin() + 3L * last.size(), band.border.begin());
-    kernel.go_down(rows_of(band), 0, band.size(), band.vector.data(), band.border.data());
+    kernel.go_down(rows_of(band), band.size(), band.vector.data(), band.border.data());
     unload(band);
   });
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -20,7 +21,6 @@ class BorderedBand {
   BorderedBand(int num_unknowns, const std::vector<std::pair<int, int>>& pairs);
 
   [[nodiscard]] int size() const { return static_cast<int>(places_.size()); }
-  [[nodiscard]] std::size_t num_bytes() const;
   [[nodiscard]] int num_blocks() const { return size() + static_cast<int>(pairs_.size()); }
   /// Behind those of lower unknowns there is an unknown's own block, and those of pairs of which it is the lower one.
   [[nodiscard]] int own_block(int unknown) const {

@@ -16,7 +16,7 @@ constexpr float kLeastTerm = 0.1F;
 /// Of the largest one of each of two hats: a tie that is taken for none.
 constexpr float kLeastTie = 0.03F;
 /// Sum of the numbers of a spring's hats, from which on it ties them to what does not move: these springs all count.
-constexpr float kLeastBound = 0.01F;
+constexpr float kLeastBound = 0.05F;
 /// Springs of a hat that are enough to know the stiffness between it and its neighbours, about.
 constexpr int kSpringsOfHat = 60;
 
@@ -37,7 +37,7 @@ int hats_for(int num_unknowns) {
 CoarseCorrection::CoarseCorrection(const IsotropicNetwork& springs, const std::vector<int>& names,
                                    int num_nodes)
     : num_nodes_(num_nodes), parts_(num_nodes), weights_(at(fill_up(num_nodes))) {
-  if (springs.matrix.size() == 0) return;
+  alone_.resize(weights_.size());
   const Interpolation hats = smoothed_aggregates(springs, hats_for(springs.matrix.size()));
   num_hats_ = hats.num_coarse;
   for (int unknown = 0; unknown < hats.size(); ++unknown) {
@@ -49,6 +49,7 @@ CoarseCorrection::CoarseCorrection(const IsotropicNetwork& springs, const std::v
     }
   }
   fill_gaps();
+  if (num_hats_ == 0) return;
   stride_ = std::max(
       1, static_cast<int>(springs.matrix.columns.size() / 2) / (kSpringsOfHat * num_hats_));
   find_pairs(springs, names);
@@ -56,13 +57,12 @@ CoarseCorrection::CoarseCorrection(const IsotropicNetwork& springs, const std::v
   for (Fours* fours : {&residual_, &solution_}) fours->setZero(4, num_hats_);
   sums_.assign(at(band_.num_blocks()) * kBlockNumbers, 0.0F);
   for (auto* numbers : {&masses_, &inertia_}) numbers->assign(at(num_hats_), 0.0F);
-  alone_.resize(weights_.size());
   for (int node = 0; node < num_nodes; ++node) note_alone(node);
-  add_copies({});
 }
 
 // Where there is no part in a hat, one that is near, so that hats of parts of the nodes are.
 void CoarseCorrection::fill_gaps() {
+  if (weights_.empty()) return;
   int last = weights_[0].hats[0];
   for (HatWeights& of_node : weights_) {
     if (of_node.weights[0] != 0) last = of_node.hats[0];
@@ -172,7 +172,7 @@ void CoarseCorrection::note_alone(int node) {
 }
 
 void CoarseCorrection::add_copies(const std::vector<int>& origins) {
-  if (num_hats_ == 0) return;
+  parts_ = NodeParts(num_nodes_ + static_cast<int>(origins.size()));
   for (const int origin : origins) {
     const int node = num_nodes_++;
     weights_.resize(at(fill_up(num_nodes_)));
@@ -181,7 +181,6 @@ void CoarseCorrection::add_copies(const std::vector<int>& origins) {
     note_alone(node);
   }
   fill_gaps();
-  parts_ = NodeParts(num_nodes_);
 }
 
 void CoarseCorrection::note_springs(const EdgeSlots& slots, const std::vector<char>& blocks) {
@@ -202,7 +201,7 @@ void CoarseCorrection::note_springs(const EdgeSlots& slots, const std::vector<ch
         if (slots.edges[place] < 0 || node >= slots.num_nodes || other <= node) continue;
         const bool is_bound =
             std::abs(sum_of(weights_[at(node)]) - sum_of(weights_[at(other)])) > kLeastBound;
-        if (!is_bound && (lane + slot) % stride_ != 0) continue;
+        if (!is_bound && (lane + slot + b) % stride_ != 0) continue;
         const std::size_t first = block.terms.size();
         add_terms(difference(node, other), block.terms);
         block.springs.push_back({slot, lane, node, other,
@@ -256,14 +255,6 @@ void CoarseCorrection::set_masses(const VectorX<float>& masses) {
   }
 }
 
-std::size_t CoarseCorrection::num_bytes() const {
-  std::size_t num = band_.num_bytes() + weights_.size() * sizeof(HatWeights);
-  for (const Block& block : blocks_) {
-    num += block.springs.size() * sizeof(CoarseSpring) + block.terms.size() * sizeof(CoarseTerm);
-  }
-  return num;
-}
-
 void CoarseCorrection::factorise(const unsigned short* linear, float root_scale,
                                  const std::vector<Hold>& holds, float inertia_over_mass,
                                  ThreadTeam& team) {
@@ -280,8 +271,9 @@ void CoarseCorrection::factorise(const unsigned short* linear, float root_scale,
       const Block& block = blocks_[at(b)];
       kernel.add_springs(
           {block.springs.data(), static_cast<int>(block.springs.size()), block.terms.data(),
-           alone_.data(), reinterpret_cast<const unsigned char*>(holds.data()), linear, scale},
-          part.blocks.data() - long{part.sums.begin} * kBlockNumbers);
+           alone_.data(), reinterpret_cast<const unsigned char*>(holds.data()), linear, scale,
+           part.sums.begin},
+          part.blocks.data());
     }
   });
   std::fill(sums_.begin(), sums_.end(), 0.0F);
@@ -300,10 +292,9 @@ void CoarseCorrection::set_residual(int part, const std::vector<int>& held,
   of_part.residual.setZero();
   of_part.other_residual.setZero();
   const NodeRange nodes = parts_[part];
-  const long first = 4L * of_part.hats.begin;
   coarse_kernel().restrict_to(weights_.data(), nodes.begin, nodes.end, a.data(), b.data(), a.rows(),
-                              of_part.residual.data() - first,
-                              of_part.other_residual.data() - first);
+                              of_part.hats.begin, of_part.residual.data(),
+                              of_part.other_residual.data());
   of_part.residual += of_part.other_residual;
   for (const int i : in_range(held, nodes)) {
     const HatWeights& of_node = weights_[at(i)];

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <weft/fast_solver/aligned_matrix.hpp>
 #include <weft/fast_solver/bordered_band.hpp>
 #include <weft/fast_solver/coarse_kernel.hpp>
 #include <weft/fast_solver/edge_slots.hpp>
@@ -13,6 +14,7 @@
 #include <weft/fast_solver/node_arrays.hpp>
 #include <weft/fast_solver/node_constraints.hpp>
 #include <weft/fast_solver/node_parts.hpp>
+#include <weft/fast_solver/thread_team.hpp>
 
 namespace weft::fast {
 
@@ -24,7 +26,8 @@ using Fours = AlignedMatrix<float, 4, Eigen::Dynamic>;
 /// slowly and together, it does nearly so: carry a corner's load, swing, fold over an obstacle.
 ///
 /// Nodes that are held have no part in P.
-/// Threads  one object from one thread at a time, but for calls that say otherwise. Allocates nothing after construction.
+/// Threads  one object from one thread at a time, but for calls that say otherwise. Allocates nothing after construction, but
+///          for add_copies() and note_springs().
 class CoarseCorrection {
  public:
   CoarseCorrection() = default;
@@ -35,10 +38,6 @@ class CoarseCorrection {
   void add_copies(const std::vector<int>& origins);
   /// The springs of some blocks of kNodeBlock nodes, flags; and of all that come behind them.
   void note_springs(const EdgeSlots& slots, const std::vector<char>& blocks);
-
-  /// Coarse unknowns, of three components each.
-  [[nodiscard]] int size() const { return num_hats_; }
-  [[nodiscard]] std::size_t num_bytes() const;
 
   /// masses: of each node.
   void set_masses(const VectorX<float>& masses);

@@ -37,7 +37,8 @@ struct CoarseSprings {
   const CoarseNode* nodes;
   const unsigned char* is_held;  ///< of each node
   const unsigned short* linear;
-  float scale;  ///< of what is stored
+  float scale;    ///< of what is stored
+  int first_sum;  ///< of those that are given
 };
 
 /// Rows of the upper factor U of a matrix that is a band with a border, three rows for each unknown. A row of an unknown
@@ -47,9 +48,8 @@ struct BandRows {
   float* diagonal;  ///< of each unknown, six: inverses of U's diagonal, then u01, u02, u12
   int num_near;     ///< kRowPad zeros and more included
   int num_border;   ///< multiple of kRowPad, filled up with zeros
+  int stride;       ///< of rows: both together
   int width;        ///< unknowns that a row reaches, its own included
-
-  [[nodiscard]] int stride() const { return num_near + num_border; }
 };
 
 /// A node's part in hats; without one: weights of 0.
@@ -62,20 +62,21 @@ struct CoarseKernel {
   /// sums[term.sum] += term.factor stiffness, for each term of each spring; those of its other end alone where one end is
   /// held, none where both are.
   void (*add_springs)(const CoarseSprings& springs, float* sums);
-  /// Makes the factor of the unknowns begin ... end - 1, which reach none behind them but the border's. corner: what they
-  /// take from the block of the border, rows of num_border numbers, upper half. An unknown with a pivot below `least` of
-  /// what is stored for it in diagonal gets no part in solutions.
-  void (*factorise)(const BandRows& rows, int begin, int end, float least, float* corner);
+  /// Makes the factor of num unknowns, which reach none behind them but the border's. corner: what they take from the block
+  /// of the border, rows of num_border numbers, upper half. An unknown with a pivot below `least` of what is stored for it in
+  /// diagonal gets no part in solutions.
+  void (*factorise)(const BandRows& rows, int num, float least, float* corner);
   /// vector = U^-T vector for these unknowns; border -= what they leave for it.
-  void (*go_up)(const BandRows& rows, int begin, int end, float* vector, float* border);
+  void (*go_up)(const BandRows& rows, int num, float* vector, float* border);
   /// vector = U^-1 vector, where border has the border's solution.
-  /// sums and other_sums, in fours, += weights of nodes times a - b, of arrays of nodes: what is wanted is the sum of both.
+  void (*go_down)(const BandRows& rows, int num, float* vector, const float* border);
+  /// sums and other_sums, in fours, += weights of nodes times a - b, of arrays of nodes, from sum first_sum on: what is wanted
+  /// is the sum of both.
   void (*restrict_to)(const HatWeights* weights, int begin, int end, const float* a, const float* b,
-                      long stride, float* sums, float* other_sums);
+                      long stride, int first_sum, float* sums, float* other_sums);
   /// The transpose: values of nodes from fours.
   void (*interpolate)(const HatWeights* weights, int begin, int end, const float* fours,
                       float* values, long stride);
-  void (*go_down)(const BandRows& rows, int begin, int end, float* vector, const float* border);
 };
 
 /// The fastest that this processor runs, as in network_kernel.hpp.

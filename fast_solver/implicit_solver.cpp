@@ -48,7 +48,7 @@ int iterations_of(const StepProblem<Scalar>& problem, const SolverEffort& effort
 }
 
 CoarseCorrection correction_of(const SpringNetwork& network, const std::vector<bool>& is_free,
-                               Eigen::Index num_nodes, double time_step) {
+                               Eigen::Index num_nodes) {
   if (static_cast<Eigen::Index>(is_free.size()) != num_nodes) {
     throw InvalidArgument("implicit solver: " + std::to_string(is_free.size()) +
                           " flags of free nodes, expected one for each of the " +
@@ -56,17 +56,17 @@ CoarseCorrection correction_of(const SpringNetwork& network, const std::vector<b
   }
   const auto n = static_cast<int>(num_nodes);
   const std::vector<int> names = free_nodes(is_free);
-  return {isotropic_network(network, n, names, time_step), names, n};
+  return {isotropic_network(network, n, names), names, n};
 }
 
 }  // namespace
 
 template <class Scalar>
 ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const VectorX<double>& masses,
-                                       const std::vector<bool>& is_free, double time_step)
+                                       const std::vector<bool>& is_free)
     : parts_(static_cast<int>(masses.size())),
       forces_(network, static_cast<int>(masses.size())),
-      coarse_correction_(correction_of(network, is_free, masses.size(), time_step)) {
+      coarse_correction_(correction_of(network, is_free, masses.size())) {
   set_nodes(masses, is_free);
   coarse_correction_.note_springs(forces_.slots(), {});
   coarse_correction_.set_masses(masses_.template cast<float>());

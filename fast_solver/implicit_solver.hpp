@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -37,13 +36,11 @@ class ImplicitSolver {
  public:
   using Vector6 = Eigen::Matrix<Scalar, 6, 1>;
 
-  /// masses: n [kg], > 0; is_free: n. time_step [s], > 0: a typical one, which says how much dampers tie patches together.
-  /// Throws InvalidArgument for sizes that do not fit.
+  /// masses: n [kg], > 0; is_free: n. Throws InvalidArgument for sizes that do not fit.
   ImplicitSolver(const SpringNetwork& network, const VectorX<double>& masses,
-                 const std::vector<bool>& is_free, double time_step);
+                 const std::vector<bool>& is_free);
 
   [[nodiscard]] int num_nodes() const { return forces_.num_nodes(); }
-  [[nodiscard]] const CoarseCorrection& coarse_correction() const { return coarse_correction_; }
 
   /// The cloth has come apart: springs in the place of all that have an end among the changed nodes (flags),
   /// copies of the origins behind the other nodes, masses of all [kg]. Takes a small part of what a

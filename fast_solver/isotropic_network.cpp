@@ -6,6 +6,8 @@
 namespace weft::fast {
 namespace {
 
+constexpr double kTimeStep = 1.0 / 60;  // [s]
+
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
@@ -13,7 +15,7 @@ std::size_t at(int i) {
 }  // namespace
 
 IsotropicNetwork isotropic_network(const SpringNetwork& network, int num_nodes,
-                                   const std::vector<int>& names, double time_step) {
+                                   const std::vector<int>& names) {
   std::vector<int> unknown_of(at(num_nodes), -1);
   IsotropicNetwork result;
   SymmetricMatrix& matrix = result.matrix;
@@ -45,7 +47,7 @@ IsotropicNetwork isotropic_network(const SpringNetwork& network, int num_nodes,
   // Columns come in ascending order: of lower nodes before those that have the node as their first one.
   for (Eigen::Index e = 0; e < network.edges.cols(); ++e) {
     const double weight =
-        network.stiffness[e] + network.damping[e] / time_step + network.stabiliser[e];
+        network.stiffness[e] + network.damping[e] / kTimeStep + network.stabiliser[e];
     const auto [a, b] = ends(e);
     if (a >= 0) matrix.diagonal[at(a)] += weight;
     if (b >= 0) matrix.diagonal[at(b)] += weight;

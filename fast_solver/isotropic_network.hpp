@@ -13,9 +13,9 @@ struct IsotropicNetwork {
   std::vector<double> lengths;  ///< of the spring of each entry, at rest [m]
 };
 
-/// Over the nodes names, ascending; what holds the others counts. network: by first, then by second node. time_step: of
-/// dampers [s].
+/// Over the nodes names, ascending; what holds the others counts. network: by first, then by second node. Dampers count as in
+/// steps of 1/60 s.
 [[nodiscard]] IsotropicNetwork isotropic_network(const SpringNetwork& network, int num_nodes,
-                                                 const std::vector<int>& names, double time_step);
+                                                 const std::vector<int>& names);
 
 }  // namespace weft::fast

@@ -8,6 +8,10 @@
 #include <numeric>
 #include <queue>
 #include <utility>
+#include <vector>
+
+#include <weft/fast_solver/interpolation.hpp>
+#include <weft/fast_solver/sparse_matrix.hpp>
 
 namespace weft::fast {
 namespace {
@@ -150,7 +154,9 @@ Interpolation smoothed_aggregates(const IsotropicNetwork& network, int num_coars
   for (int sweep = 0; sweep < kSweeps; ++sweep) rows = smoothed(matrix, rows, sum);
   result.starts.push_back(0);
   std::vector<int> number_of(at(seeds.num_seeds()), -1);  // hats that nobody keeps are none
-  for (Row& row : rows) {
+  for (int i = 0; i < matrix.size(); ++i) {
+    Row& row = rows[at(i)];
+    if (!(matrix.diagonal[at(i)] > 0)) row.clear();  // the smoother is exact there
     keep_largest(row);
     for (const auto& [column, weight] : row) {
       int& number = number_of[at(column)];

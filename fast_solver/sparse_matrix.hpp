@@ -22,8 +22,4 @@ struct MatrixPart {
   double value;
 };
 
-/// The sum of parts as a matrix of size x size. Parts of the same place are added in the order in
-/// which they are given.
-[[nodiscard]] SymmetricMatrix sum_of_parts(int size, const std::vector<MatrixPart>& parts);
-
 }  // namespace weft::fast

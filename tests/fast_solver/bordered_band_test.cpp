@@ -1,7 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
+#include <algorithm>
+#include <limits>
 #include <random>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Cholesky>
 
 #include <weft/fast_solver/bordered_band.hpp>
 
@@ -100,6 +105,16 @@ TEST(BorderedBand, LeavesOutWhatNothingHolds) {
   EXPECT_TRUE(found.allFinite());
   EXPECT_TRUE(found.col(6).isZero(0));
   EXPECT_FALSE(found.col(5).isZero(1e-3F));
+}
+
+TEST(BorderedBand, KeepsNothingOfWhatIsNotANumber) {
+  Problem problem(13 * 11, grid_pairs(13, 11));
+  const Eigen::Matrix4Xf expected = problem.solution(1);
+  const Eigen::Matrix4Xf right = problem.right;
+  problem.right.setConstant(std::numeric_limits<float>::quiet_NaN());
+  (void)problem.solution(1);
+  problem.right = right;
+  EXPECT_EQ(problem.solution(1), expected);
 }
 
 TEST(BorderedBand, ThreadsChangeNoBit) {

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <cstdlib>
+#include <optional>
+#include <vector>
 
 #include <weft/custom_forces/core/cloth_grid.hpp>
 #include <weft/fast_solver/coarse_correction.hpp>
@@ -24,7 +26,7 @@ struct Sheet {
     const SpringNetwork network = make_network(mesh, {{"tension", {}, {{"stiffness", {50.0}}}}});
     forces.emplace(network, mesh.num_nodes());
     for (int i = kSide; i < mesh.num_nodes(); ++i) names.push_back(i);
-    springs = isotropic_network(network, mesh.num_nodes(), names, 1.0 / 60);
+    springs = isotropic_network(network, mesh.num_nodes(), names);
     correction = CoarseCorrection(springs, names, mesh.num_nodes());
     correction.note_springs(forces->slots(), {});
     std::srand(4);
@@ -119,8 +121,8 @@ TEST(SmoothedAggregates, HavePiecesAndLooseNodesToo) {
   }
   network.matrix.starts.push_back(80);
   const Interpolation hats = smoothed_aggregates(network, 30);
-  EXPECT_EQ(hats.num_coarse, 80);
-  EXPECT_EQ(hats.starts.back(), 120);
+  EXPECT_EQ(hats.num_coarse, 40);  // none of loose nodes
+  EXPECT_EQ(hats.starts.back(), 80);
 }
 
 // A displacement that hats can have is its own correction, whatever directions the springs have: what is left to differ

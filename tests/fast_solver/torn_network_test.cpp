@@ -142,14 +142,14 @@ TEST(TornSolver, ConvergesRightAfterATear) {
   const int n = 40;
   const ClothMesh mesh = cloth(n);
   const SpringNetwork network = make_network(mesh, kLaws);
-  ImplicitSolver<double> solver(network, mesh.masses, free_flags(mesh), 1.0 / 60);
+  ImplicitSolver<double> solver(network, mesh.masses, free_flags(mesh));
   const Tear tear = cut_along(mesh, cut_at(n, 3));
   const std::vector<char> is_changed = flags_of(tear);
   const SpringNetwork springs = make_network_at(is_changed, tear.mesh, kLaws);
   solver.tear(springs, is_changed, tear.mesh.masses, tear.origins);
   SpringNetwork torn = network;
   replace_springs(is_changed, springs, torn);
-  ImplicitSolver<double> fresh(torn, tear.mesh.masses, free_flags(tear.mesh), 1.0 / 60);
+  ImplicitSolver<double> fresh(torn, tear.mesh.masses, free_flags(tear.mesh));
   Step after(tear.mesh);
   Step expected(tear.mesh);
   const double residual = after.residual(solver);
@@ -163,7 +163,7 @@ TEST(TornSolver, ConvergesRightAfterATear) {
 TEST(TornSolver, TearsAgainAndAgain) {
   const int n = 30;
   ClothMesh mesh = cloth(n);
-  ImplicitSolver<double> solver(make_network(mesh, kLaws), mesh.masses, free_flags(mesh), 1.0 / 60);
+  ImplicitSolver<double> solver(make_network(mesh, kLaws), mesh.masses, free_flags(mesh));
   for (int k = 0; k < 5; ++k) {
     const Tear tear = cut_along(mesh, cut_at(n, k));
     const std::vector<char> is_changed = flags_of(tear);
@@ -172,6 +172,22 @@ TEST(TornSolver, TearsAgainAndAgain) {
     mesh = tear.mesh;
     EXPECT_LT(Step(mesh).residual(solver), 0.02) << k;
   }
+}
+
+// There are no hats, and more parts of the nodes than before.
+TEST(TornSolver, TearsWhereAllIsPinned) {
+  const int n = 30;
+  const ClothMesh mesh = cloth(n);
+  const std::vector<bool> nobody(static_cast<std::size_t>(mesh.num_nodes()), false);
+  ImplicitSolver<double> solver(make_network(mesh, kLaws), mesh.masses, nobody);
+  const Tear tear = cut_along(mesh, cut_at(n, 3));
+  const std::vector<char> is_changed = flags_of(tear);
+  solver.tear(make_network_at(is_changed, tear.mesh, kLaws), is_changed, tear.mesh.masses,
+              tear.origins);
+  Step step(tear.mesh);
+  step.targets = step.starts;
+  (void)step.residual(solver);
+  EXPECT_EQ(step.places, step.starts);
 }
 
 TEST(TornSolver, GivesTheSameBitsForAnyNumberOfThreads) {
@@ -183,7 +199,7 @@ TEST(TornSolver, GivesTheSameBitsForAnyNumberOfThreads) {
   const SpringNetwork springs = make_network_at(is_changed, tear.mesh, {kLaws[0]});
   std::vector<Matrix3X<double>> places;
   for (const int threads : {1, 4}) {
-    ImplicitSolver<double> solver(network, mesh.masses, free_flags(mesh), 1.0 / 60);
+    ImplicitSolver<double> solver(network, mesh.masses, free_flags(mesh));
     solver.tear(springs, is_changed, tear.mesh.masses, tear.origins);
     Step step(tear.mesh);
     for (int k = 0; k < 3; ++k) {
