@@ -69,11 +69,6 @@ std::optional<std::string> FastBody::obstacle(const btSoftBody& body) {
 // What the body knew of the steps before is of other nodes.
 void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>& is_changed,
                     VectorX<double> masses, const std::vector<int>& origins) {
-  torn_nodes_.resize(is_changed.size(), 0);
-  fast::replace_springs(is_changed, springs, torn_springs_);
-  for (std::size_t node = 0; node < is_changed.size(); ++node) {
-    if (is_changed[node] != 0) torn_nodes_[node] = 1;
-  }
   masses_ = std::move(masses);
   weights_.resize(3, 0);
   if (solver_) {
@@ -84,20 +79,14 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
       }
       is_free_.push_back(is_free_[static_cast<std::size_t>(origin)]);
     }
+  } else {
+    fast::replace_springs(is_changed, springs, network_);
   }
   contacts_.clear();
   obstacles_.clear();
   ways_.outdate();
   excess_ = 0;
   wake();
-}
-
-// What several tears have changed together, when it is needed: the network is large.
-void FastBody::settle_network() {
-  if (torn_nodes_.empty()) return;
-  fast::replace_springs(torn_nodes_, torn_springs_, network_);
-  torn_springs_ = {};
-  torn_nodes_.clear();
 }
 
 btVector3 FastBody::in_world(int node) const {
@@ -200,10 +189,13 @@ void FastBody::prepare_solver(const btSoftBody& body) {
     for (const int pin : pins_) weights_.col(pin).setZero();
   }
   if (is_same) return;
-  const fast::ThreadTeam::Pause pause(team_);  // what follows are tasks of oneTBB
-  settle_network();
   const TraceScope trace("factorise");
-  solver_ = std::make_unique<fast::ImplicitSolver<btScalar>>(network_, masses_, is_free_);
+  if (solver_) {
+    solver_->set_free(is_free_);
+  } else {
+    solver_ = std::make_unique<fast::ImplicitSolver<btScalar>>(network_, masses_, is_free_);
+    network_ = {};  // the solver has it now
+  }
 }
 
 bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {

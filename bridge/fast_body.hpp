@@ -165,15 +165,12 @@ class FastBody {
   /// True if velocities_ had to be slowed down.
   bool keep_energy(btScalar time_step);
 
-  void settle_network();
 
-  fast::SpringNetwork network_;
-  fast::SpringNetwork torn_springs_;  ///< not in network_ yet: all with an end among torn_nodes_
-  std::vector<char> torn_nodes_;      ///< flags
+  fast::SpringNetwork network_;  ///< until solver_ has it
   VectorX<double> masses_;
   FastSettings settings_;
   std::unique_ptr<fast::ImplicitSolver<btScalar>> solver_;
-  std::vector<bool> is_free_;     ///< that solver_ was made for
+  std::vector<bool> is_free_;     ///< that solver_ knows
   std::vector<int> solver_pins_;  ///< likewise
   std::vector<int> pins_;         ///< of the present step
   Matrix3X<btScalar> weights_;    ///< masses, each thrice [kg]; 0 for pins

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include <weft/fast_solver/smoothed_aggregates.hpp>
+#include <numeric>
 
 namespace weft::fast {
 namespace {
@@ -34,30 +33,75 @@ int hats_for(int num_unknowns) {
 
 }  // namespace
 
-CoarseCorrection::CoarseCorrection(const IsotropicNetwork& springs, const std::vector<int>& names,
-                                   int num_nodes)
-    : num_nodes_(num_nodes), parts_(num_nodes), weights_(at(fill_up(num_nodes))) {
+CoarseCorrection::CoarseCorrection(const IsotropicNetwork& springs,
+                                   const std::vector<bool>& is_free)
+    : num_nodes_(springs.matrix.size()), parts_(num_nodes_), weights_(at(fill_up(num_nodes_))) {
   alone_.resize(weights_.size());
-  const Interpolation hats = smoothed_aggregates(springs, hats_for(springs.matrix.size()));
-  num_hats_ = hats.num_coarse;
-  for (int unknown = 0; unknown < hats.size(); ++unknown) {
-    HatWeights& of_node = weights_[at(names[at(unknown)])];
-    int k = 0;
-    for (int e = hats.starts[at(unknown)]; e < hats.starts[at(unknown) + 1]; ++e, ++k) {
-      of_node.hats[k] = hats.columns[at(e)];
-      of_node.weights[k] = static_cast<float>(hats.values[at(e)]);
-    }
-  }
-  fill_gaps();
+  const auto num_free = static_cast<int>(std::count(is_free.begin(), is_free.end(), true));
+  patches_ = find_patches(springs, is_free, hats_for(num_free));
+  num_hats_ = patches_.count;
   if (num_hats_ == 0) return;
+  const Interpolation hats = smoothed_aggregates(springs, is_free, patches_);
+  for (int node = 0; node < num_nodes_; ++node) set_hats(node, hats, node);
+  fill_gaps();
   stride_ = std::max(
       1, static_cast<int>(springs.matrix.columns.size() / 2) / (kSpringsOfHat * num_hats_));
-  find_pairs(springs, names);
+  std::vector<int> names(at(num_nodes_));
+  std::iota(names.begin(), names.end(), 0);
+  find_pairs(ties_of(springs, names));
+  make_band();
+}
+
+// What depends on which hats know each other.
+void CoarseCorrection::make_band() {
+  first_pairs_.clear();
+  for (int hat = 0; hat <= num_hats_; ++hat) {
+    const auto first = std::lower_bound(pairs_.begin(), pairs_.end(), std::pair(hat, 0));
+    first_pairs_.push_back(static_cast<int>(first - pairs_.begin()));
+  }
   band_ = BorderedBand(num_hats_, pairs_);
   for (Fours* fours : {&residual_, &solution_}) fours->setZero(4, num_hats_);
   sums_.assign(at(band_.num_blocks()) * kBlockNumbers, 0.0F);
   for (auto* numbers : {&masses_, &inertia_}) numbers->assign(at(num_hats_), 0.0F);
-  for (int node = 0; node < num_nodes; ++node) note_alone(node);
+  for (int node = 0; node < num_nodes_; ++node) note_alone(node);
+  blocks_.clear();
+}
+
+bool CoarseCorrection::set_free(const IsotropicNetwork& network, const std::vector<int>& names,
+                                const std::vector<bool>& is_free, const std::vector<bool>& is_near,
+                                const EdgeSlots& slots) {
+  Patches patches{num_hats_, {}};
+  for (const int node : names) patches.of_unknown.push_back(patches_.of_unknown[at(node)]);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (is_free[k] && patches.of_unknown[k] < 0 && network.matrix.diagonal[k] > 0) return false;
+  }
+  if (num_hats_ == 0) return true;
+  const Interpolation hats = smoothed_aggregates(network, is_free, patches);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (is_near[k]) set_hats(names[k], hats, static_cast<int>(k));
+  }
+  fill_gaps();
+  if (add_pairs(ties_of(network, names))) {
+    make_band();
+  } else {
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      if (is_near[k]) note_alone(names[k]);
+    }
+  }
+  std::vector<char> blocks(at(slots.num_blocks()), 0);
+  for (const int node : names) blocks[at(node / kNodeBlock)] = 1;
+  note_springs(slots, blocks);
+  return true;
+}
+
+void CoarseCorrection::set_hats(int node, const Interpolation& hats, int unknown) {
+  HatWeights& of_node = weights_[at(node)];
+  of_node = {};
+  int k = 0;
+  for (int e = hats.starts[at(unknown)]; e < hats.starts[at(unknown) + 1]; ++e, ++k) {
+    of_node.hats[k] = hats.columns[at(e)];
+    of_node.weights[k] = static_cast<float>(hats.values[at(e)]);
+  }
 }
 
 // Where there is no part in a hat, one that is near, so that hats of parts of the nodes are.
@@ -90,11 +134,10 @@ CoarseCorrection::Row CoarseCorrection::row_of(int node) const {
   return row;
 }
 
-// Of hats that springs tie together, but for those that others tie much more: patches that are not next to each other.
-void CoarseCorrection::find_pairs(const IsotropicNetwork& springs, const std::vector<int>& names) {
+CoarseCorrection::Ties CoarseCorrection::ties_of(const IsotropicNetwork& springs,
+                                                 const std::vector<int>& names) const {
   const SymmetricMatrix& matrix = springs.matrix;
-  std::vector<std::vector<std::pair<int, float>>> higher(at(num_hats_));
-  std::vector<float> largest(at(num_hats_), 0.0F);
+  Ties higher(at(num_hats_));
   for (int i = 0; i < matrix.size(); ++i) {
     for (int e = matrix.starts[at(i)]; e < matrix.starts[at(i) + 1]; ++e) {
       if (matrix.columns[at(e)] < i) continue;
@@ -112,21 +155,42 @@ void CoarseCorrection::find_pairs(const IsotropicNetwork& springs, const std::ve
       }
     }
   }
+  for (auto& list : higher) std::sort(list.begin(), list.end());
+  return higher;
+}
+
+bool CoarseCorrection::counts(int hat, int other, float tie) const {
+  return std::abs(tie) > kLeastTie * std::min(largest_ties_[at(hat)], largest_ties_[at(other)]);
+}
+
+// Of hats that springs tie together, but for those that others tie much more: patches that are not next to each other.
+void CoarseCorrection::find_pairs(const Ties& ties) {
+  largest_ties_.assign(at(num_hats_), 0.0F);
   for (int hat = 0; hat < num_hats_; ++hat) {
-    for (const auto& [other, tie] : higher[at(hat)]) {
-      for (const int one : {hat, other}) largest[at(one)] = std::max(largest[at(one)], tie);
+    for (const auto& [other, tie] : ties[at(hat)]) {
+      for (const int one : {hat, other}) {
+        largest_ties_[at(one)] = std::max(largest_ties_[at(one)], tie);
+      }
     }
   }
   for (int hat = 0; hat < num_hats_; ++hat) {
-    first_pairs_.push_back(static_cast<int>(pairs_.size()));
-    auto& list = higher[at(hat)];
-    std::sort(list.begin(), list.end());
-    for (const auto& [other, tie] : list) {
-      const float least = kLeastTie * std::min(largest[at(hat)], largest[at(other)]);
-      if (std::abs(tie) > least) pairs_.emplace_back(hat, other);
+    for (const auto& [other, tie] : ties[at(hat)]) {
+      if (counts(hat, other, tie)) pairs_.emplace_back(hat, other);
     }
   }
-  first_pairs_.push_back(static_cast<int>(pairs_.size()));
+}
+
+// False: there are none that count and are new.
+bool CoarseCorrection::add_pairs(const Ties& ties) {
+  const std::size_t num_before = pairs_.size();
+  for (int hat = 0; hat < num_hats_; ++hat) {
+    for (const auto& [other, tie] : ties[at(hat)]) {
+      if (counts(hat, other, tie) && pair_of(hat, other) < 0) pairs_.emplace_back(hat, other);
+    }
+  }
+  if (pairs_.size() == num_before) return false;
+  std::sort(pairs_.begin(), pairs_.end());
+  return true;
 }
 
 /// Of the hats of two nodes.
@@ -178,6 +242,7 @@ void CoarseCorrection::add_copies(const std::vector<int>& origins) {
     weights_.resize(at(fill_up(num_nodes_)));
     alone_.resize(weights_.size());
     weights_[at(node)] = weights_[at(origin)];
+    patches_.of_unknown.push_back(patches_.of_unknown[at(origin)]);
     note_alone(node);
   }
   fill_gaps();

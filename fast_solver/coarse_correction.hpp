@@ -14,6 +14,7 @@
 #include <weft/fast_solver/node_arrays.hpp>
 #include <weft/fast_solver/node_constraints.hpp>
 #include <weft/fast_solver/node_parts.hpp>
+#include <weft/fast_solver/smoothed_aggregates.hpp>
 #include <weft/fast_solver/thread_team.hpp>
 
 namespace weft::fast {
@@ -31,8 +32,15 @@ using Fours = AlignedMatrix<float, 4, Eigen::Dynamic>;
 class CoarseCorrection {
  public:
   CoarseCorrection() = default;
-  /// springs: of the unknowns, as isotropic_network(). names: the node of each unknown.
-  CoarseCorrection(const IsotropicNetwork& springs, const std::vector<int>& names, int num_nodes);
+  /// Of all nodes.
+  CoarseCorrection(const IsotropicNetwork& springs, const std::vector<bool>& is_free);
+
+  /// Some nodes are free that were not, or the other way round: hats anew for the nodes that are within kHatReach springs of
+  /// them, and their springs. network: between nodes names, which are all within twice that; is_free, is_near: of each of
+  /// these. False: more is free than there are hats for, and the correction must be made anew. set_masses() is due.
+  [[nodiscard]] bool set_free(const IsotropicNetwork& network, const std::vector<int>& names,
+                              const std::vector<bool>& is_free, const std::vector<bool>& is_near,
+                              const EdgeSlots& slots);
 
   /// Nodes that come behind the others, copies of these: they have their origins' parts.
   void add_copies(const std::vector<int>& origins);
@@ -86,10 +94,18 @@ class CoarseCorrection {
     void add(int hat, float number);
   };
 
+  /// Of each hat to higher ones, ascending [N/m].
+  using Ties = std::vector<std::vector<std::pair<int, float>>>;
+
   [[nodiscard]] Row row_of(int node) const;
   [[nodiscard]] Row difference(int node, int other) const;
   [[nodiscard]] int pair_of(int a, int b) const;
-  void find_pairs(const IsotropicNetwork& springs, const std::vector<int>& names);
+  void set_hats(int node, const Interpolation& hats, int unknown);
+  [[nodiscard]] Ties ties_of(const IsotropicNetwork& springs, const std::vector<int>& names) const;
+  [[nodiscard]] bool counts(int hat, int other, float tie) const;
+  void find_pairs(const Ties& ties);
+  [[nodiscard]] bool add_pairs(const Ties& ties);
+  void make_band();
   void add_terms(const Row& row, std::vector<CoarseTerm>& terms) const;
   void note_alone(int node);
   void find_ranges();
@@ -99,7 +115,9 @@ class CoarseCorrection {
   int num_hats_ = 0;
   int stride_ = 1;  ///< one spring of so many is looked at
   NodeParts parts_;
+  Patches patches_;
   std::vector<HatWeights> weights_;
+  std::vector<float> largest_ties_;         ///< of each hat
   std::vector<std::pair<int, int>> pairs_;  ///< of hats, ascending
   std::vector<int> first_pairs_;            ///< of each hat as the lower one, and behind the last
   std::vector<Block> blocks_;

@@ -7,7 +7,6 @@
 
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/trace.hpp>
-#include <weft/fast_solver/isotropic_network.hpp>
 
 namespace weft::fast {
 namespace {
@@ -29,14 +28,6 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-std::vector<int> free_nodes(const std::vector<bool>& is_free) {
-  std::vector<int> nodes;
-  for (std::size_t i = 0; i < is_free.size(); ++i) {
-    if (is_free[i]) nodes.push_back(static_cast<int>(i));
-  }
-  return nodes;
-}
-
 /// Where nothing touches the cloth, the first round only has to find where springs will point: some of its
 /// iterations are worth more in the last.
 template <class Scalar>
@@ -47,16 +38,11 @@ int iterations_of(const StepProblem<Scalar>& problem, const SolverEffort& effort
   return effort.iterations + (round == effort.rounds - 1 ? effort.iterations / 4 : 0);
 }
 
-CoarseCorrection correction_of(const SpringNetwork& network, const std::vector<bool>& is_free,
-                               Eigen::Index num_nodes) {
-  if (static_cast<Eigen::Index>(is_free.size()) != num_nodes) {
-    throw InvalidArgument("implicit solver: " + std::to_string(is_free.size()) +
-                          " flags of free nodes, expected one for each of the " +
-                          std::to_string(num_nodes) + " nodes");
-  }
-  const auto n = static_cast<int>(num_nodes);
-  const std::vector<int> names = free_nodes(is_free);
-  return {isotropic_network(network, n, names), names, n};
+void check_size(const std::vector<bool>& is_free, Eigen::Index num_nodes) {
+  if (static_cast<Eigen::Index>(is_free.size()) == num_nodes) return;
+  throw InvalidArgument("implicit solver: " + std::to_string(is_free.size()) +
+                        " flags of free nodes, expected one for each of the " +
+                        std::to_string(num_nodes) + " nodes");
 }
 
 }  // namespace
@@ -64,12 +50,57 @@ CoarseCorrection correction_of(const SpringNetwork& network, const std::vector<b
 template <class Scalar>
 ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const VectorX<double>& masses,
                                        const std::vector<bool>& is_free)
-    : parts_(static_cast<int>(masses.size())),
-      forces_(network, static_cast<int>(masses.size())),
-      coarse_correction_(correction_of(network, is_free, masses.size())) {
+    : parts_(static_cast<int>(masses.size())), forces_(network, static_cast<int>(masses.size())) {
+  check_size(is_free, masses.size());
   set_nodes(masses, is_free);
+  make_correction();
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::make_correction() {
+  std::vector<int> all(at(num_nodes()));
+  std::iota(all.begin(), all.end(), 0);
+  coarse_correction_ = CoarseCorrection(forces_.isotropic_network(all), is_free_);
   coarse_correction_.note_springs(forces_.slots(), {});
   coarse_correction_.set_masses(masses_.template cast<float>());
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::set_free(const std::vector<bool>& is_free) {
+  check_size(is_free, num_nodes());
+  std::vector<int> changed;
+  for (int i = 0; i < num_nodes(); ++i) {
+    if (is_free[at(i)] != is_free_[at(i)]) changed.push_back(i);
+  }
+  if (changed.empty()) return;
+  is_free_ = is_free;
+  list_pinned();
+  if (!change_correction(changed)) make_correction();
+}
+
+// False if the correction must be made anew.
+template <class Scalar>
+bool ImplicitSolver<Scalar>::change_correction(const std::vector<int>& changed) {
+  const std::vector<int> names = forces_.nodes_near(changed, 2 * kHatReach);
+  const std::vector<int> near = forces_.nodes_near(changed, kHatReach);
+  std::vector<bool> is_free;
+  std::vector<bool> is_near;
+  for (const int node : names) {
+    is_free.push_back(is_free_[at(node)]);
+    is_near.push_back(std::binary_search(near.begin(), near.end(), node));
+  }
+  const IsotropicNetwork springs = forces_.isotropic_network(names);
+  if (!coarse_correction_.set_free(springs, names, is_free, is_near, forces_.slots())) return false;
+  coarse_correction_.set_masses(masses_.template cast<float>());
+  return true;
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::list_pinned() {
+  pinned_.clear();
+  for (int i = 0; i < static_cast<int>(is_free_.size()); ++i) {
+    if (!is_free_[at(i)]) pinned_.push_back(i);
+  }
 }
 
 template <class Scalar>
@@ -78,10 +109,7 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
   is_free_ = is_free;
   const Eigen::Index n = masses.size();
   parts_ = NodeParts(static_cast<int>(n));
-  pinned_.clear();
-  for (int i = 0; i < static_cast<int>(n); ++i) {
-    if (!is_free_[at(i)]) pinned_.push_back(i);
-  }
+  list_pinned();
   held_.clear();
   held_.reserve(at(static_cast<int>(n)));
   contact_of_.assign(at(static_cast<int>(n)), -1);

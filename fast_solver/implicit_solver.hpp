@@ -48,6 +48,9 @@ class ImplicitSolver {
   void tear(const SpringNetwork& springs, const std::vector<char>& is_changed,
             const VectorX<double>& masses, const std::vector<int>& origins);
 
+  /// Other nodes are free than before: n flags. Takes time for what is near them only, but for where all was pinned.
+  void set_free(const std::vector<bool>& is_free);
+
   /// places: 3 x n [m], in: a guess; out: the solution.
   void solve(const StepProblem<Scalar>& problem, const SolverEffort& effort,
              Matrix3XRef<Scalar> places) {
@@ -99,6 +102,9 @@ class ImplicitSolver {
     return step_.row(node).transpose().template cast<Scalar>();
   }
   void set_nodes(const VectorX<double>& masses, const std::vector<bool>& is_free);
+  void list_pinned();
+  void make_correction();
+  [[nodiscard]] bool change_correction(const std::vector<int>& changed);
   /// work(nodes) for each part of the nodes.
   template <class Work>
   void for_each_part(const Work& work) {

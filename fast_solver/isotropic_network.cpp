@@ -1,7 +1,10 @@
+// What hats need to know of a network: which nodes are near each other, and how much springs tie them.
 #include <weft/fast_solver/isotropic_network.hpp>
 
+#include <algorithm>
 #include <cstddef>
-#include <utility>
+
+#include <weft/fast_solver/network_forces.hpp>
 
 namespace weft::fast {
 namespace {
@@ -12,50 +15,71 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
+/// take(other, place) for each spring of a node.
+template <class Take>
+void for_each_spring(const EdgeSlots& slots, int node, const Take& take) {
+  const SlotRange& range = slots.blocks[at(node / kNodeBlock)];
+  for (int slot = range.begin; slot < range.end; ++slot) {
+    const std::size_t place = at(slot) * kNodeBlock + at(node % kNodeBlock);
+    if (slots.edges[place] >= 0) take(slots.others[place], place);
+  }
+}
+
 }  // namespace
 
-IsotropicNetwork isotropic_network(const SpringNetwork& network, int num_nodes,
-                                   const std::vector<int>& names) {
-  std::vector<int> unknown_of(at(num_nodes), -1);
+template <class Scalar>
+IsotropicNetwork NetworkForces<Scalar>::isotropic_network(const std::vector<int>& names) const {
+  std::vector<int> unknown_of(at(num_nodes()), -1);
+  for (std::size_t k = 0; k < names.size(); ++k) unknown_of[at(names[k])] = static_cast<int>(k);
   IsotropicNetwork result;
   SymmetricMatrix& matrix = result.matrix;
+  matrix.starts.push_back(0);
   for (const int node : names) {
-    unknown_of[at(node)] = matrix.size();
-    matrix.diagonal.push_back(0);
-  }
-  const auto ends = [&](Eigen::Index e) {
-    return std::pair(unknown_of[at(network.edges(0, e))], unknown_of[at(network.edges(1, e))]);
-  };
-  matrix.starts.assign(names.size() + 1, 0);
-  for (Eigen::Index e = 0; e < network.edges.cols(); ++e) {
-    const auto [a, b] = ends(e);
-    if (a < 0 || b < 0) continue;
-    ++matrix.starts[at(a) + 1];
-    ++matrix.starts[at(b) + 1];
-  }
-  for (std::size_t i = 0; i < names.size(); ++i) matrix.starts[i + 1] += matrix.starts[i];
-  matrix.columns.resize(at(matrix.starts.back()));
-  matrix.values.resize(matrix.columns.size());
-  result.lengths.resize(matrix.columns.size());
-  std::vector<int> next(matrix.starts.begin(), matrix.starts.end() - 1);
-  const auto add = [&](int row, int column, double value, double length) {
-    const std::size_t place = at(next[at(row)]++);
-    matrix.columns[place] = column;
-    matrix.values[place] = value;
-    result.lengths[place] = length;
-  };
-  // Columns come in ascending order: of lower nodes before those that have the node as their first one.
-  for (Eigen::Index e = 0; e < network.edges.cols(); ++e) {
-    const double weight =
-        network.stiffness[e] + network.damping[e] / kTimeStep + network.stabiliser[e];
-    const auto [a, b] = ends(e);
-    if (a >= 0) matrix.diagonal[at(a)] += weight;
-    if (b >= 0) matrix.diagonal[at(b)] += weight;
-    if (a < 0 || b < 0) continue;
-    add(a, b, -weight, network.rest_lengths[e]);
-    add(b, a, -weight, network.rest_lengths[e]);
+    double sum = 0;
+    for_each_spring(slots_, node, [&](int other, std::size_t place) {
+      const Scalar* const spring =
+          springs_.data() + place / kNodeBlock * 3 * kNodeBlock + place % kNodeBlock;
+      const double stiffness =
+          static_cast<double>(spring[kNodeBlock]) +
+          (has_damping_ ? static_cast<double>(damping_[place]) / kTimeStep : 0.0) +
+          (has_stabiliser_ ? static_cast<double>(stabilisers_[place]) : 0.0);
+      sum += stiffness;
+      const int unknown = unknown_of[at(other)];
+      if (unknown < 0) return;
+      matrix.columns.push_back(unknown);
+      matrix.values.push_back(-stiffness);
+      result.lengths.push_back(static_cast<double>(spring[0]));
+    });
+    matrix.diagonal.push_back(sum);
+    matrix.starts.push_back(static_cast<int>(matrix.columns.size()));
   }
   return result;
 }
+
+template <class Scalar>
+std::vector<int> NetworkForces<Scalar>::nodes_near(const std::vector<int>& nodes,
+                                                   int num_springs) const {
+  std::vector<char> is_near(at(num_nodes()), 0);
+  std::vector<int> result = nodes;
+  for (const int node : nodes) is_near[at(node)] = 1;
+  std::size_t first = 0;
+  for (int ring = 0; ring < num_springs; ++ring) {
+    const std::size_t end = result.size();
+    for (; first < end; ++first) {
+      for_each_spring(slots_, result[first], [&](int other, std::size_t) {
+        if (is_near[at(other)] != 0) return;
+        is_near[at(other)] = 1;
+        result.push_back(other);
+      });
+    }
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+template IsotropicNetwork NetworkForces<float>::isotropic_network(const std::vector<int>&) const;
+template IsotropicNetwork NetworkForces<double>::isotropic_network(const std::vector<int>&) const;
+template std::vector<int> NetworkForces<float>::nodes_near(const std::vector<int>&, int) const;
+template std::vector<int> NetworkForces<double>::nodes_near(const std::vector<int>&, int) const;
 
 }  // namespace weft::fast

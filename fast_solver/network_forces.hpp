@@ -5,6 +5,7 @@
 
 #include <weft/fast_solver/coarse_correction.hpp>
 #include <weft/fast_solver/edge_slots.hpp>
+#include <weft/fast_solver/isotropic_network.hpp>
 #include <weft/fast_solver/network_kernel.hpp>
 #include <weft/fast_solver/node_arrays.hpp>
 #include <weft/fast_solver/spring_network.hpp>
@@ -69,6 +70,11 @@ class NetworkForces {
   [[nodiscard]] const BlockArrays& diagonal_blocks() const { return diagonal_; }
 
   [[nodiscard]] const EdgeSlots& slots() const { return slots_; }
+  /// The springs between some nodes, ascending; what ties them to others is in the diagonal only. Dampers count as in
+  /// steps of 1/60 s.
+  [[nodiscard]] IsotropicNetwork isotropic_network(const std::vector<int>& names) const;
+  /// What springs in a row lead to from some nodes, themselves included, at most so many of them; ascending.
+  [[nodiscard]] std::vector<int> nodes_near(const std::vector<int>& nodes, int num_springs) const;
   /// Makes a correction for the last linearisation.
   void factorise(CoarseCorrection& correction, const std::vector<Hold>& holds,
                  float inertia_over_mass, ThreadTeam& team) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <weft/fast_solver/interpolation.hpp>
 #include <weft/fast_solver/isotropic_network.hpp>
 
@@ -8,10 +10,25 @@ namespace weft::fast {
 /// Weights that an unknown has at most.
 inline constexpr int kMostWeights = 3;
 
-/// Patches of unknowns that are near each other over springs, about num_coarse of them or fewer, and hats over them that
-/// overlap: an unknown has the part of each patch that it would have if its neighbours' parts were averaged some times
-/// (smoothed aggregation, Vanek, Mandel and Brezina 1996), the kMostWeights largest of them. Near what holds
-/// unknowns, hats are low; what no spring reaches has none.
-[[nodiscard]] Interpolation smoothed_aggregates(const IsotropicNetwork& network, int num_coarse);
+/// Springs in a row, beyond which it says nothing about an unknown's hats whether another one is free.
+inline constexpr int kHatReach = 4;
+
+/// Unknowns that are near each other over springs.
+struct Patches {
+  int count = 0;
+  std::vector<int> of_unknown;  ///< -1: none
+};
+
+/// About num_patches of them or fewer, one in each piece of the network at least. Unknowns that are not free have that of
+/// free ones if those are near, such without springs have none.
+[[nodiscard]] Patches find_patches(const IsotropicNetwork& network,
+                                   const std::vector<bool>& is_free, int num_patches);
+
+/// Hats over patches, which overlap: an unknown has the part of each patch that it would have if its neighbours' parts were
+/// averaged some times (smoothed aggregation, Vanek, Mandel and Brezina 1996), the kMostWeights largest of them. Near
+/// what holds unknowns, hats are low; those that are not free have none, nor has what has no patch.
+[[nodiscard]] Interpolation smoothed_aggregates(const IsotropicNetwork& network,
+                                                const std::vector<bool>& is_free,
+                                                const Patches& patches);
 
 }  // namespace weft::fast

@@ -8,7 +8,7 @@ namespace weft::fast {
 /// A sparse symmetric matrix, compressed by rows: both (i, j) and (j, i) are stored, the diagonal apart.
 struct SymmetricMatrix {
   std::vector<int> starts;       ///< row i has entries starts[i] ... starts[i + 1] - 1
-  std::vector<int> columns;      ///< of each entry, ascending within a row, never the row itself
+  std::vector<int> columns;      ///< of each entry, never the row itself
   std::vector<double> values;    ///< of each entry
   std::vector<double> diagonal;  ///< of each row
 

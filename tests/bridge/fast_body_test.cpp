@@ -223,12 +223,23 @@ TEST(FastBody, RestsOnABoxThatTheGroundHolds) {
 
 // A fine sheet that falls on a ball wraps round it about as fast as in short steps: its rim is drawn down faster than it would
 // fall, to -0.21 m by then in steps that converge. What iterations do not carry through the sheet holds it up: with a
-// correction that takes the sheet for as stiff across as along, at +0.07 m.
+// correction that takes the sheet for as stiff across as along, at +0.07 m. Folds differ with a micrometre: so the mean of
+// some starts, -0.09 m with 0.03 from one to the next.
 TEST(FastBody, WrapsAFineSheetRoundASphere) {
-  Scene scene(cloth(70, 1, 0.3), {kGravity, law("tension", "stiffness", 500)});
-  scene.add(std::make_shared<btSphereShape>(btScalar(0.2)), 0, at(0, 0, 0));
-  scene.step(18);
-  EXPECT_LT(scene.positions().row(1).minCoeff(), -0.05);
+  constexpr int kStarts = 6;
+  double sum = 0;
+  std::mt19937 generator(1);
+  std::normal_distribution<double> noise(0, 1e-6);
+  for (int start = 0; start < kStarts; ++start) {
+    Scene scene(cloth(70, 1, 0.3), {kGravity, law("tension", "stiffness", 500)});
+    scene.add(std::make_shared<btSphereShape>(btScalar(0.2)), 0, at(0, 0, 0));
+    for (int i = 0; i < scene.body().m_nodes.size(); ++i) {
+      scene.body().m_nodes[i].m_x += btVector3(0, btScalar(noise(generator)), 0);
+    }
+    scene.step(18);
+    sum += scene.positions().row(1).minCoeff();
+  }
+  EXPECT_LT(sum / kStarts, -0.05);
 }
 
 // A channel whose floor and walls are one shape holds cloth as one of three shapes does.

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 
 #include <weft/custom_forces/core/cloth_grid.hpp>
+#include <weft/custom_forces/core/error.hpp>
 #include <weft/fast_solver/implicit_solver.hpp>
 
 namespace weft::fast {
@@ -158,6 +159,38 @@ TEST(ImplicitSolver, EachIterationComesCloser) {
     last = error;
   }
   EXPECT_LT(last, 2e-3 * first);
+}
+
+// Pins may come and go between steps: as a solver that was made with them.
+TEST(ImplicitSolver, FollowsPins) {
+  ClothGrid grid;
+  grid.nodes = {60, 60};
+  grid.v_axis = {0, -1, 0};
+  grid.total_mass = 0.25;
+  const ClothMesh mesh = make_cloth_grid(grid);
+  const SpringNetwork network = springs(mesh, 3000.0);
+  const Matrix3X<double> q = mesh.rest_positions;
+  const std::vector<bool> none(static_cast<std::size_t>(mesh.num_nodes()), false);
+  ImplicitSolver<double> solver(network, mesh.masses, none);
+  for (const std::vector<int>& pins :
+       {std::vector<int>{}, {0, 59}, {0, 59, 1830}, {0}, {3599, 0}}) {
+    const auto is_free = all_free_but(mesh, pins);
+    const Matrix3X<double> y = fallen(q, Matrix3X<double>::Zero(3, q.cols()), is_free);
+    ImplicitSolver<double> fresh(network, mesh.masses, is_free);
+    const auto solved = [&](ImplicitSolver<double>& by, const SolverEffort& effort) {
+      Matrix3X<double> x = q;
+      by.solve({y, q, kTimeStep, kTimeStep}, effort, x);
+      return x;
+    };
+    solver.set_free(is_free);
+    const Matrix3X<double> expected = solved(fresh, {8, 60});
+    const double first = (q - expected).norm();
+    EXPECT_LT((solved(solver, {8, 60}) - expected).norm(), 1e-3 * first) << pins.size();
+    const double error = (solved(solver, {2, 8}) - expected).norm();
+    const double error_of_fresh = (solved(fresh, {2, 8}) - expected).norm();
+    EXPECT_LT(error, error_of_fresh + 0.01 * first) << pins.size();
+  }
+  EXPECT_THROW(solver.set_free({true}), InvalidArgument);
 }
 
 // By the recursion itself, with directions that are numbers.
