@@ -165,7 +165,6 @@ class FastBody {
   /// True if velocities_ had to be slowed down.
   bool keep_energy(btScalar time_step);
 
-
   fast::SpringNetwork network_;  ///< until solver_ has it
   VectorX<double> masses_;
   FastSettings settings_;

@@ -43,7 +43,6 @@ CoarseCorrection::CoarseCorrection(const IsotropicNetwork& springs,
   if (num_hats_ == 0) return;
   const Interpolation hats = smoothed_aggregates(springs, is_free, patches_);
   for (int node = 0; node < num_nodes_; ++node) set_hats(node, hats, node);
-  fill_gaps();
   stride_ = std::max(
       1, static_cast<int>(springs.matrix.columns.size() / 2) / (kSpringsOfHat * num_hats_));
   std::vector<int> names(at(num_nodes_));
@@ -67,29 +66,24 @@ void CoarseCorrection::make_band() {
   blocks_.clear();
 }
 
-bool CoarseCorrection::set_free(const IsotropicNetwork& network, const std::vector<int>& names,
-                                const std::vector<bool>& is_free, const std::vector<bool>& is_near,
-                                const EdgeSlots& slots) {
+bool CoarseCorrection::set_free(const IsotropicNetwork& network, const Rings& rings,
+                                const std::vector<bool>& is_free, const EdgeSlots& slots) {
+  const std::vector<int>& names = rings.nodes;
   Patches patches{num_hats_, {}};
   for (const int node : names) patches.of_unknown.push_back(patches_.of_unknown[at(node)]);
   for (std::size_t k = 0; k < names.size(); ++k) {
     if (is_free[k] && patches.of_unknown[k] < 0 && network.matrix.diagonal[k] > 0) return false;
   }
   if (num_hats_ == 0) return true;
-  const Interpolation hats = smoothed_aggregates(network, is_free, patches);
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    if (is_near[k]) set_hats(names[k], hats, static_cast<int>(k));
-  }
-  fill_gaps();
+  const Interpolation hats = smoothed_aggregates(network, is_free, patches, rings.ends);
+  for (int k = 0; k < hats.size(); ++k) set_hats(names[at(k)], hats, k);
   if (add_pairs(ties_of(network, names))) {
     make_band();
   } else {
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      if (is_near[k]) note_alone(names[k]);
-    }
+    for (int k = 0; k < hats.size(); ++k) note_alone(names[at(k)]);
   }
   std::vector<char> blocks(at(slots.num_blocks()), 0);
-  for (const int node : names) blocks[at(node / kNodeBlock)] = 1;
+  for (int k = 0; k < rings.ends[kHatReach + 1]; ++k) blocks[at(names[at(k)] / kNodeBlock)] = 1;
   note_springs(slots, blocks);
   return true;
 }
@@ -104,14 +98,17 @@ void CoarseCorrection::set_hats(int node, const Interpolation& hats, int unknown
   }
 }
 
-// Where there is no part in a hat, one that is near, so that hats of parts of the nodes are.
-void CoarseCorrection::fill_gaps() {
-  if (weights_.empty()) return;
-  int last = weights_[0].hats[0];
-  for (HatWeights& of_node : weights_) {
-    if (of_node.weights[0] != 0) last = of_node.hats[0];
+// Where there is no part in a hat, one that is near, so that hats of a part of the nodes are.
+void CoarseCorrection::fill_gaps(NodeRange nodes) {
+  const auto begin = weights_.begin() + nodes.begin;
+  const auto end = weights_.begin() + nodes.end;
+  const auto first =
+      std::find_if(begin, end, [](const HatWeights& of_node) { return of_node.weights[0] != 0; });
+  int last = first != end ? first->hats[0] : 0;
+  for (auto of_node = begin; of_node != end; ++of_node) {
+    if (of_node->weights[0] != 0) last = of_node->hats[0];
     for (int k = 0; k < kMostWeights; ++k) {
-      if (of_node.weights[k] == 0) of_node.hats[k] = last;
+      if (of_node->weights[k] == 0) of_node->hats[k] = last;
     }
   }
 }
@@ -237,6 +234,7 @@ void CoarseCorrection::note_alone(int node) {
 
 void CoarseCorrection::add_copies(const std::vector<int>& origins) {
   parts_ = NodeParts(num_nodes_ + static_cast<int>(origins.size()));
+  of_parts_.clear();
   for (const int origin : origins) {
     const int node = num_nodes_++;
     weights_.resize(at(fill_up(num_nodes_)));
@@ -245,15 +243,15 @@ void CoarseCorrection::add_copies(const std::vector<int>& origins) {
     patches_.of_unknown.push_back(patches_.of_unknown[at(origin)]);
     note_alone(node);
   }
-  fill_gaps();
 }
 
 void CoarseCorrection::note_springs(const EdgeSlots& slots, const std::vector<char>& blocks) {
   if (num_hats_ == 0) return;
   const auto num_before = blocks_.size();
+  const auto is_changed = [&](int b) { return at(b) >= num_before || blocks[at(b)] != 0; };
   blocks_.resize(at(slots.num_blocks()));
   for (int b = 0; b < slots.num_blocks(); ++b) {
-    if (at(b) < num_before && blocks[at(b)] == 0) continue;
+    if (!is_changed(b)) continue;
     Block& block = blocks_[at(b)];
     block.springs.clear();
     block.terms.clear();
@@ -275,39 +273,45 @@ void CoarseCorrection::note_springs(const EdgeSlots& slots, const std::vector<ch
       }
     }
   }
-  find_ranges();
+  const bool are_new = of_parts_.empty();
+  of_parts_.resize(at(parts_.count()));
+  for (int p = 0; p < parts_.count(); ++p) {
+    bool any = are_new;
+    for (int b = parts_[p].begin / kNodeBlock; b < parts_[p].end / kNodeBlock; ++b) {
+      any = any || (b < slots.num_blocks() && is_changed(b));
+    }
+    if (any) find_ranges(p);
+  }
 }
 
 // A network's nodes are in an order in which few hats are those of a part's nodes.
-void CoarseCorrection::find_ranges() {
-  of_parts_.resize(at(parts_.count()));
-  for (int p = 0; p < parts_.count(); ++p) {
-    Part& part = of_parts_[at(p)];
-    part.hats = {num_hats_, 0};
-    part.sums = {band_.num_blocks(), 0};
-    const auto include = [](int number, Range& range) {
-      range.begin = std::min(range.begin, number);
-      range.end = std::max(range.end, number + 1);
-    };
-    const NodeRange nodes = parts_[p];
-    for (int i = nodes.begin; i < std::min(nodes.end, num_nodes_); ++i) {
-      for (const int hat : weights_[at(i)].hats) include(hat, part.hats);
-    }
-    for (int b = nodes.begin / kNodeBlock; b < nodes.end / kNodeBlock; ++b) {
-      if (at(b) >= blocks_.size()) break;
-      for (const CoarseTerm& term : blocks_[at(b)].terms) include(term.sum, part.sums);
-      for (const CoarseSpring& spring : blocks_[at(b)].springs) {
-        for (const int node : {spring.node, spring.other}) {
-          const CoarseNode& alone = alone_[at(node)];
-          for (int k = 0; k < alone.num_terms; ++k) include(alone.terms[k].sum, part.sums);
-        }
+void CoarseCorrection::find_ranges(int p) {
+  Part& part = of_parts_[at(p)];
+  part.hats = {num_hats_, 0};
+  part.sums = {band_.num_blocks(), 0};
+  const auto include = [](int number, Range& range) {
+    range.begin = std::min(range.begin, number);
+    range.end = std::max(range.end, number + 1);
+  };
+  const NodeRange nodes = parts_[p];
+  fill_gaps(nodes);
+  for (int i = nodes.begin; i < nodes.end; ++i) {
+    for (const int hat : weights_[at(i)].hats) include(hat, part.hats);
+  }
+  for (int b = nodes.begin / kNodeBlock; b < nodes.end / kNodeBlock; ++b) {
+    if (at(b) >= blocks_.size()) break;
+    for (const CoarseTerm& term : blocks_[at(b)].terms) include(term.sum, part.sums);
+    for (const CoarseSpring& spring : blocks_[at(b)].springs) {
+      for (const int node : {spring.node, spring.other}) {
+        const CoarseNode& alone = alone_[at(node)];
+        for (int k = 0; k < alone.num_terms; ++k) include(alone.terms[k].sum, part.sums);
       }
     }
-    const auto num_hats = static_cast<std::size_t>(std::max(0, part.hats.end - part.hats.begin));
-    const auto num_sums = static_cast<std::size_t>(std::max(0, part.sums.end - part.sums.begin));
-    part.blocks.assign(num_sums * kBlockNumbers, 0.0F);
-    for (Fours* sums : {&part.residual, &part.other_residual}) sums->setZero(4, long(num_hats));
   }
+  const auto num_hats = static_cast<std::size_t>(std::max(0, part.hats.end - part.hats.begin));
+  const auto num_sums = static_cast<std::size_t>(std::max(0, part.sums.end - part.sums.begin));
+  part.blocks.assign(num_sums * kBlockNumbers, 0.0F);
+  for (Fours* sums : {&part.residual, &part.other_residual}) sums->setZero(4, long(num_hats));
 }
 
 void CoarseCorrection::set_masses(const VectorX<float>& masses) {

@@ -35,12 +35,11 @@ class CoarseCorrection {
   /// Of all nodes.
   CoarseCorrection(const IsotropicNetwork& springs, const std::vector<bool>& is_free);
 
-  /// Some nodes are free that were not, or the other way round: hats anew for the nodes that are within kHatReach springs of
-  /// them, and their springs. network: between nodes names, which are all within twice that; is_free, is_near: of each of
-  /// these. False: more is free than there are hats for, and the correction must be made anew. set_masses() is due.
-  [[nodiscard]] bool set_free(const IsotropicNetwork& network, const std::vector<int>& names,
-                              const std::vector<bool>& is_free, const std::vector<bool>& is_near,
-                              const EdgeSlots& slots);
+  /// The nodes of ring 0 are free if they were not, and the other way round: hats anew for all within kHatReach springs.
+  /// rings: up to twice that; network, is_free: of their nodes. False: more is free than there are hats for, and the
+  /// correction must be made anew. set_masses() is due.
+  [[nodiscard]] bool set_free(const IsotropicNetwork& network, const Rings& rings,
+                              const std::vector<bool>& is_free, const EdgeSlots& slots);
 
   /// Nodes that come behind the others, copies of these: they have their origins' parts.
   void add_copies(const std::vector<int>& origins);
@@ -108,8 +107,8 @@ class CoarseCorrection {
   void make_band();
   void add_terms(const Row& row, std::vector<CoarseTerm>& terms) const;
   void note_alone(int node);
-  void find_ranges();
-  void fill_gaps();
+  void find_ranges(int part);
+  void fill_gaps(NodeRange nodes);
 
   int num_nodes_ = 0;
   int num_hats_ = 0;

@@ -81,16 +81,13 @@ void ImplicitSolver<Scalar>::set_free(const std::vector<bool>& is_free) {
 // False if the correction must be made anew.
 template <class Scalar>
 bool ImplicitSolver<Scalar>::change_correction(const std::vector<int>& changed) {
-  const std::vector<int> names = forces_.nodes_near(changed, 2 * kHatReach);
-  const std::vector<int> near = forces_.nodes_near(changed, kHatReach);
+  const Rings rings = forces_.rings_around(changed, 2 * kHatReach);
   std::vector<bool> is_free;
-  std::vector<bool> is_near;
-  for (const int node : names) {
-    is_free.push_back(is_free_[at(node)]);
-    is_near.push_back(std::binary_search(near.begin(), near.end(), node));
+  for (const int node : rings.nodes) is_free.push_back(is_free_[at(node)]);
+  if (!coarse_correction_.set_free(forces_.isotropic_network(rings.nodes), rings, is_free,
+                                   forces_.slots())) {
+    return false;
   }
-  const IsotropicNetwork springs = forces_.isotropic_network(names);
-  if (!coarse_correction_.set_free(springs, names, is_free, is_near, forces_.slots())) return false;
   coarse_correction_.set_masses(masses_.template cast<float>());
   return true;
 }

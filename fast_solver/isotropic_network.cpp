@@ -1,7 +1,6 @@
 // What hats need to know of a network: which nodes are near each other, and how much springs tie them.
 #include <weft/fast_solver/isotropic_network.hpp>
 
-#include <algorithm>
 #include <cstddef>
 
 #include <weft/fast_solver/network_forces.hpp>
@@ -57,29 +56,27 @@ IsotropicNetwork NetworkForces<Scalar>::isotropic_network(const std::vector<int>
 }
 
 template <class Scalar>
-std::vector<int> NetworkForces<Scalar>::nodes_near(const std::vector<int>& nodes,
-                                                   int num_springs) const {
-  std::vector<char> is_near(at(num_nodes()), 0);
-  std::vector<int> result = nodes;
-  for (const int node : nodes) is_near[at(node)] = 1;
-  std::size_t first = 0;
-  for (int ring = 0; ring < num_springs; ++ring) {
-    const std::size_t end = result.size();
-    for (; first < end; ++first) {
-      for_each_spring(slots_, result[first], [&](int other, std::size_t) {
-        if (is_near[at(other)] != 0) return;
-        is_near[at(other)] = 1;
-        result.push_back(other);
+Rings NetworkForces<Scalar>::rings_around(const std::vector<int>& nodes, int num_springs) const {
+  std::vector<char> is_in(at(num_nodes()), 0);
+  for (const int node : nodes) is_in[at(node)] = 1;
+  Rings rings{nodes, {static_cast<int>(nodes.size())}};
+  std::size_t next = 0;
+  for (int ring = 1; ring <= num_springs; ++ring) {
+    for (; next < at(rings.ends.back()); ++next) {
+      for_each_spring(slots_, rings.nodes[next], [&](int other, std::size_t) {
+        if (is_in[at(other)] != 0) return;
+        is_in[at(other)] = 1;
+        rings.nodes.push_back(other);
       });
     }
+    rings.ends.push_back(static_cast<int>(rings.nodes.size()));
   }
-  std::sort(result.begin(), result.end());
-  return result;
+  return rings;
 }
 
 template IsotropicNetwork NetworkForces<float>::isotropic_network(const std::vector<int>&) const;
 template IsotropicNetwork NetworkForces<double>::isotropic_network(const std::vector<int>&) const;
-template std::vector<int> NetworkForces<float>::nodes_near(const std::vector<int>&, int) const;
-template std::vector<int> NetworkForces<double>::nodes_near(const std::vector<int>&, int) const;
+template Rings NetworkForces<float>::rings_around(const std::vector<int>&, int) const;
+template Rings NetworkForces<double>::rings_around(const std::vector<int>&, int) const;
 
 }  // namespace weft::fast

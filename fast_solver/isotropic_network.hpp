@@ -12,4 +12,10 @@ struct IsotropicNetwork {
   std::vector<double> lengths;  ///< of the spring of each entry, at rest [m]
 };
 
+/// Nodes around some nodes, which are ring 0; ring k is k springs away.
+struct Rings {
+  std::vector<int> nodes;  ///< ring after ring
+  std::vector<int> ends;   ///< rings 0 to k are the first ends[k] nodes
+};
+
 }  // namespace weft::fast

@@ -70,11 +70,10 @@ class NetworkForces {
   [[nodiscard]] const BlockArrays& diagonal_blocks() const { return diagonal_; }
 
   [[nodiscard]] const EdgeSlots& slots() const { return slots_; }
-  /// The springs between some nodes, ascending; what ties them to others is in the diagonal only. Dampers count as in
-  /// steps of 1/60 s.
+  /// The springs between some nodes; what ties them to others is in the diagonal only. Dampers count as in steps of 1/60 s.
   [[nodiscard]] IsotropicNetwork isotropic_network(const std::vector<int>& names) const;
-  /// What springs in a row lead to from some nodes, themselves included, at most so many of them; ascending.
-  [[nodiscard]] std::vector<int> nodes_near(const std::vector<int>& nodes, int num_springs) const;
+  /// Rings 0 to num_springs around some nodes.
+  [[nodiscard]] Rings rings_around(const std::vector<int>& nodes, int num_springs) const;
   /// Makes a correction for the last linearisation.
   void factorise(CoarseCorrection& correction, const std::vector<Hold>& holds,
                  float inertia_over_mass, ThreadTeam& team) const {

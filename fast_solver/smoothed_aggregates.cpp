@@ -116,11 +116,11 @@ class Rows {
   std::vector<std::size_t> starts_ = {0};
 };
 
-/// Each free unknown becomes what its neighbours are, by their springs, for a part.
-void smooth(const SymmetricMatrix& matrix, const std::vector<bool>& is_free, const Rows& rows,
-            RowSum& sum, Rows& result) {
+/// Each free unknown of the first count becomes what its neighbours are, by their springs, for a part.
+void smooth(const SymmetricMatrix& matrix, const std::vector<bool>& is_free, int count,
+            const Rows& rows, RowSum& sum, Rows& result) {
   result.clear();
-  for (int i = 0; i < matrix.size(); ++i) {
+  for (int i = 0; i < count; ++i) {
     if (is_free[at(i)]) {
       for (const auto& [patch, weight] : rows[i]) sum.add(patch, (1 - kRelaxation) * weight);
       for (int e = matrix.starts[at(i)]; e < matrix.starts[at(i) + 1]; ++e) {
@@ -174,6 +174,12 @@ Patches find_patches(const IsotropicNetwork& network, const std::vector<bool>& i
 
 Interpolation smoothed_aggregates(const IsotropicNetwork& network, const std::vector<bool>& is_free,
                                   const Patches& patches) {
+  return smoothed_aggregates(network, is_free, patches,
+                             std::vector<int>(at(2 * kHatReach + 1), network.matrix.size()));
+}
+
+Interpolation smoothed_aggregates(const IsotropicNetwork& network, const std::vector<bool>& is_free,
+                                  const Patches& patches, const std::vector<int>& ends_of_rings) {
   const SymmetricMatrix& matrix = network.matrix;
   Rows rows;
   Rows others;
@@ -184,14 +190,14 @@ Interpolation smoothed_aggregates(const IsotropicNetwork& network, const std::ve
   }
   RowSum sum(patches.count);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    smooth(matrix, is_free, rows, sum, others);
+    smooth(matrix, is_free, ends_of_rings[at(2 * kHatReach - 1 - sweep)], rows, sum, others);
     std::swap(rows, others);
   }
   Interpolation result;
   result.num_coarse = patches.count;
   result.starts.push_back(0);
   std::vector<Rows::Entry> row;
-  for (int i = 0; i < matrix.size(); ++i) {
+  for (int i = 0; i < ends_of_rings[at(kHatReach)]; ++i) {
     row.assign(rows[i].begin(), rows[i].end());
     keep_largest(row);
     for (const auto& [patch, weight] : row) {

@@ -30,5 +30,10 @@ struct Patches {
 [[nodiscard]] Interpolation smoothed_aggregates(const IsotropicNetwork& network,
                                                 const std::vector<bool>& is_free,
                                                 const Patches& patches);
+/// For the unknowns of rings 0 to kHatReach only, the first ones of a network of rings up to twice that.
+[[nodiscard]] Interpolation smoothed_aggregates(const IsotropicNetwork& network,
+                                                const std::vector<bool>& is_free,
+                                                const Patches& patches,
+                                                const std::vector<int>& ends_of_rings);
 
 }  // namespace weft::fast

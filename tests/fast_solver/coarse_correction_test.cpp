@@ -51,15 +51,10 @@ struct Sheet {
       if (is_free[at(i)] == is_pin) changed.push_back(i);
       is_free[at(i)] = !is_pin;
     }
-    const std::vector<int> near = forces->nodes_near(changed, kHatReach);
-    const std::vector<int> around = forces->nodes_near(changed, 2 * kHatReach);
+    const Rings rings = forces->rings_around(changed, 2 * kHatReach);
     std::vector<bool> are_free;
-    std::vector<bool> are_near;
-    for (const int i : around) {
-      are_free.push_back(is_free[at(i)]);
-      are_near.push_back(std::binary_search(near.begin(), near.end(), i));
-    }
-    return correction.set_free(forces->isotropic_network(around), around, are_free, are_near,
+    for (const int i : rings.nodes) are_free.push_back(is_free[at(i)]);
+    return correction.set_free(forces->isotropic_network(rings.nodes), rings, are_free,
                                forces->slots());
   }
   void factorise() {
