@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 namespace weft::fast {
 namespace {
@@ -19,80 +20,154 @@ int filled_up(int count) {
   return (count + kRowPad - 1) / kRowPad * kRowPad;
 }
 
-/// Rings around a first unknown, among those that are flagged; each ring in the order in which it is reached.
-std::vector<std::vector<int>> rings_around(int first, const Neighbours& neighbours,
-                                           const std::vector<char>& is_in) {
-  std::vector<char> is_reached(neighbours.size(), 0);
-  std::vector<std::vector<int>> rings = {{first}};
-  is_reached[at(first)] = 1;
-  while (true) {
-    std::vector<int> ring;
-    for (const int i : rings.back()) {
-      for (const int j : neighbours[at(i)]) {
-        if (is_in[at(j)] == 0 || is_reached[at(j)] != 0) continue;
-        is_reached[at(j)] = 1;
-        ring.push_back(j);
-      }
+/// Unknowns that are looked at as beginnings of an order, or as ends of a piece.
+constexpr int kMostStarts = 8;
+
+/// How many pairs in a row lead from an unknown to each of those that are flagged; -1: none do.
+std::vector<int> distances_from(int first, const Neighbours& neighbours,
+                                const std::vector<char>& is_in, std::vector<int>& reached) {
+  std::vector<int> distances(neighbours.size(), -1);
+  reached = {first};
+  distances[at(first)] = 0;
+  for (std::size_t next = 0; next < reached.size(); ++next) {
+    for (const int j : neighbours[at(reached[next])]) {
+      if (is_in[at(j)] == 0 || distances[at(j)] >= 0) continue;
+      distances[at(j)] = distances[at(reached[next])] + 1;
+      reached.push_back(j);
     }
-    if (ring.empty()) return rings;
-    rings.push_back(std::move(ring));
   }
+  return distances;
 }
 
-/// From an end of a piece to the other one.
-std::vector<std::vector<int>> rings_of_piece(int any, const Neighbours& neighbours,
-                                             const std::vector<char>& is_in) {
-  std::vector<std::vector<int>> rings = rings_around(any, neighbours, is_in);
-  for (int turn = 0; turn < 3; ++turn) {
-    std::vector<std::vector<int>> others = rings_around(rings.back().front(), neighbours, is_in);
-    if (others.size() <= rings.size()) break;
-    rings = std::move(others);
-  }
-  return rings;
-}
-
-/// The flagged unknowns in an order in which neighbours are near each other (Cuthill and McKee 1969).
-std::vector<int> narrow_order(const Neighbours& neighbours, std::vector<char> is_in) {
-  std::vector<int> result;
-  for (int i = 0; i < static_cast<int>(is_in.size()); ++i) {
-    if (is_in[at(i)] == 0) continue;
-    for (const std::vector<int>& ring : rings_of_piece(i, neighbours, is_in)) {
-      for (const int j : ring) {
-        result.push_back(j);
-        is_in[at(j)] = 0;
-      }
+/// Distances from unknowns of a piece that are far from each other, the first of which is an end of it.
+std::vector<std::vector<int>> distances_from_ends(const std::vector<int>& piece,
+                                                  const Neighbours& neighbours,
+                                                  const std::vector<char>& is_in) {
+  std::vector<std::vector<int>> result;
+  std::vector<int> nearest(neighbours.size(), std::numeric_limits<int>::max());
+  std::vector<int> reached;
+  (void)distances_from(piece.front(), neighbours, is_in, reached);
+  int next = reached.back();
+  while (std::ssize(result) < std::min<std::ptrdiff_t>(kMostStarts, std::ssize(piece))) {
+    result.push_back(distances_from(next, neighbours, is_in, reached));
+    for (const int i : piece) {
+      nearest[at(i)] = std::min(nearest[at(i)], result.back()[at(i)]);
+      if (nearest[at(i)] > nearest[at(next)]) next = i;
     }
   }
   return result;
 }
 
-/// 0 or 1: the half of each unknown; 2: the ring between them.
+/// How far apart neighbours are in an order at most, and one more.
+int width_of(const std::vector<int>& order, const Neighbours& neighbours, std::vector<int>& place) {
+  for (std::size_t k = 0; k < order.size(); ++k) place[at(order[k])] = static_cast<int>(k);
+  int width = 1;
+  for (const int i : order) {
+    for (const int j : neighbours[at(i)]) {
+      if (place[at(j)] >= 0) width = std::max(width, place[at(j)] - place[at(i)] + 1);
+    }
+  }
+  for (const int i : order) place[at(i)] = -1;
+  return width;
+}
+
+/// The flagged unknowns in an order in which neighbours are near each other (Cuthill and McKee 1969): piece after piece,
+/// each from the one of some beginnings that makes it narrowest.
+std::vector<int> narrow_order(const Neighbours& neighbours, std::vector<char> is_in) {
+  std::vector<int> result;
+  std::vector<int> place(neighbours.size(), -1);
+  for (int i = 0; i < static_cast<int>(is_in.size()); ++i) {
+    if (is_in[at(i)] == 0) continue;
+    std::vector<int> piece;
+    (void)distances_from(i, neighbours, is_in, piece);
+    std::vector<int> best;
+    int width = std::numeric_limits<int>::max();
+    for (const std::vector<int>& distances : distances_from_ends(piece, neighbours, is_in)) {
+      const auto start = std::find_if(piece.begin(), piece.end(),
+                                      [&](int unknown) { return distances[at(unknown)] == 0; });
+      std::vector<int> order;
+      (void)distances_from(*start, neighbours, is_in, order);
+      const int of_order = width_of(order, neighbours, place);
+      if (of_order >= width) continue;
+      width = of_order;
+      best = std::move(order);
+    }
+    for (const int unknown : best) is_in[at(unknown)] = 0;
+    result.insert(result.end(), best.begin(), best.end());
+  }
+  return result;
+}
+
+/// Parts a piece: the first `count` of an order without those that have a neighbour behind them, these, and the others.
+struct Parted {
+  std::vector<int> unknowns;
+  std::vector<signed char> half;  ///< of each of them: 0, 2, 1
+  int sizes[3] = {0, 0, 0};
+};
+
+Parted parted(const std::vector<int>& order, std::size_t count, const Neighbours& neighbours,
+              std::vector<char>& is_before) {
+  Parted result{order, {}};
+  for (std::size_t k = 0; k < count; ++k) is_before[at(order[k])] = 1;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const auto& list = neighbours[at(order[k])];
+    const bool is_border = k < count && std::any_of(list.begin(), list.end(),
+                                                    [&](int j) { return is_before[at(j)] == 0; });
+    result.half.push_back(k >= count ? 1 : is_border ? 2 : 0);
+    ++result.sizes[result.half.back()];
+  }
+  for (std::size_t k = 0; k < count; ++k) is_before[at(order[k])] = 0;
+  return result;
+}
+
+/// Across the way between two of its ends: those for which the border is smallest and the halves are alike.
+Parted parted(const std::vector<int>& piece, const Neighbours& neighbours,
+              const std::vector<char>& is_in) {
+  const auto ends = distances_from_ends(piece, neighbours, is_in);
+  std::vector<char> is_before(neighbours.size(), 0);
+  Parted best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t a = 0; a < ends.size(); ++a) {
+    for (std::size_t b = a + 1; b < ends.size(); ++b) {
+      std::vector<int> order = piece;
+      std::stable_sort(order.begin(), order.end(), [&](int i, int j) {
+        return ends[a][at(i)] - ends[b][at(i)] < ends[a][at(j)] - ends[b][at(j)];
+      });
+      Parted one = parted(order, order.size() / 2, neighbours, is_before);
+      one = parted(order, (order.size() + static_cast<std::size_t>(one.sizes[2])) / 2, neighbours,
+                   is_before);
+      const double border = one.sizes[2];
+      const double cost =
+          border * border * std::max(one.sizes[0], one.sizes[1]) + border * border * border / 6;
+      if (cost >= least) continue;
+      least = cost;
+      best = std::move(one);
+    }
+  }
+  return best;
+}
+
+/// 0 or 1: the half of each unknown; 2: what is between them. Only a piece that is most of all is parted.
 std::vector<signed char> halves_of(const Neighbours& neighbours) {
   const auto n = static_cast<int>(neighbours.size());
   std::vector<signed char> half(at(n), -1);
   std::vector<char> is_in(at(n), 1);
-  std::array<int, 2> sizes = {0, 0};
+  int sizes[3] = {0, 0, 0};
+  std::vector<int> piece;
   for (int i = 0; i < n; ++i) {
     if (half[at(i)] >= 0) continue;
-    const std::vector<std::vector<int>> rings = rings_of_piece(i, neighbours, is_in);
-    int num = 0;
-    for (const auto& ring : rings) num += static_cast<int>(ring.size());
-    const bool is_parted = 2 * num > n && rings.size() > 2;
-    const int smaller = sizes[1] < sizes[0] ? 1 : 0;
-    int before = 0;
-    bool is_behind = false;
-    for (std::size_t k = 0; k < rings.size(); ++k) {
-      const int next = before + static_cast<int>(rings[k].size());
-      const bool is_border = is_parted && !is_behind && k > 0 && 2 * next >= num;
-      for (const int j : rings[k]) {
-        const int number = is_border ? 2 : !is_parted ? smaller : is_behind ? 1 : 0;
-        half[at(j)] = static_cast<signed char>(number);
-        is_in[at(j)] = 0;
-        if (!is_border) ++sizes[at(half[at(j)])];
+    (void)distances_from(i, neighbours, is_in, piece);
+    if (2 * static_cast<int>(piece.size()) > n && piece.size() > 2) {
+      const Parted halves = parted(piece, neighbours, is_in);
+      for (std::size_t k = 0; k < halves.half.size(); ++k) {
+        half[at(halves.unknowns[k])] = halves.half[k];
+        ++sizes[halves.half[k]];
       }
-      is_behind = is_behind || is_border;
-      before = next;
+      continue;
     }
+    const signed char smaller = sizes[1] < sizes[0] ? 1 : 0;
+    for (const int unknown : piece) half[at(unknown)] = smaller;
+    sizes[smaller] += static_cast<int>(piece.size());
   }
   return half;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 
 namespace weft::fast {
@@ -345,11 +346,19 @@ void CoarseCorrection::factorise(const unsigned short* linear, float root_scale,
           part.blocks.data());
     }
   });
-  std::fill(sums_.begin(), sums_.end(), 0.0F);
-  for (const Part& part : of_parts_) {
-    float* const to = sums_.data() + long{part.sums.begin} * kBlockNumbers;
-    for (std::size_t k = 0; k < part.blocks.size(); ++k) to[k] += part.blocks[k];
-  }
+  const std::int64_t num_numbers = std::ssize(sums_);
+  team.run(parts_.count(), [&](int share) {
+    const std::int64_t begin = num_numbers * share / parts_.count();
+    const std::int64_t end = num_numbers * (share + 1) / parts_.count();
+    std::fill(sums_.begin() + begin, sums_.begin() + end, 0.0F);
+    for (const Part& part : of_parts_) {
+      const std::int64_t first = std::int64_t{part.sums.begin} * kBlockNumbers;
+      const std::int64_t last = std::min(end, first + std::ssize(part.blocks));
+      for (std::int64_t k = std::max(begin, first); k < last; ++k) {
+        sums_[static_cast<std::size_t>(k)] += part.blocks[static_cast<std::size_t>(k - first)];
+      }
+    }
+  });
   for (std::size_t k = 0; k < masses_.size(); ++k) inertia_[k] = inertia_over_mass * masses_[k];
   band_.factorise(sums_.data(), inertia_.data(), team);
 }

@@ -96,6 +96,19 @@ NearestSeeds seeds_at(double distance, const std::vector<int>& order,
   return seeds;
 }
 
+/// By their first unknowns, so that those of unknowns in a row have numbers in a row.
+Patches in_order(std::vector<int> patch_of, int num_patches) {
+  std::vector<int> numbers(at(num_patches), -1);
+  int count = 0;
+  for (int& patch : patch_of) {
+    if (patch < 0) continue;
+    int& number = numbers[at(patch)];
+    if (number < 0) number = count++;
+    patch = number;
+  }
+  return {count, std::move(patch_of)};
+}
+
 /// Rows of weights: what an unknown has of each patch.
 class Rows {
  public:
@@ -169,7 +182,7 @@ Patches find_patches(const IsotropicNetwork& network, const std::vector<bool>& i
     last = seeds.num_seeds();
     seeds = seeds_at(distance, order, network);
   }
-  return {seeds.num_seeds(), seeds.nearest()};
+  return in_order(seeds.nearest(), seeds.num_seeds());
 }
 
 Interpolation smoothed_aggregates(const IsotropicNetwork& network, const std::vector<bool>& is_free,

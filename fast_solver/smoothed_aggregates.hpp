@@ -19,7 +19,7 @@ struct Patches {
   std::vector<int> of_unknown;  ///< -1: none
 };
 
-/// About num_patches of them or fewer, one in each piece of the network at least. Unknowns that are not free have that of
+/// About num_patches of them or fewer, one in each piece of the network at least, by their first unknowns. Unknowns that are not free have that of
 /// free ones if those are near, such without springs have none.
 [[nodiscard]] Patches find_patches(const IsotropicNetwork& network,
                                    const std::vector<bool>& is_free, int num_patches);
