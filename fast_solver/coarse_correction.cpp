@@ -34,22 +34,22 @@ int hats_for(int num_unknowns) {
 
 }  // namespace
 
-CoarseCorrection::CoarseCorrection(const IsotropicNetwork& springs,
-                                   const std::vector<bool>& is_free)
-    : num_nodes_(springs.matrix.size()), parts_(num_nodes_), weights_(at(fill_up(num_nodes_))) {
+CoarseCorrection::CoarseCorrection(const IsotropicNetwork& network,
+                                   const std::vector<bool>& is_free, const EdgeSlots& slots)
+    : num_nodes_(network.matrix.size()), parts_(num_nodes_), weights_(at(fill_up(num_nodes_))) {
   alone_.resize(weights_.size());
-  const auto num_free = static_cast<int>(std::count(is_free.begin(), is_free.end(), true));
-  patches_ = find_patches(springs, is_free, hats_for(num_free));
+  patches_ = find_patches(network, hats_for(num_nodes_));
   num_hats_ = patches_.count;
   if (num_hats_ == 0) return;
-  const Interpolation hats = smoothed_aggregates(springs, is_free, patches_);
+  const Interpolation hats = smoothed_aggregates(network, is_free, patches_);
   for (int node = 0; node < num_nodes_; ++node) set_hats(node, hats, node);
   stride_ = std::max(
-      1, static_cast<int>(springs.matrix.columns.size() / 2) / (kSpringsOfHat * num_hats_));
+      1, static_cast<int>(network.matrix.columns.size() / 2) / (kSpringsOfHat * num_hats_));
   std::vector<int> names(at(num_nodes_));
   std::iota(names.begin(), names.end(), 0);
-  find_pairs(ties_of(springs, names));
+  find_pairs(ties_of(network, names));
   make_band();
+  note_springs(slots, {});
 }
 
 // What depends on which hats know each other.
@@ -67,15 +67,12 @@ void CoarseCorrection::make_band() {
   blocks_.clear();
 }
 
-bool CoarseCorrection::set_free(const IsotropicNetwork& network, const Rings& rings,
+void CoarseCorrection::set_free(const IsotropicNetwork& network, const Rings& rings,
                                 const std::vector<bool>& is_free, const EdgeSlots& slots) {
   const std::vector<int>& names = rings.nodes;
+  if (num_hats_ == 0) return;
   Patches patches{num_hats_, {}};
   for (const int node : names) patches.of_unknown.push_back(patches_.of_unknown[at(node)]);
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    if (is_free[k] && patches.of_unknown[k] < 0 && network.matrix.diagonal[k] > 0) return false;
-  }
-  if (num_hats_ == 0) return true;
   const Interpolation hats = smoothed_aggregates(network, is_free, patches, rings.ends);
   for (int k = 0; k < hats.size(); ++k) set_hats(names[at(k)], hats, k);
   if (add_pairs(ties_of(network, names))) {
@@ -86,7 +83,6 @@ bool CoarseCorrection::set_free(const IsotropicNetwork& network, const Rings& ri
   std::vector<char> blocks(at(slots.num_blocks()), 0);
   for (int k = 0; k < rings.ends[kHatReach + 1]; ++k) blocks[at(names[at(k)] / kNodeBlock)] = 1;
   note_springs(slots, blocks);
-  return true;
 }
 
 void CoarseCorrection::set_hats(int node, const Interpolation& hats, int unknown) {

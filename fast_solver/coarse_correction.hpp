@@ -32,14 +32,14 @@ using Fours = AlignedMatrix<float, 4, Eigen::Dynamic>;
 class CoarseCorrection {
  public:
   CoarseCorrection() = default;
-  /// Of all nodes.
-  CoarseCorrection(const IsotropicNetwork& springs, const std::vector<bool>& is_free);
+  /// Of all nodes. slots: of the same springs. set_masses() is due then.
+  CoarseCorrection(const IsotropicNetwork& network, const std::vector<bool>& is_free,
+                   const EdgeSlots& slots);
 
   /// The nodes of ring 0 are free if they were not, and the other way round: hats anew for all within kHatReach springs.
-  /// rings: up to twice that; network, is_free: of their nodes. False: more is free than there are hats for, and the
-  /// correction must be made anew. set_masses() is due.
-  [[nodiscard]] bool set_free(const IsotropicNetwork& network, const Rings& rings,
-                              const std::vector<bool>& is_free, const EdgeSlots& slots);
+  /// rings: up to twice that; network, is_free: of their nodes. set_masses() is due then.
+  void set_free(const IsotropicNetwork& network, const Rings& rings,
+                const std::vector<bool>& is_free, const EdgeSlots& slots);
 
   /// Nodes that come behind the others, copies of these: they have their origins' parts.
   void add_copies(const std::vector<int>& origins);

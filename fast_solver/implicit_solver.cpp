@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
-#include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/trace.hpp>
 
 namespace weft::fast {
@@ -38,112 +36,7 @@ int iterations_of(const StepProblem<Scalar>& problem, const SolverEffort& effort
   return effort.iterations + (round == effort.rounds - 1 ? effort.iterations / 4 : 0);
 }
 
-void check_size(const std::vector<bool>& is_free, Eigen::Index num_nodes) {
-  if (static_cast<Eigen::Index>(is_free.size()) == num_nodes) return;
-  throw InvalidArgument("implicit solver: " + std::to_string(is_free.size()) +
-                        " flags of free nodes, expected one for each of the " +
-                        std::to_string(num_nodes) + " nodes");
-}
-
 }  // namespace
-
-template <class Scalar>
-ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const VectorX<double>& masses,
-                                       const std::vector<bool>& is_free)
-    : parts_(static_cast<int>(masses.size())), forces_(network, static_cast<int>(masses.size())) {
-  check_size(is_free, masses.size());
-  set_nodes(masses, is_free);
-  make_correction();
-}
-
-template <class Scalar>
-void ImplicitSolver<Scalar>::make_correction() {
-  std::vector<int> all(at(num_nodes()));
-  std::iota(all.begin(), all.end(), 0);
-  coarse_correction_ = CoarseCorrection(forces_.isotropic_network(all), is_free_);
-  coarse_correction_.note_springs(forces_.slots(), {});
-  coarse_correction_.set_masses(masses_.template cast<float>());
-}
-
-template <class Scalar>
-void ImplicitSolver<Scalar>::set_free(const std::vector<bool>& is_free) {
-  check_size(is_free, num_nodes());
-  std::vector<int> changed;
-  for (int i = 0; i < num_nodes(); ++i) {
-    if (is_free[at(i)] != is_free_[at(i)]) changed.push_back(i);
-  }
-  if (changed.empty()) return;
-  is_free_ = is_free;
-  list_pinned();
-  if (!change_correction(changed)) make_correction();
-}
-
-// False if the correction must be made anew.
-template <class Scalar>
-bool ImplicitSolver<Scalar>::change_correction(const std::vector<int>& changed) {
-  const Rings rings = forces_.rings_around(changed, 2 * kHatReach);
-  std::vector<bool> is_free;
-  for (const int node : rings.nodes) is_free.push_back(is_free_[at(node)]);
-  if (!coarse_correction_.set_free(forces_.isotropic_network(rings.nodes), rings, is_free,
-                                   forces_.slots())) {
-    return false;
-  }
-  coarse_correction_.set_masses(masses_.template cast<float>());
-  return true;
-}
-
-template <class Scalar>
-void ImplicitSolver<Scalar>::list_pinned() {
-  pinned_.clear();
-  for (int i = 0; i < static_cast<int>(is_free_.size()); ++i) {
-    if (!is_free_[at(i)]) pinned_.push_back(i);
-  }
-}
-
-template <class Scalar>
-void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
-                                       const std::vector<bool>& is_free) {
-  is_free_ = is_free;
-  const Eigen::Index n = masses.size();
-  parts_ = NodeParts(static_cast<int>(n));
-  list_pinned();
-  held_.clear();
-  held_.reserve(at(static_cast<int>(n)));
-  contact_of_.assign(at(static_cast<int>(n)), -1);
-  for (auto* vectors : {&normals_, &friction_}) vectors->setZero(3, n);
-  const Eigen::Index n_filled = fill_up(static_cast<int>(n));
-  for (auto* holds : {&holds_, &held_before_}) {
-    holds->assign(static_cast<std::size_t>(n_filled), Hold::kFree);
-  }
-  for (Nodes* vectors :
-       {&targets_, &starts_, &places_, &unbalanced_, &holding_forces_, &unmoved_, &remainders_}) {
-    vectors->setZero(n_filled, 3);
-  }
-  masses_.setZero(n_filled);
-  masses_.head(n) = masses.cast<Scalar>();
-  inertia_.setZero(n_filled);
-  weights_.setZero(n_filled);
-  if (blocks_.rows() == n_filled) return;  // the others keep no number from one step to the next
-  blocks_.setZero(n_filled, 6);
-  for (Floats* vectors : {&step_, &residual_vector_, &direction_, &direction_product_,
-                          &correction_product_, &work_, &coarse_, &coarse_product_}) {
-    vectors->setZero(n_filled, 3);
-  }
-  for (Floats& correction : corrections_) correction.setZero(n_filled, 3);
-}
-
-template <class Scalar>
-void ImplicitSolver<Scalar>::tear(const SpringNetwork& springs, const std::vector<char>& is_changed,
-                                  const VectorX<double>& masses, const std::vector<int>& origins) {
-  std::vector<bool> is_free = is_free_;
-  for (const int origin : origins) is_free.push_back(is_free_[at(origin)]);
-  const std::vector<char> blocks =
-      forces_.replace(springs, is_changed, static_cast<int>(masses.size()));
-  set_nodes(masses, is_free);
-  coarse_correction_.add_copies(origins);
-  coarse_correction_.note_springs(forces_.slots(), blocks);
-  coarse_correction_.set_masses(masses_.template cast<float>());
-}
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::load(const StepProblem<Scalar>& problem,
@@ -167,6 +60,7 @@ void ImplicitSolver<Scalar>::load(const StepProblem<Scalar>& problem,
     places_.row(led.node) = led.place.transpose();
   }
   load_bodies(problem);
+  follow_led(problem);
   for (const LedNode<Scalar>& led : problem.led) {
     if (led.body >= 0) places_.row(led.node) = place_of(led).transpose();
   }

@@ -30,7 +30,7 @@ namespace weft::fast {
 ///
 /// Places and forces in Scalar, corrections in single precision.
 /// Deterministic: the same bits for any number of threads. No allocation in solve(), except for more
-/// contacts than ever before.
+/// contacts than ever before, and where other nodes are led than in the step before.
 template <class Scalar>
 class ImplicitSolver {
  public:
@@ -48,7 +48,7 @@ class ImplicitSolver {
   void tear(const SpringNetwork& springs, const std::vector<char>& is_changed,
             const VectorX<double>& masses, const std::vector<int>& origins);
 
-  /// Other nodes are free than before: n flags. Takes time for what is near them only, but for where all was pinned.
+  /// Other nodes are free than before: n flags. Takes time for what is near them only.
   void set_free(const std::vector<bool>& is_free);
 
   /// places: 3 x n [m], in: a guess; out: the solution.
@@ -103,8 +103,9 @@ class ImplicitSolver {
   }
   void set_nodes(const VectorX<double>& masses, const std::vector<bool>& is_free);
   void list_pinned();
-  void make_correction();
-  [[nodiscard]] bool change_correction(const std::vector<int>& changed);
+  void change_correction(const std::vector<int>& changed);
+  [[nodiscard]] std::vector<bool> have_hats(const std::vector<int>& nodes) const;
+  void follow_led(const StepProblem<Scalar>& problem);
   /// work(nodes) for each part of the nodes.
   template <class Work>
   void for_each_part(const Work& work) {
@@ -205,6 +206,8 @@ class ImplicitSolver {
   VectorX<Scalar> masses_;  ///< [kg], filled up with zeros
   std::vector<bool> is_free_;
   std::vector<int> pinned_;
+  std::vector<int> led_;  ///< ascending: of the last step
+  std::vector<int> next_led_;
   std::vector<int> held_;  ///< nodes with a hold, in order while linear systems are solved
   std::vector<Link> links_;
   std::vector<Body> bodies_;

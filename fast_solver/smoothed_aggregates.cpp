@@ -73,12 +73,12 @@ class NearestSeeds {
   int num_seeds_ = 0;
 };
 
-/// Of free unknowns with springs, corners and edges first: hats are flat behind their last seeds, and a free edge is what
-/// swings most.
-std::vector<int> corners_first(const SymmetricMatrix& matrix, const std::vector<bool>& is_free) {
+/// Of unknowns with springs, corners and edges first: hats are flat behind their last seeds, a free edge is what swings
+/// most, and round a corner that is held they are steep.
+std::vector<int> corners_first(const SymmetricMatrix& matrix) {
   std::vector<int> order;
   for (int i = 0; i < matrix.size(); ++i) {
-    if (is_free[at(i)] && matrix.diagonal[at(i)] > 0) order.push_back(i);
+    if (matrix.diagonal[at(i)] > 0) order.push_back(i);
   }
   const auto num_springs = [&](int i) { return matrix.starts[at(i) + 1] - matrix.starts[at(i)]; };
   std::stable_sort(order.begin(), order.end(),
@@ -165,9 +165,8 @@ void keep_largest(std::vector<Rows::Entry>& row) {
 
 }  // namespace
 
-Patches find_patches(const IsotropicNetwork& network, const std::vector<bool>& is_free,
-                     int num_patches) {
-  const std::vector<int> order = corners_first(network.matrix, is_free);
+Patches find_patches(const IsotropicNetwork& network, int num_patches) {
+  const std::vector<int> order = corners_first(network.matrix);
   const double sum = std::accumulate(network.lengths.begin(), network.lengths.end(), 0.0);
   const double mean = sum / static_cast<double>(std::max<std::size_t>(1, network.lengths.size()));
   const double share = static_cast<double>(order.size()) / num_patches;

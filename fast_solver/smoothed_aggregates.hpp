@@ -19,10 +19,9 @@ struct Patches {
   std::vector<int> of_unknown;  ///< -1: none
 };
 
-/// About num_patches of them or fewer, one in each piece of the network at least, by their first unknowns. Unknowns that are not free have that of
-/// free ones if those are near, such without springs have none.
-[[nodiscard]] Patches find_patches(const IsotropicNetwork& network,
-                                   const std::vector<bool>& is_free, int num_patches);
+/// About num_patches of them or fewer, one in each piece of the network at least, numbered by their first unknowns. What has
+/// no springs has none.
+[[nodiscard]] Patches find_patches(const IsotropicNetwork& network, int num_patches);
 
 /// Hats over patches, which overlap: an unknown has the part of each patch that it would have if its neighbours' parts were
 /// averaged some times (smoothed aggregation, Vanek, Mandel and Brezina 1996), the kMostWeights largest of them. Near

@@ -31,8 +31,7 @@ struct Sheet {
       is_free.push_back(i >= kSide);
     }
     springs = forces->isotropic_network(names);
-    correction = CoarseCorrection(springs, is_free);
-    correction.note_springs(forces->slots(), {});
+    correction = CoarseCorrection(springs, is_free, forces->slots());
     std::srand(4);
     const Matrix3X<double> x =
         mesh.rest_positions + 0.02 * Matrix3X<double>::Random(3, mesh.num_nodes());
@@ -43,8 +42,7 @@ struct Sheet {
     inertia.tail(rows - mesh.num_nodes()).setZero();
     holds.assign(static_cast<std::size_t>(rows), Hold::kFree);
   }
-  /// False if there are no hats for that.
-  bool pin(const std::vector<int>& pins) {
+  void pin(const std::vector<int>& pins) {
     std::vector<int> changed;
     for (const int i : names) {
       const bool is_pin = std::find(pins.begin(), pins.end(), i) != pins.end();
@@ -54,8 +52,7 @@ struct Sheet {
     const Rings rings = forces->rings_around(changed, 2 * kHatReach);
     std::vector<bool> are_free;
     for (const int i : rings.nodes) are_free.push_back(is_free[at(i)]);
-    return correction.set_free(forces->isotropic_network(rings.nodes), rings, are_free,
-                               forces->slots());
+    correction.set_free(forces->isotropic_network(rings.nodes), rings, are_free, forces->slots());
   }
   void factorise() {
     correction.set_masses(inertia);
@@ -107,7 +104,7 @@ struct Sheet {
 
 TEST(SmoothedAggregates, AreFewHatsThatShareEveryNode) {
   const Sheet sheet(1);
-  const Patches patches = find_patches(sheet.springs, sheet.is_free, 30);
+  const Patches patches = find_patches(sheet.springs, 30);
   const Interpolation hats = smoothed_aggregates(sheet.springs, sheet.is_free, patches);
   EXPECT_LE(hats.num_coarse, 30);
   EXPECT_GT(hats.num_coarse, 8);
@@ -149,8 +146,7 @@ TEST(SmoothedAggregates, HavePiecesAndLooseNodesToo) {
   }
   network.matrix.starts.push_back(80);
   const std::vector<bool> is_free(120, true);
-  const Interpolation hats =
-      smoothed_aggregates(network, is_free, find_patches(network, is_free, 30));
+  const Interpolation hats = smoothed_aggregates(network, is_free, find_patches(network, 30));
   EXPECT_EQ(hats.num_coarse, 40);  // none of loose nodes
   EXPECT_EQ(hats.starts.back(), 80);
 }
@@ -179,27 +175,19 @@ TEST(CoarseCorrection, FindsADisplacementFromItsForces) {
 TEST(CoarseCorrection, FollowsPins) {
   std::vector<int> side(kSide);
   std::iota(side.begin(), side.end(), 0);
-  const std::vector<std::vector<int>> pins = {{0, 13, 100}, {0, 13}, {195}, {}, side};
   Sheet sheet(0.01F);
+  const std::vector<std::vector<int>> pins = {{0, 13, 100}, {0, 13},     {195}, {},
+                                              side,         sheet.names, {7},   side};
   for (const std::vector<int>& pinned : pins) {
-    ASSERT_TRUE(sheet.pin(pinned));
+    sheet.pin(pinned);
     sheet.factorise();
     const NodeArrays<float> displacements = sheet.corrected(sheet.any_residual());
     for (const int i : sheet.names) {
       EXPECT_EQ(displacements.row(i).isZero(0), !sheet.is_free[static_cast<std::size_t>(i)]) << i;
     }
     const NodeArrays<float> found = sheet.corrected(sheet.stiffness_times(displacements));
-    EXPECT_LT((found - displacements).norm(), 0.1F * displacements.norm()) << pinned.size();
+    EXPECT_LE((found - displacements).norm(), 0.1F * displacements.norm()) << pinned.size();
   }
-}
-
-// A patch that was pinned as a whole has no hat that could move it.
-TEST(CoarseCorrection, SaysWhereHatsAreMissing) {
-  Sheet sheet(0.01F);
-  std::fill(sheet.is_free.begin(), sheet.is_free.end(), false);
-  sheet.correction = CoarseCorrection(sheet.springs, sheet.is_free);
-  EXPECT_TRUE(sheet.pin(sheet.names));
-  EXPECT_FALSE(sheet.pin({0}));
 }
 
 TEST(CoarseCorrection, ASheetWithoutSpringsMovesAsItsMassesDo) {
@@ -216,7 +204,7 @@ TEST(CoarseCorrection, ASheetWithoutSpringsMovesAsItsMassesDo) {
 
 TEST(CoarseCorrection, CorrectsNothingWhereAllIsPinned) {
   CoarseCorrection correction(IsotropicNetwork{{{0, 0, 0, 0}, {}, {}, {1, 1, 1}}, {}},
-                              {false, false, false});
+                              {false, false, false}, {});
   NodeArrays<float> values = NodeArrays<float>::Ones(fill_up(3), 3);
   ThreadTeam team;
   correction.set_residual(0, {}, values, values);

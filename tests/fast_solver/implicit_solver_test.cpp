@@ -151,8 +151,8 @@ TEST(ImplicitSolver, EachIterationComesCloser) {
   double last = first;
   for (int iterations = 1; iterations <= 2 * DirectionWeights::kMost; ++iterations) {
     const double error = (solved(1, iterations) - expected).norm();
-    EXPECT_LT(error, 1.2 * last) << iterations
-                                 << " iterations";  // energy falls in each, places mostly
+    // Energy falls in each, places mostly.
+    EXPECT_LT(error, 1.2 * last + 1e-3 * first) << iterations << " iterations";
     if (iterations == DirectionWeights::kMost) {
       EXPECT_GT(error, 5e-3 * first);
     }
@@ -161,7 +161,7 @@ TEST(ImplicitSolver, EachIterationComesCloser) {
   EXPECT_LT(last, 2e-3 * first);
 }
 
-// Pins may come and go between steps: as a solver that was made with them.
+// Pins may come and go between steps, and nodes be led for a while: as a solver that was made with pins.
 TEST(ImplicitSolver, FollowsPins) {
   ClothGrid grid;
   grid.nodes = {60, 60};
@@ -172,6 +172,7 @@ TEST(ImplicitSolver, FollowsPins) {
   const Matrix3X<double> q = mesh.rest_positions;
   const std::vector<bool> none(static_cast<std::size_t>(mesh.num_nodes()), false);
   ImplicitSolver<double> solver(network, mesh.masses, none);
+  ImplicitSolver<double> leader(network, mesh.masses, all_free_but(mesh, {}));
   for (const std::vector<int>& pins :
        {std::vector<int>{}, {0, 59}, {0, 59, 1830}, {0}, {3599, 0}}) {
     const auto is_free = all_free_but(mesh, pins);
@@ -189,6 +190,23 @@ TEST(ImplicitSolver, FollowsPins) {
     const double error = (solved(solver, {2, 8}) - expected).norm();
     const double error_of_fresh = (solved(fresh, {2, 8}) - expected).norm();
     EXPECT_LT(error, error_of_fresh + 0.01 * first) << pins.size();
+    const auto solved_by_leader = [&](const SolverEffort& effort) {
+      std::vector<LedNode<double>> led;
+      for (const int pin : pins) led.push_back({pin, y.col(pin)});
+      Matrix3X<double> x = q;
+      leader.solve({.targets = y,
+                    .starts = q,
+                    .time_step = kTimeStep,
+                    .inertia_step = kTimeStep,
+                    .led = led},
+                   effort, x);
+      return x;
+    };
+    EXPECT_LT((solved_by_leader({8, 60}) - expected).norm(), 1e-3 * first) << pins.size();
+    const Matrix3X<double> of_round = solved(fresh, {1, 60});  // iterations mean the same there
+    const double left = (solved(fresh, {1, 8}) - of_round).norm();
+    const double left_by_leader = (solved_by_leader({1, 8}) - of_round).norm();
+    EXPECT_LT(left_by_leader, left + 1e-3 * first) << pins.size();
   }
   EXPECT_THROW(solver.set_free({true}), InvalidArgument);
 }
