@@ -112,11 +112,17 @@ std::unique_ptr<Torn> grabbed_here_and_there() {
   torn->disturb = [grid](btSoftBody& body, int step) {
     if (step % kStepsOfGrab != 0) return;
     const int grab = step / kStepsOfGrab;
-    const int node = grab % 3 == 2 ? grid_node(grid, 0, 0)
-                                   : grid_node(grid, 10 + 23 * grab % 80, 20 + 31 * grab % 70);
-    const bool is_pinned = body.m_nodes[node].m_im == 0;
-    body.setMass(node, is_pinned ? btScalar(grid.total_mass / (kNodes * kNodes)) : btScalar(0));
-    body.m_nodes[node].m_v.setZero();
+    const auto node_of = [&](int number) {
+      return number % 3 == 2 ? grid_node(grid, 0, 0)
+                             : grid_node(grid, 10 + 23 * number % 80, 20 + 31 * number % 70);
+    };
+    const auto toggle = [&](int node) {
+      const bool is_pinned = body.m_nodes[node].m_im == 0;
+      body.setMass(node, is_pinned ? btScalar(grid.total_mass / (kNodes * kNodes)) : btScalar(0));
+      body.m_nodes[node].m_v.setZero();
+    };
+    if (grab > 0) toggle(node_of(grab - 1));
+    toggle(node_of(grab));
   };
   return torn;
 }

@@ -177,25 +177,27 @@ void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& o
 }
 
 void FastBody::prepare_solver(const btSoftBody& body) {
-  const bool is_same = solver_ != nullptr && pins_ == solver_pins_ &&
-                       is_free_.size() == static_cast<std::size_t>(body.m_nodes.size());
+  const auto num_nodes = static_cast<std::size_t>(body.m_nodes.size());
+  const bool is_same = solver_ != nullptr && pins_ == solver_pins_ && is_free_.size() == num_nodes;
   if (!is_same) {
-    is_free_.assign(static_cast<std::size_t>(body.m_nodes.size()), true);
-    for (const int pin : pins_) is_free_[static_cast<std::size_t>(pin)] = false;
+    std::vector<bool> is_free(num_nodes, true);
+    for (const int pin : pins_) is_free[static_cast<std::size_t>(pin)] = false;
+    set_free(is_free);
+    is_free_ = std::move(is_free);
     solver_pins_ = pins_;
   }
   if (!is_same || weights_.cols() != body.m_nodes.size()) {
     weights_ = masses_.transpose().cast<btScalar>().replicate(3, 1);
     for (const int pin : pins_) weights_.col(pin).setZero();
   }
-  if (is_same) return;
+}
+
+void FastBody::set_free(const std::vector<bool>& is_free) {
   const TraceScope trace("factorise");
-  if (solver_) {
-    solver_->set_free(is_free_);
-  } else {
-    solver_ = std::make_unique<fast::ImplicitSolver<btScalar>>(network_, masses_, is_free_);
-    network_ = {};  // the solver has it now
-  }
+  const fast::ThreadTeam::Pause pause(team_);  // helpers would wait for long
+  if (solver_) return solver_->set_free(is_free);
+  solver_ = std::make_unique<fast::ImplicitSolver<btScalar>>(network_, masses_, is_free);
+  network_ = {};  // the solver has it now
 }
 
 bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {

@@ -135,6 +135,7 @@ class FastBody {
   [[nodiscard]] int team_size() const;
   [[nodiscard]] bool take_pushed_places(const btSoftBody& body);
   void prepare_solver(const btSoftBody& body);
+  void set_free(const std::vector<bool>& is_free);
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
   void find_contacts(const btSoftBody& body, const Obstacle& obstacle, btScalar time_step,
                      std::vector<RigidContact>& contacts);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 
 namespace weft::fast {
 namespace {
@@ -20,77 +21,94 @@ int filled_up(int count) {
   return (count + kRowPad - 1) / kRowPad * kRowPad;
 }
 
-/// Unknowns that are looked at as beginnings of an order, or as ends of a piece.
-constexpr int kMostStarts = 8;
+/// Of a piece that are looked at.
+constexpr int kMostEnds = 8;
 
-/// How many pairs in a row lead from an unknown to each of those that are flagged; -1: none do.
-std::vector<int> distances_from(int first, const Neighbours& neighbours,
-                                const std::vector<char>& is_in, std::vector<int>& reached) {
-  std::vector<int> distances(neighbours.size(), -1);
-  reached = {first};
-  distances[at(first)] = 0;
-  for (std::size_t next = 0; next < reached.size(); ++next) {
-    for (const int j : neighbours[at(reached[next])]) {
-      if (is_in[at(j)] == 0 || distances[at(j)] >= 0) continue;
-      distances[at(j)] = distances[at(reached[next])] + 1;
-      reached.push_back(j);
+/// Walks from pair to pair. Takes time for what it reaches, not for all unknowns.
+class Walk {
+ public:
+  explicit Walk(const Neighbours& neighbours)
+      : neighbours_(&neighbours), distances_(neighbours.size(), -1) {}
+
+  /// The flagged unknowns that pairs in a row lead to, the nearest ones first.
+  const std::vector<int>& from(int first, const std::vector<char>& is_in) {
+    for (const int i : reached_) distances_[at(i)] = -1;
+    reached_ = {first};
+    distances_[at(first)] = 0;
+    for (std::size_t next = 0; next < reached_.size(); ++next) {
+      const int i = reached_[next];
+      for (const int j : (*neighbours_)[at(i)]) {
+        if (is_in[at(j)] == 0 || distances_[at(j)] >= 0) continue;
+        distances_[at(j)] = distances_[at(i)] + 1;
+        reached_.push_back(j);
+      }
     }
+    return reached_;
   }
-  return distances;
-}
+  /// Pairs in a row; -1: none lead there.
+  [[nodiscard]] int distance(int i) const { return distances_[at(i)]; }
 
-/// Distances from unknowns of a piece that are far from each other, the first of which is an end of it.
-std::vector<std::vector<int>> distances_from_ends(const std::vector<int>& piece,
-                                                  const Neighbours& neighbours,
-                                                  const std::vector<char>& is_in) {
-  std::vector<std::vector<int>> result;
-  std::vector<int> nearest(neighbours.size(), std::numeric_limits<int>::max());
-  std::vector<int> reached;
-  (void)distances_from(piece.front(), neighbours, is_in, reached);
-  int next = reached.back();
-  while (std::ssize(result) < std::min<std::ptrdiff_t>(kMostStarts, std::ssize(piece))) {
-    result.push_back(distances_from(next, neighbours, is_in, reached));
-    for (const int i : piece) {
-      nearest[at(i)] = std::min(nearest[at(i)], result.back()[at(i)]);
-      if (nearest[at(i)] > nearest[at(next)]) next = i;
+ private:
+  const Neighbours* neighbours_;
+  std::vector<int> distances_;
+  std::vector<int> reached_;
+};
+
+/// An unknown of a piece, and how far the others are from it.
+struct End {
+  int unknown;
+  std::vector<int> distances;  ///< of each of the piece, in its order
+};
+
+/// Ends of a piece that are far from each other.
+std::vector<End> ends_of(const std::vector<int>& piece, Walk& walk,
+                         const std::vector<char>& is_in) {
+  std::vector<End> result;
+  std::vector<int> nearest(piece.size(), std::numeric_limits<int>::max());
+  int next = piece.back();  // in the order in which it was reached: an end
+  while (std::ssize(result) < std::min<std::ptrdiff_t>(kMostEnds, std::ssize(piece))) {
+    (void)walk.from(next, is_in);
+    End& end = result.emplace_back(End{next, {}});
+    for (std::size_t k = 0; k < piece.size(); ++k) {
+      end.distances.push_back(walk.distance(piece[k]));
+      nearest[k] = std::min(nearest[k], end.distances[k]);
     }
+    next = piece[at(
+        static_cast<int>(std::max_element(nearest.begin(), nearest.end()) - nearest.begin()))];
   }
   return result;
 }
 
-/// How far apart neighbours are in an order at most, and one more.
-int width_of(const std::vector<int>& order, const Neighbours& neighbours, std::vector<int>& place) {
-  for (std::size_t k = 0; k < order.size(); ++k) place[at(order[k])] = static_cast<int>(k);
+/// How far apart neighbours are in an order at most, and one more. places: of all unknowns, -1, and so again.
+int width_of(const std::vector<int>& order, const Neighbours& neighbours,
+             std::vector<int>& places) {
+  for (std::size_t k = 0; k < order.size(); ++k) places[at(order[k])] = static_cast<int>(k);
   int width = 1;
   for (const int i : order) {
     for (const int j : neighbours[at(i)]) {
-      if (place[at(j)] >= 0) width = std::max(width, place[at(j)] - place[at(i)] + 1);
+      if (places[at(j)] >= 0) width = std::max(width, places[at(j)] - places[at(i)] + 1);
     }
   }
-  for (const int i : order) place[at(i)] = -1;
+  for (const int i : order) places[at(i)] = -1;
   return width;
 }
 
 /// The flagged unknowns in an order in which neighbours are near each other (Cuthill and McKee 1969): piece after piece,
-/// each from the one of some beginnings that makes it narrowest.
-std::vector<int> narrow_order(const Neighbours& neighbours, std::vector<char> is_in) {
+/// each from the one of its ends that makes it narrowest.
+std::vector<int> narrow_order(const Neighbours& neighbours, std::vector<char> is_in, Walk& walk) {
   std::vector<int> result;
-  std::vector<int> place(neighbours.size(), -1);
+  std::vector<int> places(neighbours.size(), -1);
   for (int i = 0; i < static_cast<int>(is_in.size()); ++i) {
     if (is_in[at(i)] == 0) continue;
-    std::vector<int> piece;
-    (void)distances_from(i, neighbours, is_in, piece);
+    const std::vector<int> piece = walk.from(i, is_in);
     std::vector<int> best;
-    int width = std::numeric_limits<int>::max();
-    for (const std::vector<int>& distances : distances_from_ends(piece, neighbours, is_in)) {
-      const auto start = std::find_if(piece.begin(), piece.end(),
-                                      [&](int unknown) { return distances[at(unknown)] == 0; });
-      std::vector<int> order;
-      (void)distances_from(*start, neighbours, is_in, order);
-      const int of_order = width_of(order, neighbours, place);
-      if (of_order >= width) continue;
-      width = of_order;
-      best = std::move(order);
+    int least = std::numeric_limits<int>::max();
+    for (const End& end : ends_of(piece, walk, is_in)) {
+      const std::vector<int>& order = walk.from(end.unknown, is_in);
+      const int width = width_of(order, neighbours, places);
+      if (width >= least) continue;
+      least = width;
+      best = order;
     }
     for (const int unknown : best) is_in[at(unknown)] = 0;
     result.insert(result.end(), best.begin(), best.end());
@@ -98,47 +116,50 @@ std::vector<int> narrow_order(const Neighbours& neighbours, std::vector<char> is
   return result;
 }
 
-/// Parts a piece: the first `count` of an order without those that have a neighbour behind them, these, and the others.
+/// A piece in two halves and what is between them.
 struct Parted {
   std::vector<int> unknowns;
-  std::vector<signed char> half;  ///< of each of them: 0, 2, 1
-  int sizes[3] = {0, 0, 0};
+  std::vector<signed char> half;  ///< of each of them: 0 or 1; 2: between
+  std::array<int, 3> sizes{};
 };
 
+/// Between: those of the first `count` of an order that have a neighbour behind them. is_before: of all unknowns, 0, and so
+/// again.
 Parted parted(const std::vector<int>& order, std::size_t count, const Neighbours& neighbours,
               std::vector<char>& is_before) {
   Parted result{order, {}};
   for (std::size_t k = 0; k < count; ++k) is_before[at(order[k])] = 1;
   for (std::size_t k = 0; k < order.size(); ++k) {
-    const auto& list = neighbours[at(order[k])];
-    const bool is_border = k < count && std::any_of(list.begin(), list.end(),
-                                                    [&](int j) { return is_before[at(j)] == 0; });
-    result.half.push_back(k >= count ? 1 : is_border ? 2 : 0);
-    ++result.sizes[result.half.back()];
+    const std::vector<int>& list = neighbours[at(order[k])];
+    const bool is_between = k < count && std::any_of(list.begin(), list.end(),
+                                                     [&](int j) { return is_before[at(j)] == 0; });
+    result.half.push_back(k >= count ? 1 : is_between ? 2 : 0);
+    ++result.sizes[at(result.half.back())];
   }
   for (std::size_t k = 0; k < count; ++k) is_before[at(order[k])] = 0;
   return result;
 }
 
-/// Across the way between two of its ends: those for which the border is smallest and the halves are alike.
-Parted parted(const std::vector<int>& piece, const Neighbours& neighbours,
+/// Across the way from one of its ends to another one: those for which least is between, and the halves are alike.
+Parted parted(const std::vector<int>& piece, const Neighbours& neighbours, Walk& walk,
               const std::vector<char>& is_in) {
-  const auto ends = distances_from_ends(piece, neighbours, is_in);
+  const std::vector<End> ends = ends_of(piece, walk, is_in);
   std::vector<char> is_before(neighbours.size(), 0);
+  std::vector<std::size_t> sorted(piece.size());
+  std::vector<int> order(piece.size());
   Parted best;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t a = 0; a < ends.size(); ++a) {
     for (std::size_t b = a + 1; b < ends.size(); ++b) {
-      std::vector<int> order = piece;
-      std::stable_sort(order.begin(), order.end(), [&](int i, int j) {
-        return ends[a][at(i)] - ends[b][at(i)] < ends[a][at(j)] - ends[b][at(j)];
-      });
+      const auto way = [&](std::size_t k) { return ends[a].distances[k] - ends[b].distances[k]; };
+      std::iota(sorted.begin(), sorted.end(), std::size_t{0});
+      std::stable_sort(sorted.begin(), sorted.end(),
+                       [&](std::size_t k, std::size_t l) { return way(k) < way(l); });
+      for (std::size_t k = 0; k < sorted.size(); ++k) order[k] = piece[sorted[k]];
       Parted one = parted(order, order.size() / 2, neighbours, is_before);
-      one = parted(order, (order.size() + static_cast<std::size_t>(one.sizes[2])) / 2, neighbours,
-                   is_before);
-      const double border = one.sizes[2];
-      const double cost =
-          border * border * std::max(one.sizes[0], one.sizes[1]) + border * border * border / 6;
+      one = parted(order, (order.size() + at(one.sizes[2])) / 2, neighbours, is_before);
+      const double between = one.sizes[2];
+      const double cost = between * between * (std::max(one.sizes[0], one.sizes[1]) + between / 6);
       if (cost >= least) continue;
       least = cost;
       best = std::move(one);
@@ -148,26 +169,25 @@ Parted parted(const std::vector<int>& piece, const Neighbours& neighbours,
 }
 
 /// 0 or 1: the half of each unknown; 2: what is between them. Only a piece that is most of all is parted.
-std::vector<signed char> halves_of(const Neighbours& neighbours) {
+std::vector<signed char> halves_of(const Neighbours& neighbours, Walk& walk) {
   const auto n = static_cast<int>(neighbours.size());
   std::vector<signed char> half(at(n), -1);
-  std::vector<char> is_in(at(n), 1);
-  int sizes[3] = {0, 0, 0};
-  std::vector<int> piece;
+  const std::vector<char> is_in(at(n), 1);
+  std::array<int, 3> sizes{};
   for (int i = 0; i < n; ++i) {
     if (half[at(i)] >= 0) continue;
-    (void)distances_from(i, neighbours, is_in, piece);
+    const std::vector<int> piece = walk.from(i, is_in);
     if (2 * static_cast<int>(piece.size()) > n && piece.size() > 2) {
-      const Parted halves = parted(piece, neighbours, is_in);
+      const Parted halves = parted(piece, neighbours, walk, is_in);
       for (std::size_t k = 0; k < halves.half.size(); ++k) {
         half[at(halves.unknowns[k])] = halves.half[k];
-        ++sizes[halves.half[k]];
+        ++sizes[at(halves.half[k])];
       }
       continue;
     }
     const signed char smaller = sizes[1] < sizes[0] ? 1 : 0;
     for (const int unknown : piece) half[at(unknown)] = smaller;
-    sizes[smaller] += static_cast<int>(piece.size());
+    sizes[at(smaller)] += static_cast<int>(piece.size());
   }
   return half;
 }
@@ -208,13 +228,14 @@ BorderedBand::BorderedBand(int num_unknowns, const std::vector<std::pair<int, in
 }
 
 void BorderedBand::order(const std::vector<std::vector<int>>& neighbours) {
-  const std::vector<signed char> half = halves_of(neighbours);
+  Walk walk(neighbours);
+  const std::vector<signed char> half = halves_of(neighbours, walk);
   for (int k = 0; k <= kHalves; ++k) {
     Band& band = bands_[at(k)];
     std::vector<char> is_in(half.size());
     for (std::size_t i = 0; i < half.size(); ++i) is_in[i] = half[i] == k ? 1 : 0;
     band.begin = static_cast<int>(unknowns_.size());
-    for (const int unknown : narrow_order(neighbours, is_in)) unknowns_.push_back(unknown);
+    for (const int unknown : narrow_order(neighbours, is_in, walk)) unknowns_.push_back(unknown);
     band.end = static_cast<int>(unknowns_.size());
   }
   for (std::size_t k = 0; k < unknowns_.size(); ++k)

@@ -34,14 +34,14 @@ int hats_for(int num_unknowns) {
 
 }  // namespace
 
-CoarseCorrection::CoarseCorrection(const IsotropicNetwork& network,
-                                   const std::vector<bool>& is_free, const EdgeSlots& slots)
+CoarseCorrection::CoarseCorrection(const IsotropicNetwork& network, const EdgeSlots& slots)
     : num_nodes_(network.matrix.size()), parts_(num_nodes_), weights_(at(fill_up(num_nodes_))) {
   alone_.resize(weights_.size());
   patches_ = find_patches(network, hats_for(num_nodes_));
   num_hats_ = patches_.count;
   if (num_hats_ == 0) return;
-  const Interpolation hats = smoothed_aggregates(network, is_free, patches_);
+  const Interpolation hats =
+      smoothed_aggregates(network, std::vector<bool>(at(num_nodes_), true), patches_);
   for (int node = 0; node < num_nodes_; ++node) set_hats(node, hats, node);
   stride_ = std::max(
       1, static_cast<int>(network.matrix.columns.size() / 2) / (kSpringsOfHat * num_hats_));

@@ -28,13 +28,12 @@ using Fours = AlignedMatrix<float, 4, Eigen::Dynamic>;
 ///
 /// Nodes that are held have no part in P.
 /// Threads  one object from one thread at a time, but for calls that say otherwise. Allocates nothing after construction, but
-///          for add_copies() and note_springs().
+///          for set_free(), add_copies() and note_springs().
 class CoarseCorrection {
  public:
   CoarseCorrection() = default;
-  /// Of all nodes. slots: of the same springs. set_masses() is due then.
-  CoarseCorrection(const IsotropicNetwork& network, const std::vector<bool>& is_free,
-                   const EdgeSlots& slots);
+  /// Of all nodes, which are free. slots: of the same springs. set_masses() is due then.
+  CoarseCorrection(const IsotropicNetwork& network, const EdgeSlots& slots);
 
   /// The nodes of ring 0 are free if they were not, and the other way round: hats anew for all within kHatReach springs.
   /// rings: up to twice that; network, is_free: of their nodes. set_masses() is due then.

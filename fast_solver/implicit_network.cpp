@@ -31,8 +31,8 @@ ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const Vecto
   set_nodes(masses, is_free);
   std::vector<int> all(at(num_nodes()));
   std::iota(all.begin(), all.end(), 0);
-  coarse_correction_ = CoarseCorrection(forces_.isotropic_network(all), is_free_, forces_.slots());
-  coarse_correction_.set_masses(masses_.template cast<float>());
+  coarse_correction_ = CoarseCorrection(forces_.isotropic_network(all), forces_.slots());
+  change_correction(pinned_);
 }
 
 template <class Scalar>

@@ -19,7 +19,7 @@ namespace weft::fast {
 /// the matrix stays positive definite (Choi and Ko 2002).
 /// Scalar: of places and forces. Products are in single precision, for they only make corrections.
 /// Threads  what takes nodes may run for several parts of them at once; all else from one thread at a time. Allocates
-///          nothing after construction.
+///          nothing after construction, but for replace() and what describes the network.
 template <class Scalar>
 class NetworkForces {
  public:

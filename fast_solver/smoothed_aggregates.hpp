@@ -20,7 +20,7 @@ struct Patches {
 };
 
 /// About num_patches of them or fewer, one in each piece of the network at least, numbered by their first unknowns. What has
-/// no springs has none.
+/// no springs has none. Whether unknowns are free makes no difference.
 [[nodiscard]] Patches find_patches(const IsotropicNetwork& network, int num_patches);
 
 /// Hats over patches, which overlap: an unknown has the part of each patch that it would have if its neighbours' parts were

@@ -28,10 +28,11 @@ struct Sheet {
     forces.emplace(network, mesh.num_nodes());
     for (int i = 0; i < mesh.num_nodes(); ++i) {
       names.push_back(i);
-      is_free.push_back(i >= kSide);
+      is_free.push_back(true);
     }
     springs = forces->isotropic_network(names);
-    correction = CoarseCorrection(springs, is_free, forces->slots());
+    correction = CoarseCorrection(springs, forces->slots());
+    pin(side());
     std::srand(4);
     const Matrix3X<double> x =
         mesh.rest_positions + 0.02 * Matrix3X<double>::Random(3, mesh.num_nodes());
@@ -41,6 +42,11 @@ struct Sheet {
     inertia.setConstant(rows, inertia_of_node);
     inertia.tail(rows - mesh.num_nodes()).setZero();
     holds.assign(static_cast<std::size_t>(rows), Hold::kFree);
+  }
+  [[nodiscard]] static std::vector<int> side() {
+    std::vector<int> result(kSide);
+    std::iota(result.begin(), result.end(), 0);
+    return result;
   }
   void pin(const std::vector<int>& pins) {
     std::vector<int> changed;
@@ -173,8 +179,7 @@ TEST(CoarseCorrection, FindsADisplacementFromItsForces) {
 
 // What is pinned later is not moved, what is let go is, and the matrix is that of the new hats.
 TEST(CoarseCorrection, FollowsPins) {
-  std::vector<int> side(kSide);
-  std::iota(side.begin(), side.end(), 0);
+  const std::vector<int> side = Sheet::side();
   Sheet sheet(0.01F);
   const std::vector<std::vector<int>> pins = {{0, 13, 100}, {0, 13},     {195}, {},
                                               side,         sheet.names, {7},   side};
@@ -203,8 +208,7 @@ TEST(CoarseCorrection, ASheetWithoutSpringsMovesAsItsMassesDo) {
 }
 
 TEST(CoarseCorrection, CorrectsNothingWhereAllIsPinned) {
-  CoarseCorrection correction(IsotropicNetwork{{{0, 0, 0, 0}, {}, {}, {1, 1, 1}}, {}},
-                              {false, false, false}, {});
+  CoarseCorrection correction(IsotropicNetwork{{{0, 0, 0, 0}, {}, {}, {1, 1, 1}}, {}}, {});
   NodeArrays<float> values = NodeArrays<float>::Ones(fill_up(3), 3);
   ThreadTeam team;
   correction.set_residual(0, {}, values, values);

@@ -174,6 +174,35 @@ TEST(TornSolver, TearsAgainAndAgain) {
   }
 }
 
+// From one where all is pinned; before or after a tear.
+TEST(TornSolver, FollowsPinsBetweenTears) {
+  const int n = 45;
+  const std::vector<std::vector<int>> pins = {{0, n - 1}, {n + 3, 1500, 1501}, {0}, {}, {7, 1200}};
+  std::vector<Matrix3X<double>> places;
+  for (const int threads : {1, 4}) {
+    ClothMesh mesh = cloth(n);
+    const std::vector<bool> nobody(static_cast<std::size_t>(mesh.num_nodes()), false);
+    ImplicitSolver<double> solver(make_network(mesh, kLaws), mesh.masses, nobody);
+    for (int k = 0; k < std::ssize(pins); ++k) {
+      mesh.pinned = pins[static_cast<std::size_t>(k)];
+      if (k % 2 == 0) solver.set_free(free_flags(mesh));
+      const Tear tear = cut_along(mesh, cut_at(n, k));
+      const std::vector<char> is_changed = flags_of(tear);
+      solver.tear(make_network_at(is_changed, tear.mesh, kLaws), is_changed, tear.mesh.masses,
+                  tear.origins);
+      mesh = tear.mesh;
+      if (k % 2 == 1) solver.set_free(free_flags(mesh));
+      Step step(mesh);
+      ThreadTeam team;
+      const ThreadTeam::Scope scope(team, threads);
+      EXPECT_LT(step.residual(solver, team), 0.02) << k;
+      for (const int pin : mesh.pinned) EXPECT_EQ(step.places.col(pin), step.starts.col(pin));
+      places.push_back(step.places);
+    }
+  }
+  for (std::size_t k = 0; k < pins.size(); ++k) EXPECT_EQ(places[k], places[k + pins.size()]) << k;
+}
+
 // There are no hats, and more parts of the nodes than before.
 TEST(TornSolver, TearsWhereAllIsPinned) {
   const int n = 30;
