@@ -19,6 +19,8 @@ constexpr float kLeastTie = 0.03F;
 constexpr float kLeastBound = 0.05F;
 /// Springs of a hat that are enough to know the stiffness between it and its neighbours, about.
 constexpr int kSpringsOfHat = 60;
+/// Of a network no fewer than one in so many: about one at each node.
+constexpr double kMostForOne = 6;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -43,8 +45,8 @@ CoarseCorrection::CoarseCorrection(const IsotropicNetwork& network, const EdgeSl
   const Interpolation hats =
       smoothed_aggregates(network, std::vector<bool>(at(num_nodes_), true), patches_);
   for (int node = 0; node < num_nodes_; ++node) set_hats(node, hats, node);
-  stride_ = std::max(
-      1, static_cast<int>(network.matrix.columns.size() / 2) / (kSpringsOfHat * num_hats_));
+  const double of_hat = 0.5 * static_cast<double>(network.matrix.columns.size()) / num_hats_;
+  springs_for_one_ = std::clamp(of_hat / kSpringsOfHat, 1.0, kMostForOne);
   std::vector<int> names(at(num_nodes_));
   std::iota(names.begin(), names.end(), 0);
   find_pairs(ties_of(network, names));
@@ -242,6 +244,14 @@ void CoarseCorrection::add_copies(const std::vector<int>& origins) {
   }
 }
 
+// Of the slots of a node one in springs_for_one_, so that each node has its part; which ones is a multiple of the golden
+// section: even over nodes in a row, and over rows of whatever length.
+bool CoarseCorrection::is_in_sample(int node, int slot) const {
+  constexpr double kGolden = 0.6180339887498949;
+  const double number = kGolden * node + slot / springs_for_one_;
+  return springs_for_one_ * (number - std::floor(number)) < 1;
+}
+
 void CoarseCorrection::note_springs(const EdgeSlots& slots, const std::vector<char>& blocks) {
   if (num_hats_ == 0) return;
   const auto num_before = blocks_.size();
@@ -261,12 +271,12 @@ void CoarseCorrection::note_springs(const EdgeSlots& slots, const std::vector<ch
         if (slots.edges[place] < 0 || node >= slots.num_nodes || other <= node) continue;
         const bool is_bound =
             std::abs(sum_of(weights_[at(node)]) - sum_of(weights_[at(other)])) > kLeastBound;
-        if (!is_bound && (lane + slot + b) % stride_ != 0) continue;
+        if (!is_bound && !is_in_sample(node, slot - range.begin)) continue;
         const std::size_t first = block.terms.size();
         add_terms(difference(node, other), block.terms);
         block.springs.push_back({slot, lane, node, other,
                                  static_cast<int>(block.terms.size() - first),
-                                 is_bound ? 1.0F : static_cast<float>(stride_)});
+                                 is_bound ? 1.0F : static_cast<float>(springs_for_one_)});
       }
     }
   }

@@ -106,12 +106,13 @@ class CoarseCorrection {
   void make_band();
   void add_terms(const Row& row, std::vector<CoarseTerm>& terms) const;
   void note_alone(int node);
+  [[nodiscard]] bool is_in_sample(int node, int slot) const;
   void find_ranges(int part);
   void fill_gaps(NodeRange nodes);
 
   int num_nodes_ = 0;
   int num_hats_ = 0;
-  int stride_ = 1;  ///< one spring of so many is looked at
+  double springs_for_one_ = 1;  ///< that one in the sample stands for
   NodeParts parts_;
   Patches patches_;
   std::vector<HatWeights> weights_;
