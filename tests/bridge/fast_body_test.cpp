@@ -224,7 +224,7 @@ TEST(FastBody, RestsOnABoxThatTheGroundHolds) {
 // A fine sheet that falls on a ball wraps round it about as fast as in short steps: its rim is drawn down faster than it would
 // fall, to -0.21 m by then in steps that converge. What iterations do not carry through the sheet holds it up: with a
 // correction that takes the sheet for as stiff across as along, at +0.07 m. Folds differ with a micrometre: so the mean of
-// some starts, -0.09 m with 0.03 from one to the next.
+// some starts, -0.12 m with 0.04 from one to the next.
 TEST(FastBody, WrapsAFineSheetRoundASphere) {
   constexpr int kStarts = 6;
   double sum = 0;
