@@ -31,6 +31,15 @@ std::vector<bool> all_free_but(const ClothMesh& mesh, const std::vector<int>& pi
   return is_free;
 }
 
+/// In a vertical plane, its first row on top.
+ClothMesh hanging_cloth() {
+  ClothGrid grid;
+  grid.nodes = {60, 60};
+  grid.v_axis = {0, -1, 0};
+  grid.total_mass = 0.25;
+  return make_cloth_grid(grid);
+}
+
 /// Where free nodes fall to in one step.
 Matrix3X<double> fallen(const Matrix3X<double>& x, const Matrix3X<double>& v,
                         const std::vector<bool>& is_free) {
@@ -131,11 +140,7 @@ TEST(ImplicitSolver, FewIterationsComeClose) {
 
 // One linear system, whose error each iteration makes smaller: also where more corrections are made than are kept.
 TEST(ImplicitSolver, EachIterationComesCloser) {
-  ClothGrid grid;
-  grid.nodes = {60, 60};
-  grid.v_axis = {0, -1, 0};
-  grid.total_mass = 0.25;
-  const ClothMesh mesh = make_cloth_grid(grid);
+  const ClothMesh mesh = hanging_cloth();
   const SpringNetwork network = springs(mesh, 3000.0);
   const auto is_free = all_free_but(mesh, {0, 59});
   const Matrix3X<double> q = mesh.rest_positions;
@@ -163,11 +168,7 @@ TEST(ImplicitSolver, EachIterationComesCloser) {
 
 // Pins may come and go between steps, and nodes be led for a while: as a solver that was made with pins.
 TEST(ImplicitSolver, FollowsPins) {
-  ClothGrid grid;
-  grid.nodes = {60, 60};
-  grid.v_axis = {0, -1, 0};
-  grid.total_mass = 0.25;
-  const ClothMesh mesh = make_cloth_grid(grid);
+  const ClothMesh mesh = hanging_cloth();
   const SpringNetwork network = springs(mesh, 3000.0);
   const Matrix3X<double> q = mesh.rest_positions;
   const std::vector<bool> none(static_cast<std::size_t>(mesh.num_nodes()), false);
