@@ -24,9 +24,12 @@ namespace {
 constexpr double kTimeStep = 1.0 / 60;  // [s]
 constexpr int kWarmUp = 20;             // steps: memory is there, cloth has begun to move
 constexpr int kTogether = 12;           // steps that are timed together
-constexpr int kRounds = 20;
-constexpr int kMostRounds = 100;
-constexpr std::size_t kGoodRounds = 15;
+/// Medians of 15 rounds of a small world differ by a tenth from run to run, of 60 by a few hundredths; a large one takes
+/// seconds for a round.
+constexpr int kRounds = 60;
+constexpr int kRoundsOfCrowd = 15;
+/// In place of so many that the machine had two processors for: times as many rounds at most.
+constexpr int kMostTries = 3;
 /// What two worlds get done at the same time, over one: from which on the machine has two processors for them.
 constexpr double kTwoProcessors = 1.8;
 
@@ -210,8 +213,8 @@ void add_threads(const Name& name, ResultFile& times, ResultFile& phases) {
   std::vector<double> speed_ups;
   std::vector<double> limits;
   // The processors of a virtual machine may be one for a while.
-  for (int round = 0; round < kRounds || (limits.size() < kGoodRounds && round < kMostRounds);
-       ++round) {
+  const int num_rounds = name.workload == Workload::kCrowd ? kRoundsOfCrowd : kRounds;
+  for (int round = 0; std::ssize(limits) < num_rounds && round < kMostTries * num_rounds; ++round) {
     const double alone = time_of(one);
     const double by_two = time_of(two);
     ms[0].push_back(alone / kTogether);

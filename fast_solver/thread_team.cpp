@@ -118,18 +118,19 @@ void ThreadTeam::run_shared(int num_parts, Call call, const void* job) {
   loop_.job.store(job, std::memory_order_release);
   loop_.num_parts.store(num_parts, std::memory_order_release);
   loop_.number.store(loop, std::memory_order_release);
-  int num_left = num_parts;
-  std::uint64_t mine = 0;
+  const int num_own = first_part(1, num_parts);
+  int num_left = num_parts - num_own;
+  std::uint64_t taken = 0;  // of helpers
   const auto take = [&](int part) {
     if (!take_part(loop, part)) return;
     call(job, part);
     --num_left;
-    mine |= flags(part, part + 1);
+    taken |= flags(part, part + 1);
   };
-  for (int part = 0; part < first_part(1, num_parts); ++part) take(part);
+  for (int part = 0; part < num_own; ++part) call(job, part);  // which no helper takes
   const std::uint64_t awaited = awaited_parts(num_parts);
   // From the end: who comes now begins at the other one of what is its own.
-  for (int part = num_parts - 1; part >= first_part(1, num_parts); --part) {
+  for (int part = num_parts - 1; part >= num_own; --part) {
     if ((awaited & flags(part, part + 1)) == 0) take(part);
   }
   Patience patience;
@@ -137,12 +138,12 @@ void ThreadTeam::run_shared(int num_parts, Call call, const void* job) {
   while (num_done_.load(std::memory_order_acquire) !=
          num_done_before_ + static_cast<std::uint64_t>(num_left)) {
     if (!patience.wait()) continue;
-    for (int part = first_part(1, num_parts); part < num_parts; ++part) take(part);
+    for (int part = num_own; part < num_parts; ++part) take(part);
     if (!end_of_patience) end_of_patience = Clock::now();
   }
   num_done_before_ += static_cast<std::uint64_t>(num_left);
   if (end_of_patience) lost_ += seconds_since(*end_of_patience);
-  note_away(num_parts, mine);
+  note_away(num_parts, taken);
 }
 
 // Of helpers that are there, or whose arrival is worth waiting for.
@@ -156,13 +157,13 @@ std::uint64_t ThreadTeam::awaited_parts(int num_parts) {
 }
 
 // A helper that has left all that was its own to the caller does something else; once it takes a part, it is back.
-void ThreadTeam::note_away(int num_parts, std::uint64_t parts_of_caller) {
-  if (away_ == 0 && (parts_of_caller & ~parts_of(0, num_parts)) == 0) return;
+void ThreadTeam::note_away(int num_parts, std::uint64_t taken_parts) {
+  if (away_ == 0 && taken_parts == 0) return;
   for (int member = 1; member < num_threads_; ++member) {
     const std::uint64_t parts = parts_of(member, num_parts);
     const std::uint64_t flag = flags(member, member + 1);
     if (parts == 0) continue;
-    away_ = (parts_of_caller & parts) == parts ? away_ | flag : away_ & ~flag;
+    away_ = (taken_parts & parts) == parts ? away_ | flag : away_ & ~flag;
   }
 }
 

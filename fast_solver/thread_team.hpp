@@ -113,14 +113,16 @@ class ThreadTeam {
   void help();
   void help_with(std::uint64_t loop, int member);
   bool take_part(std::uint64_t loop, int part);
-  /// Of those that a member begins with; the caller is number 0.
+  /// Of those that a member begins with. The caller is number 0, whose parts nobody else takes; it has the odd one, for
+  /// it is there first.
   [[nodiscard]] int first_part(int member, int num_parts) const {
-    return num_parts * member / num_threads_;
+    return (num_parts * member + num_threads_ - 1) / num_threads_;
   }
   [[nodiscard]] std::uint64_t parts_of(int member, int num_parts) const;  ///< flags
   [[nodiscard]] int num_present();
   [[nodiscard]] std::uint64_t awaited_parts(int num_parts);  ///< flags
-  void note_away(int num_parts, std::uint64_t parts_of_caller);
+  /// taken_parts: flags of those of helpers that the caller has taken.
+  void note_away(int num_parts, std::uint64_t taken_parts);
   void learn();
 
   Loop loop_;
