@@ -237,6 +237,11 @@ void BorderedBand::order(const std::vector<std::vector<int>>& neighbours) {
     band.begin = static_cast<int>(unknowns_.size());
     for (const int unknown : narrow_order(neighbours, is_in, walk)) unknowns_.push_back(unknown);
     band.end = static_cast<int>(unknowns_.size());
+    if (band.size() == 0) continue;
+    const auto [lowest, highest] =
+        std::minmax_element(unknowns_.begin() + band.begin, unknowns_.begin() + band.end);
+    band.lowest = *lowest;
+    band.highest = *highest + 1;
   }
   for (std::size_t k = 0; k < unknowns_.size(); ++k)
     places_[at(unknowns_[k])] = static_cast<int>(k);
@@ -321,41 +326,49 @@ void BorderedBand::factorise(const float* blocks, const float* inertia, ThreadTe
   kernel.factorise(rows, last.size(), kLeastPivot, nullptr);
 }
 
-void BorderedBand::solve(const float* right, float* solution, ThreadTeam& team) {
+// Each half sums up its own unknowns: most of what it reads is what its thread has written.
+void BorderedBand::load(Band& band, std::span<const Summand> right) const {
+  // Behind the unknowns too: what is not a number must not get stuck there.
+  std::fill(band.vector.begin(), band.vector.end(), 0.0F);
+  for (const Summand& summand : right) {
+    const int end = std::min(band.highest, summand.end);
+    for (int unknown = std::max(band.lowest, summand.begin); unknown < end; ++unknown) {
+      const int place = places_[at(unknown)] - band.begin;
+      if (place < 0 || place >= band.size()) continue;
+      const float* const from = summand.numbers + 4L * (unknown - summand.begin);
+      for (int axis = 0; axis < 3; ++axis) band.vector[at(3 * place + axis)] += from[axis];
+    }
+  }
+}
+
+void BorderedBand::unload(const Band& band, float* solution) const {
+  for (int i = 0; i < band.size(); ++i) {
+    std::copy(band.vector.begin() + 3L * i, band.vector.begin() + 3L * i + 3,
+              solution + 4L * unknowns_[at(band.begin + i)]);
+  }
+}
+
+void BorderedBand::solve(std::span<const Summand> right, float* solution, ThreadTeam& team) {
   const CoarseKernel& kernel = coarse_kernel();
-  const auto load = [&](Band& band) {
-    for (int i = 0; i < band.size(); ++i) {
-      const float* const from = right + 4L * unknowns_[at(band.begin + i)];
-      std::copy(from, from + 3, band.vector.begin() + 3L * i);
-    }
-    // What is not a number must not get stuck behind them.
-    std::fill(band.vector.begin() + 3L * band.size(), band.vector.end(), 0.0F);
-  };
-  const auto unload = [&](const Band& band) {
-    for (int i = 0; i < band.size(); ++i) {
-      std::copy(band.vector.begin() + 3L * i, band.vector.begin() + 3L * i + 3,
-                solution + 4L * unknowns_[at(band.begin + i)]);
-    }
-  };
-  team.run(kHalves, [&](int half) {
+  team.run(kHalves, [this, &kernel, right](int half) {
     Band& band = bands_[at(half)];
-    load(band);
+    load(band, right);
     std::fill(band.border.begin(), band.border.end(), 0.0F);
     kernel.go_up(rows_of(band), band.size(), band.vector.data(), band.border.data());
   });
   Band& last = bands_[kHalves];
-  load(last);
+  load(last, right);
   for (int k = 0; k < 3 * last.size(); ++k) {
     for (int half = 0; half < kHalves; ++half) last.vector[at(k)] += bands_[at(half)].border[at(k)];
   }
   kernel.go_up(rows_of(last), last.size(), last.vector.data(), nullptr);
   kernel.go_down(rows_of(last), last.size(), last.vector.data(), nullptr);
-  unload(last);
-  team.run(kHalves, [&](int half) {
+  unload(last, solution);
+  team.run(kHalves, [this, &kernel, &last, solution](int half) {
     Band& band = bands_[at(half)];
     std::copy(last.vector.begin(), last.vector.begin() + 3L * last.size(), band.border.begin());
     kernel.go_down(rows_of(band), band.size(), band.vector.data(), band.border.data());
-    unload(band);
+    unload(band, solution);
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -33,8 +34,14 @@ class BorderedBand {
   /// blocks: kBlockNumbers numbers of the stiffness of springs, between the two of each pair (pair_block()) and between an
   /// unknown and what does not move (own_block()). inertia: of each unknown, added to its diagonal.
   void factorise(const float* blocks, const float* inertia, ThreadTeam& team);
-  /// solution = A^-1 right, four numbers of each unknown, the last of which is not used.
-  void solve(const float* right, float* solution, ThreadTeam& team);
+  /// Part of a right-hand side: four numbers, the last of which is not used, of each of the unknowns begin ... end - 1.
+  struct Summand {
+    const float* numbers;
+    int begin;
+    int end;
+  };
+  /// solution = A^-1 (sum of right), four numbers of each unknown.
+  void solve(std::span<const Summand> right, float* solution, ThreadTeam& team);
 
  private:
   /// Unknowns begin ... end - 1 of the order; without a border for the border itself.
@@ -42,6 +49,8 @@ class BorderedBand {
     int begin = 0;
     int end = 0;
     int width = 1;
+    int lowest = 0;  ///< unknowns: lowest ... highest - 1, and others between them
+    int highest = 0;
     AlignedVector<float> values;
     AlignedVector<float> diagonal;
     AlignedVector<float> vector;
@@ -55,6 +64,8 @@ class BorderedBand {
   void order(const std::vector<std::vector<int>>& neighbours);
   void reserve(Band& band, int num_border);
   void fill(Band& band, const float* blocks, const float* inertia);
+  void load(Band& band, std::span<const Summand> right) const;
+  void unload(const Band& band, float* solution) const;
 
   static constexpr int kHalves = 2;
   std::array<Band, kHalves + 1> bands_;  ///< the last one is the border

@@ -62,7 +62,7 @@ void CoarseCorrection::make_band() {
     first_pairs_.push_back(static_cast<int>(first - pairs_.begin()));
   }
   band_ = BorderedBand(num_hats_, pairs_);
-  for (Fours* fours : {&residual_, &solution_}) fours->setZero(4, num_hats_);
+  solution_.setZero(4, num_hats_);
   sums_.assign(at(band_.num_blocks()) * kBlockNumbers, 0.0F);
   for (auto* numbers : {&masses_, &inertia_}) numbers->assign(at(num_hats_), 0.0F);
   for (int node = 0; node < num_nodes_; ++node) note_alone(node);
@@ -365,6 +365,10 @@ void CoarseCorrection::factorise(const unsigned short* linear, float root_scale,
       }
     }
   });
+  residuals_.clear();
+  for (const Part& part : of_parts_) {
+    residuals_.push_back({part.residual.data(), part.hats.begin, part.hats.end});
+  }
   for (std::size_t k = 0; k < masses_.size(); ++k) inertia_[k] = inertia_over_mass * masses_[k];
   band_.factorise(sums_.data(), inertia_.data(), team);
 }
@@ -391,11 +395,7 @@ void CoarseCorrection::set_residual(int part, const std::vector<int>& held,
 
 void CoarseCorrection::solve(ThreadTeam& team) {
   if (num_hats_ == 0) return;
-  residual_.setZero();
-  for (const Part& part : of_parts_) {
-    residual_.middleCols(part.hats.begin, part.residual.cols()) += part.residual;
-  }
-  band_.solve(residual_.data(), solution_.data(), team);
+  band_.solve(residuals_, solution_.data(), team);
 }
 
 void CoarseCorrection::interpolate(int part, const std::vector<int>& held,

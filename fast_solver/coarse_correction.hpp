@@ -123,11 +123,11 @@ class CoarseCorrection {
   std::vector<CoarseNode> alone_;  ///< of each node
   BorderedBand band_;
   std::vector<Part> of_parts_;
-  AlignedVector<float> sums_;     ///< blocks, of all parts
-  AlignedVector<float> masses_;   ///< of hats
-  AlignedVector<float> inertia_;  ///< likewise
-  Fours residual_;                ///< likewise
-  Fours solution_;
+  AlignedVector<float> sums_;                     ///< blocks, of all parts
+  AlignedVector<float> masses_;                   ///< of hats
+  AlignedVector<float> inertia_;                  ///< likewise
+  std::vector<BorderedBand::Summand> residuals_;  ///< of parts, from factorise() on
+  Fours solution_;                                ///< of hats
 };
 
 }  // namespace weft::fast

@@ -46,25 +46,25 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
   held_.reserve(at(static_cast<int>(n)));
   contact_of_.assign(at(static_cast<int>(n)), -1);
   for (auto* vectors : {&normals_, &friction_}) vectors->setZero(3, n);
-  const Eigen::Index n_filled = fill_up(static_cast<int>(n));
+  const Eigen::Index num_rows = rows_for(static_cast<int>(n));
   for (auto* holds : {&holds_, &held_before_}) {
-    holds->assign(static_cast<std::size_t>(n_filled), Hold::kFree);
+    holds->assign(static_cast<std::size_t>(num_rows), Hold::kFree);
   }
   for (Nodes* vectors :
        {&targets_, &starts_, &places_, &unbalanced_, &holding_forces_, &unmoved_, &remainders_}) {
-    vectors->setZero(n_filled, 3);
+    vectors->setZero(num_rows, 3);
   }
-  masses_.setZero(n_filled);
+  masses_.setZero(num_rows);
   masses_.head(n) = masses.cast<Scalar>();
-  inertia_.setZero(n_filled);
-  weights_.setZero(n_filled);
-  if (blocks_.rows() == n_filled) return;  // the others keep no number from one step to the next
-  blocks_.setZero(n_filled, 6);
-  for (Floats* vectors : {&step_, &residual_vector_, &direction_, &direction_product_,
+  inertia_.setZero(num_rows);
+  weights_.setZero(num_rows);
+  if (blocks_.rows() == num_rows) return;  // the others keep no number from one step to the next
+  blocks_.setZero(num_rows, 6);
+  for (Floats* vectors : {&step_, &residual_vector_, &direction_, &direction_product_, &smoothed_,
                           &correction_product_, &work_, &coarse_, &coarse_product_}) {
-    vectors->setZero(n_filled, 3);
+    vectors->setZero(num_rows, 3);
   }
-  for (Floats& correction : corrections_) correction.setZero(n_filled, 3);
+  for (Floats& correction : corrections_) correction.setZero(num_rows, 3);
 }
 
 template <class Scalar>

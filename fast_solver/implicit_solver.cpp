@@ -77,19 +77,20 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::evaluate(bool linearises) {
   const auto stride = static_cast<int>(weights_.size());
   const SumKernel<Scalar>& sums = sum_kernel<Scalar>();
-  const auto both = sum_over_parts<Eigen::Array2d>([&](NodeRange nodes) {
-    const int count = nodes.end - nodes.begin;
-    for (int axis = 0; axis < 3; ++axis) {
-      unbalanced_.col(axis).segment(nodes.begin, count) =
-          weights_.segment(nodes.begin, count)
-              .cwiseProduct(targets_.col(axis).segment(nodes.begin, count) -
-                            places_.col(axis).segment(nodes.begin, count));
-    }
-    forces_.add_forces(nodes, places_, unbalanced_, linearises);
-    for (const int node : in_range(pinned_, nodes)) unbalanced_.row(node).setZero();
-    return Eigen::Array2d(sums.dot(unbalanced_.data(), step_.data(), stride, nodes),
-                          sums.squares(unbalanced_.data(), stride, nodes));
-  });
+  const auto both =
+      sum_over_parts<Eigen::Array2d>([this, stride, linearises, &sums](NodeRange nodes) {
+        const int count = nodes.end - nodes.begin;
+        for (int axis = 0; axis < 3; ++axis) {
+          unbalanced_.col(axis).segment(nodes.begin, count) =
+              weights_.segment(nodes.begin, count)
+                  .cwiseProduct(targets_.col(axis).segment(nodes.begin, count) -
+                                places_.col(axis).segment(nodes.begin, count));
+        }
+        forces_.add_forces(nodes, places_, unbalanced_, linearises);
+        for (const int node : in_range(pinned_, nodes)) unbalanced_.row(node).setZero();
+        return Eigen::Array2d(sums.dot(unbalanced_.data(), step_.data(), stride, nodes),
+                              sums.squares(unbalanced_.data(), stride, nodes));
+      });
   work_left_ = both[0];
   unbalanced_squares_ = both[1];
 }
@@ -110,18 +111,18 @@ void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body:
                                       Floats& product, Floats6 Body::*body_product,
                                       const Next& and_then) {
   const bool is_linked = !links_.empty();
-  const auto finish = [&](NodeRange nodes, int part) {
+  const auto finish = [this, &product, and_then](NodeRange nodes, int part) {
     project(nodes, product);
     and_then(nodes, part);
   };
-  team_->run(parts_.count(), [&](int part) {
+  team_->run(parts_.count(), [this, &displacements, &product, is_linked, finish](int part) {
     forces_.multiply(parts_[part], inertia_, displacements, product);
     if (!is_linked) finish(parts_[part], part);
   });
   for (Body& body : bodies_) body.*body_product = body.inertia * (body.*motion);
   if (!is_linked) return;
   gather(product, body_product);
-  team_->run(parts_.count(), [&](int part) { finish(parts_[part], part); });
+  team_->run(parts_.count(), [this, finish](int part) { finish(parts_[part], part); });
 }
 
 // correction = P residual, with its product with the stiffness.
@@ -129,19 +130,19 @@ template <class Scalar>
 typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition(Floats& correction,
                                                                                bool is_first) {
   for (Body& body : bodies_) body.correction = body.stiffness.solve(body.residual);
-  add_motions(&Body::correction, correction);
-  multiply(correction, &Body::correction, correction_product_, &Body::correction_product,
-           [&](NodeRange, int part) {
+  add_motions(&Body::correction, smoothed_);
+  multiply(smoothed_, &Body::correction, correction_product_, &Body::correction_product,
+           [this](NodeRange, int part) {
              coarse_correction_.set_residual(part, held_, residual_vector_, correction_product_);
            });
   coarse_correction_.solve(*team_);
   team_->run(parts_.count(),
-             [&](int part) { coarse_correction_.interpolate(part, held_, coarse_); });
+             [this](int part) { coarse_correction_.interpolate(part, held_, coarse_); });
   std::array<VectorKernel::Products, ThreadTeam::kMostParts> of_part;
   multiply(coarse_, &Body::none, coarse_product_, &Body::coarse_product,
-           [&](NodeRange nodes, int part) {
-             of_part[at(part)] = vector_kernel().add_correction(
-                 coarse_.data(), coarse_product_.data(), residual_vector_.data(),
+           [this, &correction, is_first, products = of_part.data()](NodeRange nodes, int part) {
+             products[part] = vector_kernel().add_correction(
+                 smoothed_.data(), coarse_.data(), coarse_product_.data(), residual_vector_.data(),
                  is_first ? nullptr : direction_product_.data(), static_cast<int>(coarse_.rows()),
                  nodes, correction.data(), correction_product_.data());
            });
@@ -163,7 +164,7 @@ typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition(F
 // The right-hand side, and in step_ what holds demand of nodes before anything is solved for.
 template <class Scalar>
 void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
-  for_each_part([&](NodeRange nodes) {
+  for_each_part([this](NodeRange nodes) {
     const int count = nodes.end - nodes.begin;
     step_.middleRows(nodes.begin, count).setZero();
     residual_vector_.middleRows(nodes.begin, count) =
@@ -193,14 +194,14 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
     moves_held = true;
   }
   find_unbalanced(&Body::residual);
-  for_each_part([&](NodeRange nodes) {
+  for_each_part([this, moves_held](NodeRange nodes) {
     if (moves_held) {
       const int count = nodes.end - nodes.begin;
       forces_.multiply(nodes, inertia_, step_, work_);
       residual_vector_.middleRows(nodes.begin, count) -= work_.middleRows(nodes.begin, count);
     }
     project(nodes, residual_vector_);
-    smooth(nodes, corrections_[0]);
+    smooth(nodes, smoothed_);
   });
   if (!moves_held || links_.empty()) return;
   for (Body& body : bodies_) body.coarse_product.setZero();
@@ -241,13 +242,14 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem, in
     }
     if (k == 0) first_gain = gain;
     if (k + 1 == iterations || gain <= kLastGain * first_gain) break;
-    for_each_part([&](NodeRange nodes) {
-      vector_kernel().advance(correction_product_.data(), share, length, k == 0,
-                              static_cast<int>(step_.rows()), nodes, direction_product_.data(),
-                              residual_vector_.data());
-      if (directions_.is_full()) sum_up(nodes, true);
-      smooth(nodes, corrections_[at(directions_.count() % DirectionWeights::kMost)]);
-    });
+    for_each_part(
+        [this, share, length, is_first = k == 0, is_full = directions_.is_full()](NodeRange nodes) {
+          vector_kernel().advance(correction_product_.data(), share, length, is_first,
+                                  static_cast<int>(step_.rows()), nodes, direction_product_.data(),
+                                  residual_vector_.data());
+          if (is_full) sum_up(nodes, true);
+          smooth(nodes, smoothed_);
+        });
     if (!directions_.is_full()) continue;
     directions_.clear();
     has_direction_ = true;
@@ -275,7 +277,7 @@ void ImplicitSolver<Scalar>::sum_up(NodeRange nodes, bool keeps_direction) {
 template <class Scalar>
 void ImplicitSolver<Scalar>::move() {
   const auto stride = static_cast<int>(step_.rows());
-  work_done_ = sum_over_parts([&](NodeRange nodes) {
+  work_done_ = sum_over_parts([this, stride](NodeRange nodes) {
     sum_up(nodes, false);
     return sum_kernel<Scalar>().move(unbalanced_.data(), step_.data(), stride, nodes,
                                      places_.data());

@@ -109,14 +109,15 @@ class ImplicitSolver {
   /// work(nodes) for each part of the nodes.
   template <class Work>
   void for_each_part(const Work& work) {
-    team_->run(parts_.count(), [&](int part) { work(parts_[part]); });
+    team_->run(parts_.count(), [parts = parts_, work](int part) { work(parts[part]); });
   }
   /// Sum of term(nodes), which is a Sum, over the parts in order.
   template <class Sum = double, class Term>
   [[nodiscard]] Sum sum_over_parts(const Term& term) {
     std::array<Sum, ThreadTeam::kMostParts> sums;
-    team_->run(parts_.count(),
-               [&](int part) { sums[static_cast<std::size_t>(part)] = term(parts_[part]); });
+    team_->run(parts_.count(), [parts = parts_, sums = sums.data(), term](int part) {
+      sums[part] = term(parts[part]);
+    });
     return std::accumulate(sums.begin() + 1, sums.begin() + parts_.count(), sums[0]);
   }
   void load(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> guess);
@@ -228,10 +229,10 @@ class ImplicitSolver {
   Matrix3X<float> normals_;        ///< of each node on a plane
   Matrix3X<float> friction_;       ///< of each sliding node [N]
   BlockArrays blocks_;             ///< inverse of the diagonal's
-  Floats step_, residual_vector_, direction_, direction_product_;
+  Floats step_, residual_vector_, direction_, direction_product_, smoothed_;
   Floats correction_product_, work_, coarse_, coarse_product_;
   std::array<Floats, DirectionWeights::kMost> corrections_;
-  DirectionWeights directions_;    ///< made of them
+  alignas(kAlignment) DirectionWeights directions_;  ///< made of them; not near what helpers read
   bool has_direction_ = false;     ///< from before the first of them, in direction_
   double work_left_ = 0;           ///< unbalanced_ . step_ [J]
   double unbalanced_squares_ = 0;  ///< of unbalanced_ [N^2]

@@ -99,7 +99,7 @@ void NetworkForces<Scalar>::resize_arrays() {
   }
   if (has_stabiliser_) stabilisers_.resize(num_lanes, Scalar(0));
   linear_.resize(4 * num_lanes, 0);
-  const int num_rows = fill_up(num_nodes());
+  const int num_rows = rows_for(num_nodes());
   if (starts_.rows() != num_rows) starts_.setZero(num_rows, 3);
   if (diagonal_.rows() != num_rows) diagonal_.setZero(num_rows, 6);
 }

@@ -58,7 +58,7 @@ class NetworkForces {
   [[nodiscard]] double potential(NodeRange nodes, const NodeArrays<Scalar>& places) const;
 
   /// product = inertia displacements + stiffness displacements [N], with the stiffness of the last
-  /// linearisation. inertia: fill_up(n) [N/m].
+  /// linearisation. inertia: rows_for(n) [N/m].
   void multiply(NodeRange nodes, const VectorX<float>& inertia,
                 const NodeArrays<float>& displacements, NodeArrays<float>& product) const;
 

@@ -89,11 +89,11 @@ struct VectorKernel {
   /// result = blocks vectors, node by node: 3 arrays from 6.
   void (*multiply_blocks)(const float* blocks, int stride, NodeRange nodes, const float* vectors,
                           float* result);
-  /// correction += more, product += more_product. Returns correction . residual, correction . direction_product
+  /// correction = one + more, product += more_product. Returns correction . residual, correction . direction_product
   /// and correction . product. direction_product: nullptr if there is none; its sum is 0 then.
-  Products (*add_correction)(const float* more, const float* more_product, const float* residual,
-                             const float* direction_product, int stride, NodeRange nodes,
-                             float* correction, float* product);
+  Products (*add_correction)(const float* one, const float* more, const float* more_product,
+                             const float* residual, const float* direction_product, int stride,
+                             NodeRange nodes, float* correction, float* product);
   /// direction_product = correction_product - share direction_product, residual -= length direction_product.
   /// is_first: there is no direction before, and direction_product is not read.
   void (*advance)(const float* correction_product, float share, float length, bool is_first,

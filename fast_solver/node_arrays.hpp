@@ -20,7 +20,17 @@ inline constexpr int kNodeLine = 64;
   return (num_nodes + kNodeLine - 1) / kNodeLine * kNodeLine;
 }
 
-/// x, y and z of all nodes, one array after the other, fill_up(number of nodes) x 3: so that a vector
+/// Fewer nodes are one part (NodeParts), which no threads share.
+inline constexpr int kFewestToShare = 15 * kNodeLine;
+
+/// Rows of arrays of nodes. Behind those that threads share is a gap: a processor fetches ahead of a loop, beyond its end
+/// too, and there the next array begins, with nodes of another thread, which would have to get its lines back each time.
+[[nodiscard]] constexpr int rows_for(int num_nodes) {
+  constexpr int kGap = 2 * kNodeLine;
+  return fill_up(num_nodes) + (fill_up(num_nodes) < kFewestToShare ? 0 : kGap);
+}
+
+/// x, y and z of all nodes, one array after the other, rows_for(number of nodes) x 3: so that a vector
 /// of the processor holds one component of several nodes.
 template <class Scalar>
 using NodeArrays = AlignedMatrix<Scalar, Eigen::Dynamic, 3>;

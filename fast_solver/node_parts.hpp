@@ -26,6 +26,7 @@ class NodeParts {
  private:
   /// 640 nodes: some microseconds of each loop, ten times what it takes threads to wait for each other.
   static constexpr int kLines = 10;
+  static_assert(kFewestToShare == (kLines + kLines / 2) * kNodeLine);
 
   [[nodiscard]] int first(int part) const {
     return static_cast<int>(std::int64_t{num_lines_} * part / count_) * kNodeLine;
@@ -39,8 +40,9 @@ class NodeParts {
 template <class Work>
 void run_parts(ThreadTeam& team, int num_nodes, const Work& work) {
   const NodeParts parts(num_nodes);
-  team.run(parts.count(),
-           [&](int part) { work(part, parts[part].begin, std::min(parts[part].end, num_nodes)); });
+  team.run(parts.count(), [parts, num_nodes, work](int part) {
+    work(part, parts[part].begin, std::min(parts[part].end, num_nodes));
+  });
 }
 
 /// Those of some nodes in ascending order that are in a range.

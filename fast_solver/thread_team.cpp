@@ -111,12 +111,15 @@ void ThreadTeam::learn() {
   }
 }
 
-void ThreadTeam::run_shared(int num_parts, Call call, const void* job) {
+void ThreadTeam::run_shared(int num_parts, Call call, const Job& job, int num_words) {
   const std::uint64_t loop = ++num_loops_;
   loop_.number.store(kNone, std::memory_order_relaxed);
   loop_.call.store(call, std::memory_order_release);
-  loop_.job.store(job, std::memory_order_release);
   loop_.num_parts.store(num_parts, std::memory_order_release);
+  loop_.num_words.store(num_words, std::memory_order_release);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(num_words); ++k) {
+    loop_.job[k].store(job[k], std::memory_order_release);
+  }
   loop_.number.store(loop, std::memory_order_release);
   const int num_own = first_part(1, num_parts);
   int num_left = num_parts - num_own;
@@ -200,8 +203,12 @@ void ThreadTeam::help() {
 // A loop that is over by now has no part left.
 void ThreadTeam::help_with(std::uint64_t loop, int member) {
   const Call call = loop_.call.load(std::memory_order_acquire);
-  const void* const job = loop_.job.load(std::memory_order_acquire);
   const int num_parts = loop_.num_parts.load(std::memory_order_acquire);
+  const int num_words = loop_.num_words.load(std::memory_order_acquire);
+  Job job{};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(num_words); ++k) {
+    job[k] = loop_.job[k].load(std::memory_order_acquire);
+  }
   if (loop_.number.load(std::memory_order_acquire) != loop) return;
   int num_done = 0;
   const auto take = [&](int begin, int end) {

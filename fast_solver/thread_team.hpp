@@ -2,9 +2,13 @@
 
 #include <array>
 #include <atomic>
+#include <bit>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
+#include <type_traits>
 
 #include <tbb/task_group.h>
 
@@ -75,31 +79,53 @@ class ThreadTeam {
   [[nodiscard]] int num_threads() const { return num_threads_; }
 
   /// work(part) for each of num_parts parts, at most kMostParts; returns when all are done. What work throws ends the
-  /// program: others may be at work on the same.
+  /// program: others may be at work on the same. Helpers get a copy of a work that is small and trivial to copy: what it
+  /// has by value they need not fetch from the caller's stack, line after line of the cache.
   template <class Work>
   void run(int num_parts, const Work& work) noexcept {
     if (num_threads_ <= 1 || num_parts <= 1) {
       for (int part = 0; part < num_parts; ++part) work(part);
       return;
     }
-    run_shared(
-        num_parts,
-        [](const void* job, int part) noexcept { (*static_cast<const Work*>(job))(part); }, &work);
+    if constexpr (std::is_trivially_copyable_v<Work> && sizeof(Work) <= sizeof(Job)) {
+      Job job{};
+      std::memcpy(job.data(), &work, sizeof(Work));
+      run_shared(num_parts, &call_copy<Work>, job, static_cast<int>(kWords<Work>));
+    } else {
+      run_shared(num_parts, &call_original<Work>, {std::bit_cast<std::uintptr_t>(&work)}, 1);
+    }
   }
 
  private:
-  using Call = void (*)(const void* job, int part);
+  /// What a helper needs of a loop: a copy of its work, or where that is.
+  using Job = std::array<std::uint64_t, 13>;
+  using Call = void (*)(const Job& job, int part);
   static constexpr std::uint64_t kNone = 0;
   /// [s] What a team that has been good for long may lose to stopped helpers before its caller does without them.
   static constexpr double kMostCredit = 20e-3;
-  /// The present loop. In one line of the cache, so that who waits for its number has the rest as well. While the rest
-  /// is written the number is kNone; who has read it looks at the number again.
-  struct alignas(64) Loop {
+  template <class Work>
+  static constexpr std::size_t kWords = (sizeof(Work) + sizeof(Job::value_type) - 1) /
+                                        sizeof(Job::value_type);
+  template <class Work>
+  static void call_copy(const Job& job, int part) {
+    std::array<std::byte, sizeof(Work)> bytes;
+    std::memcpy(bytes.data(), job.data(), sizeof(Work));
+    std::bit_cast<Work>(bytes)(part);
+  }
+  template <class Work>
+  static void call_original(const Job& job, int part) {
+    (*std::bit_cast<const Work*>(static_cast<std::uintptr_t>(job[0])))(part);
+  }
+  /// The present loop. In one line of the cache but for a large job, so that who waits for its number has the rest as
+  /// well. While the rest is written the number is kNone; who has read it looks at the number again.
+  struct alignas(128) Loop {
     std::atomic<std::uint64_t> number{kNone};
     std::atomic<Call> call{nullptr};
-    std::atomic<const void*> job{nullptr};
     std::atomic<int> num_parts{0};
+    std::atomic<int> num_words{0};  ///< of the job
+    std::array<std::atomic<std::uint64_t>, std::tuple_size_v<Job>> job{};
   };
+  static_assert(sizeof(Loop) == 128);
   /// Of a part: the last loop in which somebody has taken it. Each has a cache line.
   struct alignas(64) Ticket {
     std::atomic<std::uint64_t> loop{0};
@@ -109,7 +135,7 @@ class ThreadTeam {
   void open(int num_threads);
   /// Sends them away. Without effect on a team that is not open.
   void close();
-  void run_shared(int num_parts, Call call, const void* job);
+  void run_shared(int num_parts, Call call, const Job& job, int num_words);
   void help();
   void help_with(std::uint64_t loop, int member);
   bool take_part(std::uint64_t loop, int part);

@@ -61,7 +61,8 @@ struct Problem {
     Eigen::Matrix4Xf result = Eigen::Matrix4Xf::Zero(4, right.cols());
     for (int again = 0; again < 2; ++again) {  // nothing is left of the time before
       band.factorise(blocks.data(), inertia.data(), team);
-      band.solve(right.data(), result.data(), team);
+      const BorderedBand::Summand whole{right.data(), 0, static_cast<int>(right.cols())};
+      band.solve({&whole, 1}, result.data(), team);
     }
     return result;
   }
@@ -95,6 +96,23 @@ TEST(BorderedBand, SolvesForPiecesThatKnowNothingOfEachOther) {
   const Eigen::Matrix3Xd exact = problem.exact();
   const Eigen::Matrix3Xd found = problem.solution(1).topRows<3>().cast<double>();
   EXPECT_LT((found - exact).norm(), 1e-4 * exact.norm());
+}
+
+TEST(BorderedBand, SumsUpItsRightHandSide) {
+  Problem problem(13 * 11, grid_pairs(13, 11));
+  const auto whole = problem.solution(1);
+  // Ranges that overlap, one that is empty, and what is the sum of them.
+  const Eigen::Matrix4Xf low = problem.right.leftCols(90);
+  const Eigen::Matrix4Xf high = problem.right.rightCols(100);
+  const BorderedBand::Summand parts[] = {
+      {low.data(), 0, 90}, {nullptr, 20, 20}, {high.data(), 43, 143}};
+  Eigen::Matrix4Xf found = Eigen::Matrix4Xf::Zero(4, 143);
+  ThreadTeam team;
+  problem.band.solve(parts, found.data(), team);
+  problem.right.middleCols(43, 47) *= 2;
+  const auto expected = problem.solution(1);
+  EXPECT_EQ(found, expected);  // of two equal numbers the sum is exact
+  EXPECT_NE(found, whole);
 }
 
 TEST(BorderedBand, LeavesOutWhatNothingHolds) {

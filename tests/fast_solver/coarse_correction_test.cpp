@@ -38,7 +38,7 @@ struct Sheet {
         mesh.rest_positions + 0.02 * Matrix3X<double>::Random(3, mesh.num_nodes());
     begin_step(*forces, mesh.rest_positions, 1.0 / 60);
     (void)forces_at(*forces, x);
-    const int rows = fill_up(mesh.num_nodes());
+    const int rows = rows_for(mesh.num_nodes());
     inertia.setConstant(rows, inertia_of_node);
     inertia.tail(rows - mesh.num_nodes()).setZero();
     holds.assign(static_cast<std::size_t>(rows), Hold::kFree);
@@ -209,7 +209,7 @@ TEST(CoarseCorrection, ASheetWithoutSpringsMovesAsItsMassesDo) {
 
 TEST(CoarseCorrection, CorrectsNothingWhereAllIsPinned) {
   CoarseCorrection correction(IsotropicNetwork{{{0, 0, 0, 0}, {}, {}, {1, 1, 1}}, {}}, {});
-  NodeArrays<float> values = NodeArrays<float>::Ones(fill_up(3), 3);
+  NodeArrays<float> values = NodeArrays<float>::Ones(rows_for(3), 3);
   ThreadTeam team;
   correction.set_residual(0, {}, values, values);
   correction.solve(team);

@@ -8,7 +8,7 @@ namespace weft::fast {
 /// vectors, 3 x n, as the solver keeps them.
 template <class Scalar>
 [[nodiscard]] NodeArrays<Scalar> arrays_of(const Matrix3X<Scalar>& vectors) {
-  const int rows = fill_up(static_cast<int>(vectors.cols()));
+  const int rows = rows_for(static_cast<int>(vectors.cols()));
   NodeArrays<Scalar> arrays(rows, 3);
   to_arrays<Scalar>(vectors, {0, rows}, arrays);
   return arrays;
@@ -25,7 +25,7 @@ void begin_step(NetworkForces<Scalar>& network, const Matrix3X<Scalar>& starts, 
 template <class Scalar>
 [[nodiscard]] Matrix3X<Scalar> forces_at(NetworkForces<Scalar>& network, const Matrix3X<Scalar>& x,
                                          bool linearises = true) {
-  NodeArrays<Scalar> forces = NodeArrays<Scalar>::Zero(fill_up(network.num_nodes()), 3);
+  NodeArrays<Scalar> forces = NodeArrays<Scalar>::Zero(rows_for(network.num_nodes()), 3);
   network.add_forces(network.all_nodes(), arrays_of(x), forces, linearises);
   Matrix3X<Scalar> result(3, x.cols());
   from_arrays<Scalar>(forces, network.all_nodes(), result);

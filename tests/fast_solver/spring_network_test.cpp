@@ -80,7 +80,7 @@ TEST(SpringNetwork, ItsProductIsTheDerivativeWhereSpringsAreStretched) {
   const double by = 1e-5;
   const Matrix3X<double> expected = (forces_after(-by) - forces_after(by)) / (2 * by);
   (void)forces_after(0);
-  const int rows = fill_up(mesh.num_nodes());
+  const int rows = rows_for(mesh.num_nodes());
   NodeArrays<float> displacements(rows, 3);
   to_arrays<float>(d.cast<float>(), network.all_nodes(), displacements);
   NodeArrays<float> product(rows, 3);
@@ -97,7 +97,7 @@ TEST(SpringNetwork, ItsBlocksAreThoseOfTheProduct) {
   const Matrix3X<float> x = places(mesh, 0.05).cast<float>();
   begin_step(network, x, 0.01F);
   (void)forces_at(network, x);
-  const int rows = fill_up(mesh.num_nodes());
+  const int rows = rows_for(mesh.num_nodes());
   const BlockArrays& blocks = network.diagonal_blocks();
   const int entry[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
   for (const int node : {0, 7, 13, 29}) {

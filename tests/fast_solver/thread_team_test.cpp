@@ -56,6 +56,49 @@ TEST(ThreadTeam, DoesNoPartTwice) {
   }
 }
 
+// Each loop has other values, and what they are is known to nobody but its work.
+template <std::size_t kSize>
+void expect_work_arrives(ThreadTeam& team) {
+  std::array<long, ThreadTeam::kMostParts> results{};
+  for (long loop = 0; loop < 2000; ++loop) {
+    std::array<long, kSize> values;
+    values.fill(loop);
+    team.run(8, [values, to = results.data()](int part) {
+      long sum = part;
+      for (const long value : values) sum += value;
+      to[part] = sum;
+    });
+    for (int part = 0; part < 8; ++part) {
+      ASSERT_EQ(results[static_cast<std::size_t>(part)], part + static_cast<long>(kSize) * loop);
+    }
+  }
+}
+
+TEST(ThreadTeam, HelpersGetWorkOfAnySize) {
+  ThreadTeam team;
+  const ThreadTeam::Scope scope(team, 3);
+  expect_work_arrives<1>(team);
+  expect_work_arrives<5>(team);
+  expect_work_arrives<12>(team);  // the most of which there is a copy
+  expect_work_arrives<13>(team);
+  expect_work_arrives<100>(team);
+}
+
+TEST(ThreadTeam, HelpersGetWorkThatIsNotTrivialToCopy) {
+  ThreadTeam team;
+  const ThreadTeam::Scope scope(team, 2);
+  std::array<long, ThreadTeam::kMostParts> results{};
+  for (long loop = 0; loop < 2000; ++loop) {
+    const std::vector<long> values(3, loop);
+    team.run(4, [values, &results](int part) {
+      results[static_cast<std::size_t>(part)] = values.back() + part;
+    });
+    for (int part = 0; part < 4; ++part) {
+      ASSERT_EQ(results[static_cast<std::size_t>(part)], loop + part);
+    }
+  }
+}
+
 // The first part waits for somebody else to begin the second, in one of many loops: a helper may come late.
 TEST(ThreadTeam, IsHelped) {
   const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);

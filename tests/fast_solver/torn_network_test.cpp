@@ -71,7 +71,7 @@ void expect_same_forces(NetworkForces<double>& a, NetworkForces<double>& b, int 
   const NodeArrays<double> places = arrays_of(x);
   EXPECT_NEAR(a.potential(a.all_nodes(), places), b.potential(b.all_nodes(), places),
               1e-14 * b.potential(b.all_nodes(), places));
-  const int rows = fill_up(num_nodes);
+  const int rows = rows_for(num_nodes);
   NodeArrays<float> d = NodeArrays<float>::Random(rows, 3);
   d.bottomRows(rows - num_nodes).setZero();
   NodeArrays<float> product_a(rows, 3);
