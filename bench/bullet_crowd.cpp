@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <memory>
 #include <numeric>
@@ -15,6 +17,7 @@
 #include <weft/custom_forces/core/trace.hpp>
 
 #include "bench/bench.hpp"
+#include "bench/line_transfer.hpp"
 #include "bench/result_file.hpp"
 #include "bench/stopwatch.hpp"
 
@@ -27,11 +30,14 @@ constexpr int kTogether = 12;           // steps that are timed together
 /// Medians of 15 rounds of a small world differ by a tenth from run to run, of 60 by a few hundredths; a large one takes
 /// seconds for a round.
 constexpr int kRounds = 60;
-constexpr int kRoundsOfCrowd = 15;
+constexpr int kRoundsOfCrowd = 10;
+constexpr int kRoundsOfBullet = 15;
 /// In place of so many that the machine had two processors for: times as many rounds at most.
 constexpr int kMostTries = 3;
 /// What two worlds get done at the same time, over one: from which on the machine has two processors for them.
 constexpr double kTwoProcessors = 1.8;
+/// [us] for a line of the cache from one to the other, up to which they share a cache.
+constexpr double kNear = 0.12;
 
 enum class Workload { kCrowd, kSmallBall, kBall, kClassic, kHang };
 
@@ -210,33 +216,42 @@ void add_threads(const Name& name, ResultFile& times, ResultFile& phases) {
     for (int step = 0; step < kWarmUp; ++step) world->step();
   }
   std::vector<double> ms[3];
-  std::vector<double> speed_ups;
-  std::vector<double> limits;
-  // The processors of a virtual machine may be one for a while.
+  // Of rounds with two processors that share a cache, or do not.
+  std::array<std::vector<double>, 2> speed_ups;
+  std::array<std::vector<double>, 2> limits;
+  std::array<std::vector<double>, 2> transfers;
+  // The processors of a virtual machine may be one for a while: before and after, for of the rounds themselves chance
+  // would pass those that it makes look well.
+  const auto limit = [&] { return 2 * time_of(one) / time_of(one, other); };
   const int num_rounds = name.workload == Workload::kCrowd ? kRoundsOfCrowd : kRounds;
-  for (int round = 0; std::ssize(limits) < num_rounds && round < kMostTries * num_rounds; ++round) {
+  for (int round = 0; std::ssize(limits[0]) < num_rounds && round < kMostTries * num_rounds;
+       ++round) {
+    const double transfer_before = line_transfer_time();
+    const double before = limit();
     const double alone = time_of(one);
     const double by_two = time_of(two);
+    const double after = limit();
+    const double transfer_after = line_transfer_time();
     ms[0].push_back(alone / kTogether);
     ms[1].push_back(by_two / kTogether);
-    ms[2].push_back(time_of(bullet) / kTogether);
-    // Of times of its own: chance that makes one of them long would pass a round and make its speed-up large.
-    const double limit = 2 * time_of(one) / time_of(one, other);
-    for (int step = 0; step < 2 * kTogether; ++step) {  // as often as the first
-      two.step();
-      other.step();
-    }
-    if (limit < kTwoProcessors) continue;
-    speed_ups.push_back(alone / by_two);
-    limits.push_back(limit);
+    if (round < kRoundsOfBullet) ms[2].push_back(time_of(bullet) / kTogether);
+    for (int step = 0; step < 4 * kTogether; ++step) two.step();  // as often as the first
+    for (int step = 0; step < 3 * kTogether; ++step) other.step();
+    const bool is_far = transfer_before > kNear;
+    if (std::min(before, after) < kTwoProcessors || (transfer_after > kNear) != is_far) continue;
+    speed_ups[is_far ? 1 : 0].push_back(alone / by_two);
+    limits[is_far ? 1 : 0].push_back(std::min(before, after));
+    transfers[is_far ? 1 : 0].push_back(transfer_after);
   }
   const bool is_same = one.is_same(two);
   const auto text = [](std::vector<double> values) {
     return values.empty() ? std::string("-") : three_digits(median(values));
   };
   times.add({name.text, std::to_string(one.num_nodes()), text(ms[0]), text(ms[1]), text(ms[2]),
-             text(speed_ups), text(limits), std::to_string(limits.size()),
-             std::to_string(ms[0].size()), is_same ? "yes" : "no"});
+             text(speed_ups[0]), text(limits[0]), text(transfers[0]),
+             std::to_string(limits[0].size()), text(speed_ups[1]), text(limits[1]),
+             text(transfers[1]), std::to_string(limits[1].size()), std::to_string(ms[0].size()),
+             is_same ? "yes" : "no"});
   add_phases(name, one, phases);
 }
 
@@ -248,11 +263,15 @@ void bench_threads(const Settings& settings) {
       "fast "
       "solver (2 x 4) on one and two threads, Bullet with 10 iterations on one; crowd: 100 cloths "
       "of "
-      "20 x 20 on a plane; speed_up: in rounds in which two such worlds at the same time, on a "
-      "thread "
-      "each, get at least 1.8 times as much done as one; two_worlds: that",
+      "20 x 20 on a plane; speed_up: in rounds with two processors, before and after which two "
+      "such "
+      "worlds at the same time, on a thread each, get at least 1.8 times as much done as one "
+      "(two_worlds: that, the lower), and which share a cache: a line takes at most .12 us from "
+      "one to "
+      "the other (line_us); far: the same where it takes longer",
       {"workload", "nodes", "one_thread_ms", "two_threads_ms", "bullet_10_ms", "speed_up",
-       "two_worlds", "rounds_with_two_processors", "rounds", "equal_bits"});
+       "two_worlds", "line_us", "rounds_with_two_processors", "speed_up_far", "two_worlds_far",
+       "line_us_far", "rounds_far", "rounds", "equal_bits"});
   ResultFile phases(
       "what a step of the fast solver on one thread is made of; collide: Bullet's search for pairs "
       "and contacts, and "
