@@ -234,6 +234,7 @@ void CoarseCorrection::note_alone(int node) {
 void CoarseCorrection::add_copies(const std::vector<int>& origins) {
   parts_ = NodeParts(num_nodes_ + static_cast<int>(origins.size()));
   of_parts_.clear();
+  residuals_.clear();
   for (const int origin : origins) {
     const int node = num_nodes_++;
     weights_.resize(at(fill_up(num_nodes_)));
@@ -288,6 +289,10 @@ void CoarseCorrection::note_springs(const EdgeSlots& slots, const std::vector<ch
       any = any || (b < slots.num_blocks() && is_changed(b));
     }
     if (any) find_ranges(p);
+  }
+  residuals_.clear();
+  for (const Part& part : of_parts_) {
+    residuals_.push_back({part.residual.data(), part.hats.begin, part.hats.end});
   }
 }
 
@@ -365,10 +370,6 @@ void CoarseCorrection::factorise(const unsigned short* linear, float root_scale,
       }
     }
   });
-  residuals_.clear();
-  for (const Part& part : of_parts_) {
-    residuals_.push_back({part.residual.data(), part.hats.begin, part.hats.end});
-  }
   for (std::size_t k = 0; k < masses_.size(); ++k) inertia_[k] = inertia_over_mass * masses_[k];
   band_.factorise(sums_.data(), inertia_.data(), team);
 }

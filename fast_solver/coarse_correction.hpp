@@ -32,6 +32,11 @@ using Fours = AlignedMatrix<float, 4, Eigen::Dynamic>;
 class CoarseCorrection {
  public:
   CoarseCorrection() = default;
+  CoarseCorrection(const CoarseCorrection&) = delete;  // residuals_ would be those of the other one
+  CoarseCorrection& operator=(const CoarseCorrection&) = delete;
+  CoarseCorrection(CoarseCorrection&&) = default;
+  CoarseCorrection& operator=(CoarseCorrection&&) = default;
+  ~CoarseCorrection() = default;
   /// Of all nodes, which are free. slots: of the same springs. set_masses() is due then.
   CoarseCorrection(const IsotropicNetwork& network, const EdgeSlots& slots);
 
@@ -126,7 +131,7 @@ class CoarseCorrection {
   AlignedVector<float> sums_;                     ///< blocks, of all parts
   AlignedVector<float> masses_;                   ///< of hats
   AlignedVector<float> inertia_;                  ///< likewise
-  std::vector<BorderedBand::Summand> residuals_;  ///< of parts, from factorise() on
+  std::vector<BorderedBand::Summand> residuals_;  ///< in of_parts_
   Fours solution_;                                ///< of hats
 };
 

@@ -76,6 +76,8 @@ void ThreadTeam::open(int num_threads) {
   away_ = 0;
   looks_for_arrival_ = kLooksForArrival;
   num_helpers_.store(0, std::memory_order_relaxed);
+  // The last loop may be one of fewer threads, of whose caller's parts a helper of now would take some for its own.
+  loop_.number.store(kNone, std::memory_order_relaxed);
   is_open_.store(true, std::memory_order_release);
   helpers_.emplace();
   for (int helper = 1; helper < num_threads_; ++helper) {

@@ -99,7 +99,7 @@ class ThreadTeam {
  private:
   /// What a helper needs of a loop: a copy of its work, or where that is.
   using Job = std::array<std::uint64_t, 13>;
-  using Call = void (*)(const Job& job, int part);
+  using Call = void (*)(const Job& job, int part) noexcept;
   static constexpr std::uint64_t kNone = 0;
   /// [s] What a team that has been good for long may lose to stopped helpers before its caller does without them.
   static constexpr double kMostCredit = 20e-3;
@@ -107,13 +107,13 @@ class ThreadTeam {
   static constexpr std::size_t kWords = (sizeof(Work) + sizeof(Job::value_type) - 1) /
                                         sizeof(Job::value_type);
   template <class Work>
-  static void call_copy(const Job& job, int part) {
+  static void call_copy(const Job& job, int part) noexcept {
     std::array<std::byte, sizeof(Work)> bytes;
     std::memcpy(bytes.data(), job.data(), sizeof(Work));
     std::bit_cast<Work>(bytes)(part);
   }
   template <class Work>
-  static void call_original(const Job& job, int part) {
+  static void call_original(const Job& job, int part) noexcept {
     (*std::bit_cast<const Work*>(static_cast<std::uintptr_t>(job[0])))(part);
   }
   /// The present loop. In one line of the cache but for a large job, so that who waits for its number has the rest as

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <numeric>
 #include <thread>
 #include <vector>
 
@@ -56,47 +57,54 @@ TEST(ThreadTeam, DoesNoPartTwice) {
   }
 }
 
-// Each loop has other values, and what they are is known to nobody but its work.
-template <std::size_t kSize>
-void expect_work_arrives(ThreadTeam& team) {
-  std::array<long, ThreadTeam::kMostParts> results{};
-  for (long loop = 0; loop < 2000; ++loop) {
-    std::array<long, kSize> values;
-    values.fill(loop);
-    team.run(8, [values, to = results.data()](int part) {
-      long sum = part;
-      for (const long value : values) sum += value;
-      to[part] = sum;
-    });
-    for (int part = 0; part < 8; ++part) {
-      ASSERT_EQ(results[static_cast<std::size_t>(part)], part + static_cast<long>(kSize) * loop);
+// Each loop has other values, and what they are is known to nobody but its work; until a helper has done a part.
+template <class Value, class Make>
+void expect_work_arrives(const Make& make) {
+  const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
+  tbb::task_arena arena(2);
+  arena.execute([&] {
+    ThreadTeam team;
+    const ThreadTeam::Scope scope(team, 2);
+    std::array<long, 8> sums{};
+    std::array<std::thread::id, 8> by{};
+    bool is_helped = false;
+    for (long loop = 0; loop < 2000 || (!is_helped && loop < 12000); ++loop) {
+      if (loop >= 2000) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      const Value values = make(loop);
+      team.run(8, [values, to = sums.data(), who = by.data()](int part) {
+        to[part] = std::accumulate(values.begin(), values.end(), static_cast<long>(part));
+        who[part] = std::this_thread::get_id();
+      });
+      for (std::size_t part = 0; part < sums.size(); ++part) {
+        const auto size = static_cast<long>(values.size());
+        ASSERT_EQ(sums[part], static_cast<long>(part) + size * loop);
+        is_helped = is_helped || by[part] != std::this_thread::get_id();
+      }
     }
-  }
+    EXPECT_TRUE(is_helped);
+  });
+}
+
+template <std::size_t kSize>
+void expect_work_of_size_arrives() {
+  using Values = std::array<long, kSize>;
+  expect_work_arrives<Values>([](long value) {
+    Values values;
+    values.fill(value);
+    return values;
+  });
 }
 
 TEST(ThreadTeam, HelpersGetWorkOfAnySize) {
-  ThreadTeam team;
-  const ThreadTeam::Scope scope(team, 3);
-  expect_work_arrives<1>(team);
-  expect_work_arrives<5>(team);
-  expect_work_arrives<12>(team);  // the most of which there is a copy
-  expect_work_arrives<13>(team);
-  expect_work_arrives<100>(team);
+  expect_work_of_size_arrives<1>();
+  expect_work_of_size_arrives<5>();
+  expect_work_of_size_arrives<11>();  // the most of which there is a copy
+  expect_work_of_size_arrives<12>();
+  expect_work_of_size_arrives<100>();
 }
 
 TEST(ThreadTeam, HelpersGetWorkThatIsNotTrivialToCopy) {
-  ThreadTeam team;
-  const ThreadTeam::Scope scope(team, 2);
-  std::array<long, ThreadTeam::kMostParts> results{};
-  for (long loop = 0; loop < 2000; ++loop) {
-    const std::vector<long> values(3, loop);
-    team.run(4, [values, &results](int part) {
-      results[static_cast<std::size_t>(part)] = values.back() + part;
-    });
-    for (int part = 0; part < 4; ++part) {
-      ASSERT_EQ(results[static_cast<std::size_t>(part)], loop + part);
-    }
-  }
+  expect_work_arrives<std::vector<long>>([](long value) { return std::vector<long>(3, value); });
 }
 
 // The first part waits for somebody else to begin the second, in one of many loops: a helper may come late.
@@ -204,6 +212,30 @@ TEST(ThreadTeam, IsOpenAgainAfterAPause) {
     ASSERT_EQ(chain(team, 4, 200), expected) << time;
   }
   EXPECT_GT(num_open, 0);
+}
+
+// A helper that comes before the first loop may not look at the last one of the time before, when the caller had more parts
+// of its own.
+TEST(ThreadTeam, BeginsNothingOfTheTimeBefore) {
+  const tbb::global_control four(tbb::global_control::max_allowed_parallelism, 4);
+  tbb::task_arena arena(4);
+  arena.execute([] {
+    ThreadTeam team;
+    std::array<std::atomic<int>, 10> counts{};
+    int expected = 0;
+    const auto count = [&counts](int part) { ++counts[static_cast<std::size_t>(part)]; };
+    for (int again = 0; again < 200; ++again) {
+      for (const int num_threads : {2, 3, 4}) {
+        const ThreadTeam::Scope scope(team, num_threads);
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+        team.run(5, count);
+        ++expected;
+        for (int part = 0; part < 5; ++part) {
+          ASSERT_EQ(counts[static_cast<std::size_t>(part)], expected) << "part " << part;
+        }
+      }
+    }
+  });
 }
 
 TEST(ThreadTeam, NeedsNoHelper) {
