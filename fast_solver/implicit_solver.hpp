@@ -106,7 +106,7 @@ class ImplicitSolver {
   void change_correction(const std::vector<int>& changed);
   [[nodiscard]] std::vector<bool> have_hats(const std::vector<int>& nodes) const;
   void follow_led(const StepProblem<Scalar>& problem);
-  /// work(nodes) for each part of the nodes.
+  /// work(nodes) for each part of the nodes. What it has by value goes to helpers with it (ThreadTeam::run).
   template <class Work>
   void for_each_part(const Work& work) {
     team_->run(parts_.count(), [parts = parts_, work](int part) { work(parts[part]); });
@@ -229,8 +229,8 @@ class ImplicitSolver {
   Matrix3X<float> normals_;        ///< of each node on a plane
   Matrix3X<float> friction_;       ///< of each sliding node [N]
   BlockArrays blocks_;             ///< inverse of the diagonal's
-  Floats step_, residual_vector_, direction_, direction_product_, smoothed_;
-  Floats correction_product_, work_, coarse_, coarse_product_;
+  Floats step_, residual_vector_, direction_, direction_product_, correction_product_, work_;
+  Floats smoothed_, coarse_, coarse_product_;  ///< parts of a correction, which neighbours read
   std::array<Floats, DirectionWeights::kMost> corrections_;
   alignas(kAlignment) DirectionWeights directions_;  ///< made of them; not near what helpers read
   bool has_direction_ = false;     ///< from before the first of them, in direction_

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include <weft/custom_forces/core/cloth_grid.hpp>
@@ -131,10 +133,11 @@ struct Step {
   }
   double residual(ImplicitSolver<double>& solver, ThreadTeam& team) {
     places = starts;
-    solver.solve({targets, starts, h, h}, {3, 4}, places, team);
+    solver.solve({targets, starts, h, h}, effort, places, team);
     return solver.residual();
   }
   double h = 1.0 / 60;
+  SolverEffort effort{3, 4};
   Matrix3X<double> starts, targets, places;
 };
 
@@ -158,6 +161,34 @@ TEST(TornSolver, ConvergesRightAfterATear) {
   // hundredth of what the step began with.
   EXPECT_LT(residual, 4 * of_fresh);
   EXPECT_LT(residual, 0.01);
+}
+
+// The last of these tears makes so many nodes that threads share them, and arrays get a gap behind them.
+TEST(TornSolver, TearsUntilThreadsShareItsNodes) {
+  const int n = 29;
+  ClothMesh mesh = cloth(n);
+  ASSERT_LT(fill_up(mesh.num_nodes()), kFewestToShare);
+  SpringNetwork network = make_network(mesh, kLaws);
+  ImplicitSolver<double> solver(network, mesh.masses, free_flags(mesh));
+  for (int k = 0; fill_up(mesh.num_nodes()) < kFewestToShare; ++k) {
+    Edges cut(2, n - 6);  // most of a row
+    for (int e = 0; e < n - 6; ++e) cut.col(e) << (4 + 4 * k) * n + 3 + e, (4 + 4 * k) * n + 4 + e;
+    const Tear tear = cut_along(mesh, cut);
+    ASSERT_TRUE(tear.any()) << mesh.num_nodes() << " nodes";
+    const std::vector<char> is_changed = flags_of(tear);
+    const SpringNetwork springs = make_network_at(is_changed, tear.mesh, kLaws);
+    solver.tear(springs, is_changed, tear.mesh.masses, tear.origins);
+    replace_springs(is_changed, springs, network);
+    mesh = tear.mesh;
+  }
+  ImplicitSolver<double> fresh(network, mesh.masses, free_flags(mesh));
+  Step after(mesh);
+  Step expected(mesh);
+  after.effort = expected.effort = {8, 40};  // to single precision, whatever the hats
+  EXPECT_LT(after.residual(solver), 1e-4);
+  EXPECT_LT(expected.residual(fresh), 1e-4);
+  const double fall = 9.81 * after.h * after.h * std::sqrt(mesh.num_nodes());
+  EXPECT_LT((after.places - expected.places).norm(), 1e-3 * fall);
 }
 
 TEST(TornSolver, TearsAgainAndAgain) {
