@@ -9,7 +9,6 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 
 #include <weft/bridge/bullet_vector.hpp>
-#include <weft/bridge/energy_limit.hpp>
 #include <weft/bridge/node_prediction.hpp>
 #include <weft/bridge/node_state.hpp>
 #include <weft/custom_forces/core/error.hpp>
@@ -18,9 +17,6 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
-
-/// Of m |y - q|^2 / (2 h^2), what a step may gain: rounding, and BDF2 gives back a little of what it took before.
-constexpr double kEnergySlack = 0.01;
 
 /// [m] Places are counted from a multiple of this near the body.
 constexpr btScalar kOriginGrid = btScalar(0.25);
@@ -70,7 +66,6 @@ std::optional<std::string> FastBody::obstacle(const btSoftBody& body) {
 void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>& is_changed,
                     VectorX<double> masses, const std::vector<int>& origins) {
   masses_ = std::move(masses);
-  weights_.resize(3, 0);
   if (solver_) {
     solver_->tear(springs, is_changed, masses_, origins);
     for (const int origin : origins) {
@@ -85,7 +80,6 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
   contacts_.clear();
   obstacles_.clear();
   ways_.outdate();
-  excess_ = 0;
   wake();
 }
 
@@ -106,6 +100,47 @@ void FastBody::choose_origin(const btSoftBody& body) {
   origin_ = origin;
 }
 
+void FastBody::take_impulses(btSoftBody& body, btScalar time_step) {
+  const btScalar most = body.m_worldInfo->m_maxDisplacement / time_step;
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    btSoftBody::Node& node = body.m_nodes[i];
+    if (node.m_f.isZero()) continue;
+    btVector3 change = node.m_f * (node.m_im * time_step);
+    change.setMin(btVector3(most, most, most));  // as btSoftBody::predictMotion
+    change.setMax(btVector3(-most, -most, -most));
+    node.m_v += change;
+    node.m_f.setZero();
+  }
+}
+
+void FastBody::note_velocities(const btSoftBody& body) {
+  const fast::ThreadTeam::Scope scope(team_, team_size());
+  left_velocities_.resize(3, body.m_nodes.size());
+  for_nodes([&](int begin, int count) {
+    for (int i = begin; i < begin + count; ++i) {
+      const btVector3& velocity = body.m_nodes[i].m_v;
+      left_velocities_.col(i) << velocity.x(), velocity.y(), velocity.z();
+    }
+  });
+}
+
+// BDF2 takes a change of velocity between steps for the beginning of a trend, and makes 4/3 of it. A history that has had the
+// same velocity from the start counts it once: v' + dv and q' - h dv.
+void FastBody::follow_velocity_changes(btScalar time_step) {
+  if (left_velocities_.cols() != start_velocities_.cols() ||
+      last_velocities_.cols() != start_velocities_.cols()) {
+    return;
+  }
+  for_nodes([&](int begin, int count) {
+    for (int i = begin; i < begin + count; ++i) {
+      const Vector3<btScalar> change = start_velocities_.col(i) - left_velocities_.col(i);
+      if (change.isZero(0)) continue;
+      last_velocities_.col(i) += change;
+      last_starts_.col(i) -= time_step * change;
+    }
+  });
+}
+
 void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btScalar>& positions,
                        const Matrix3X<btScalar>& velocities) {
   const fast::ThreadTeam::Scope scope(team_, team_size());
@@ -118,6 +153,7 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
     starts_.middleCols(begin, count) = positions.middleCols(begin, count).colwise() - origin_;
     start_velocities_.middleCols(begin, count) = velocities.middleCols(begin, count);
   });
+  follow_velocity_changes(time_step);
   contacts_.clear();
   obstacles_.clear();
   forget_supports();
@@ -186,10 +222,6 @@ void FastBody::prepare_solver(const btSoftBody& body) {
     is_free_ = std::move(is_free);
     solver_pins_ = pins_;
   }
-  if (!is_same || weights_.cols() != body.m_nodes.size()) {
-    weights_ = masses_.transpose().cast<btScalar>().replicate(3, 1);
-    for (const int pin : pins_) weights_.col(pin).setZero();
-  }
 }
 
 void FastBody::set_free(const std::vector<bool>& is_free) {
@@ -214,44 +246,6 @@ bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
         places_.middleCols(begin, end - begin) == starts_.middleCols(begin, end - begin);
   });
   return std::all_of(is_same.begin(), is_same.end(), [](bool same) { return same; });
-}
-
-// What does that work is not known: pins and anchors that lead, obstacles that move, other cloth.
-bool FastBody::gets_work_from_outside() const {
-  if (!led_.empty()) return true;
-  for (const RigidContact& contact : contacts_) {
-    if (contact.motion.length2() > 0 || movable(contact.object) != nullptr) return true;
-  }
-  return std::any_of(pins_.begin(), pins_.end(),
-                     [&](int pin) { return places_.col(pin) != starts_.col(pin); });
-}
-
-// Two conjugate gradients too few, or a contact that pushes a node out of a surface, and a very stiff sheet ends a
-// step with energy that nobody has given to it; BDF2, which leans on the step before, would make more of it. What is
-// stored in springs cannot be taken away without another step: it is kept in mind until it comes out as motion.
-bool FastBody::keep_energy(btScalar time_step) {
-  if (gets_work_from_outside()) {
-    excess_ = 0;
-    return false;
-  }
-  const double given =
-      energy_put_in({weights_, starts_, start_velocities_, predicted_, places_, time_step}, team_);
-  const double now = kinetic_energy(weights_, velocities_, team_);
-  // Springs are only asked when motion does not tell.
-  if (now <= given && contacts_.empty() && excess_ == 0) return false;
-  const double slack = kEnergySlack * solver_->step_energy();
-  const bool is_as_solved = !is_unfinished() && deep_.empty();
-  const auto& [known_before, known_after] = solver_->known_energies();
-  const double before = known_before ? *known_before : solver_->spring_energy(starts_, team_);
-  const double after =
-      known_after && is_as_solved ? *known_after : solver_->spring_energy(places_, team_);
-  const double most = given + before - excess_ + slack - after;
-  const bool is_limited = now > most;
-  if (is_limited) {
-    limit_energy(weights_, most, contacts_.empty() && pins_.empty(), velocities_, team_);
-  }
-  excess_ = std::max(0.0, -most);
-  return is_limited;
 }
 
 void FastBody::place(btSoftBody& body, btScalar time_step, bool is_looked_at) {
@@ -301,8 +295,6 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
     solver_->add_remainders(begin, velocities);
     velocities /= inertia_step_;
   });
-  if (meets_cloth) excess_ = 0;
-  const bool is_limited = !meets_cloth && keep_energy(time_step);
   for_nodes([&](int begin, int count) {
     for (int i = begin; i < begin + count; ++i) {
       btSoftBody::Node& node = body.m_nodes[i];
@@ -321,7 +313,7 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
   });
   stay_outside(body, true);
   const bool met_something = !contacts_.empty() || meets_cloth;
-  last_step_ = met_something || is_limited ? btScalar(0) : time_step;
+  last_step_ = met_something ? btScalar(0) : time_step;
 }
 
 void FastBody::update_normals(btSoftBody& body) {
@@ -340,7 +332,8 @@ int FastBody::team_size() const {
 void FastBody::solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort,
                      bool is_again) {
   read_constraints(body, time_step, is_again);
-  solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, led_, inertias_},
+  solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, led_, inertias_,
+                  bending_.empty() ? nullptr : &bending_},
                  effort, places_, team_);
   remember_ways();
 }
@@ -381,6 +374,7 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
   for (const int pin : pins_) {
     targets_.col(pin) = from_bullet<btScalar>(body.m_nodes[pin].m_x) - origin_;
   }
+  if (!bending_.empty()) bending_.begin_step(starts_);
   const btScalar least_surprise = kSurpriseShare * body.getCollisionShape()->getMargin();
   for (RigidContact& contact : contacts_) follow_object(contact, time_step, least_surprise);
   solve(body, time_step, settings_.effort, false);

@@ -9,6 +9,7 @@
 
 #include <BulletSoftBody/btSoftBody.h>
 
+#include <weft/bridge/bending_forces.hpp>
 #include <weft/bridge/body_sleep.hpp>
 #include <weft/bridge/fast_settings.hpp>
 #include <weft/bridge/node_normals.hpp>
@@ -53,6 +54,10 @@ class FastBody {
   void tear(const fast::SpringNetwork& springs, const std::vector<char>& is_changed,
             VectorX<double> masses, const std::vector<int>& origins);
 
+  /// Laws of the body; those of bending follow the places within a step. To be called before each step.
+  void set_laws(const forces::LawSet<btScalar>& laws, const VectorX<btScalar>& masses) {
+    bending_.set_laws(laws, masses);
+  }
   /// That may work on this body at a time, with the one that calls.
   void set_num_threads(int num_threads) { num_threads_ = num_threads; }
   /// They stay as long as the result exists: between the parts of a solve too.
@@ -83,6 +88,8 @@ class FastBody {
     sleep_.end_step(body, time_step, settings_);
   }
 
+  /// Forces that somebody else has added to m_f become velocities: impulses, which count once. Before the laws add theirs.
+  static void take_impulses(btSoftBody& body, btScalar time_step);
   /// btSoftBody::predictMotion. positions and velocities: m_x [m] and m_v [m/s], 3 x n. Touches only the body, but not
   /// its entry in the broadphase: predictions of several bodies may run at the same time.
   void predict(btSoftBody& body, btScalar time_step, const Matrix3X<btScalar>& positions,
@@ -118,6 +125,8 @@ class FastBody {
   static constexpr int kClothContactSweeps = 16;
   /// Velocities from m_x.
   void end_solve(btSoftBody& body, btScalar time_step);
+  /// The velocities that this step leaves: what differs at the start of the next one has come from outside.
+  void note_velocities(const btSoftBody& body);
   /// btSoftBody::updateNormals, once no node moves any more in this step.
   void update_normals(btSoftBody& body);
   [[nodiscard]] bool has_normals() const { return has_normals_; }
@@ -143,6 +152,7 @@ class FastBody {
   /// nodes. True if there are any.
   [[nodiscard]] bool find_missed_contacts(btSoftBody& body, btScalar time_step);
   void choose_origin(const btSoftBody& body);
+  void follow_velocity_changes(btScalar time_step);
   void read_prediction(const btSoftBody& body);
   [[nodiscard]] btVector3 in_world(int node) const;
   void write_places(btSoftBody& body);
@@ -162,10 +172,8 @@ class FastBody {
   void stay_outside(btSoftBody& body, bool of_movable) const;
   [[nodiscard]] btVector3 motion_since_solution(const btRigidBody& rigid,
                                                 const btVector3& place) const;
-  [[nodiscard]] bool gets_work_from_outside() const;
-  /// True if velocities_ had to be slowed down.
-  bool keep_energy(btScalar time_step);
 
+  BendingForces bending_;
   fast::SpringNetwork network_;  ///< until solver_ has it
   VectorX<double> masses_;
   FastSettings settings_;
@@ -173,7 +181,6 @@ class FastBody {
   std::vector<bool> is_free_;     ///< that solver_ knows
   std::vector<int> solver_pins_;  ///< likewise
   std::vector<int> pins_;         ///< of the present step
-  Matrix3X<btScalar> weights_;    ///< masses, each thrice [kg]; 0 for pins
 
   fast::ThreadTeam team_;
   int num_threads_ = 1;
@@ -190,12 +197,12 @@ class FastBody {
   // Of the step before.
   Matrix3X<btScalar> last_starts_;
   Matrix3X<btScalar> last_velocities_;
-  btScalar inertia_step_ = 0;  ///< [s] of the present step
-  btScalar last_step_ = 0;     ///< [s]; 0: no history
+  Matrix3X<btScalar> left_velocities_;  ///< at its end, after damping
+  btScalar inertia_step_ = 0;           ///< [s] of the present step
+  btScalar last_step_ = 0;              ///< [s]; 0: no history
   bool is_predicted_ = false;
   bool has_normals_ = false;         ///< of the places at the end of the present step
   bool is_placed_ = false;           ///< before end_solve()
-  double excess_ = 0;                ///< energy in springs that nothing has put in [J]
   bool is_contact_missing_ = false;  ///< in the present solution, for all that is known
   bool is_support_missing_ = false;  ///< likewise
   std::vector<Obstacle> obstacles_;  ///< of this step

@@ -207,6 +207,7 @@ void SoftBodySolver::updateSoftBodies() {
     if (!has_normals) body.integrateMotion();
     if (!attachment || !attachment->fast) return;
     if (attachment->limits.is_empty()) attachment->fast->end_step(body, time_step_);
+    attachment->fast->note_velocities(body);
   });
   if (!is_deferred_) return;
   for_bodies([&](btSoftBody&, Attachment* attachment) {

@@ -326,6 +326,36 @@ void CoarseCorrection::find_ranges(int p) {
   for (Fours* sums : {&part.residual, &part.other_residual}) sums->setZero(4, long(num_hats));
 }
 
+void CoarseCorrection::set_bending(const EdgeSlots& slots,
+                                   const std::function<double(std::size_t)>& stiffness) {
+  if (num_hats_ == 0) return;
+  std::vector<double> sums(at(band_.num_blocks()), 0.0);
+  for (int b = 0; b < slots.num_blocks(); ++b) {
+    for (int slot = slots.blocks[at(b)].begin; slot < slots.blocks[at(b)].end; ++slot) {
+      for (int lane = 0; lane < kNodeBlock; ++lane) {
+        const auto place = at(slot) * kNodeBlock + at(lane);
+        const int node = b * kNodeBlock + lane;
+        const int other = slots.others[place];
+        if (slots.edges[place] < 0 || node >= slots.num_nodes || other <= node) continue;
+        const double w = stiffness(place);
+        const Row row = difference(node, other);
+        double sum = 0;
+        for (const auto& [hat, d] : row) sum += static_cast<double>(d);
+        for (const Row::Entry* one = row.begin(); one != row.end(); ++one) {
+          const auto d = static_cast<double>(one->number);
+          sums[at(band_.own_block(one->hat))] += w * d * sum;
+          for (const Row::Entry* two = one + 1; two != row.end(); ++two) {
+            const int pair = pair_of(one->hat, two->hat);
+            if (pair >= 0)
+              sums[at(band_.pair_block(pair))] -= w * d * static_cast<double>(two->number);
+          }
+        }
+      }
+    }
+  }
+  bending_.assign(sums.begin(), sums.end());
+}
+
 void CoarseCorrection::set_masses(const VectorX<float>& masses) {
   std::fill(masses_.begin(), masses_.end(), 0.0F);
   for (int i = 0; i < num_nodes_ && num_hats_ > 0; ++i) {
@@ -370,26 +400,31 @@ void CoarseCorrection::factorise(const unsigned short* linear, float root_scale,
       }
     }
   });
+  for (std::size_t block = 0; block < bending_.size(); ++block) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      sums_[block * kBlockNumbers + axis] += bending_[block];
+    }
+  }
   for (std::size_t k = 0; k < masses_.size(); ++k) inertia_[k] = inertia_over_mass * masses_[k];
   band_.factorise(sums_.data(), inertia_.data(), team);
 }
 
-void CoarseCorrection::set_residual(int part, const std::vector<int>& held,
-                                    const NodeArrays<float>& a, const NodeArrays<float>& b) {
+void CoarseCorrection::restrict_residual(int part, const std::vector<int>& held,
+                                         const NodeArrays<float>& residual) {
   if (num_hats_ == 0) return;
   Part& of_part = of_parts_[at(part)];
   of_part.residual.setZero();
   of_part.other_residual.setZero();
   const NodeRange nodes = parts_[part];
-  coarse_kernel().restrict_to(weights_.data(), nodes.begin, nodes.end, a.data(), b.data(), a.rows(),
-                              of_part.hats.begin, of_part.residual.data(),
+  coarse_kernel().restrict_to(weights_.data(), nodes.begin, nodes.end, residual.data(),
+                              residual.rows(), of_part.hats.begin, of_part.residual.data(),
                               of_part.other_residual.data());
   of_part.residual += of_part.other_residual;
   for (const int i : in_range(held, nodes)) {
     const HatWeights& of_node = weights_[at(i)];
     for (int k = 0; k < kMostWeights; ++k) {
       of_part.residual.col(of_node.hats[k] - of_part.hats.begin).head<3>() -=
-          of_node.weights[k] * (a.row(i) - b.row(i)).transpose();
+          of_node.weights[k] * residual.row(i).transpose();
     }
   }
 }

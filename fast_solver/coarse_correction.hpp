@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -50,15 +51,17 @@ class CoarseCorrection {
   /// The springs of some blocks of kNodeBlock nodes, flags; and of all that come behind them.
   void note_springs(const EdgeSlots& slots, const std::vector<char>& blocks);
 
+  /// The stiffness of bending between the two nodes of each lane of the slots [N/m], which does not change with the
+  /// linearisation. Its terms nearly cancel for smooth shapes: all count, in double precision.
+  void set_bending(const EdgeSlots& slots, const std::function<double(std::size_t)>& stiffness);
   /// masses: of each node.
   void set_masses(const VectorX<float>& masses);
   /// For the present linearisation: linear as in NetworkView, root_scale too; holds of each node; inertia over mass.
   void factorise(const unsigned short* linear, float root_scale, const std::vector<Hold>& holds,
                  float inertia_over_mass, ThreadTeam& team);
 
-  /// residual = a - b, of the nodes of a part. Several calls may run at once.
-  void set_residual(int part, const std::vector<int>& held, const NodeArrays<float>& a,
-                    const NodeArrays<float>& b);
+  /// The restriction of the residual of the nodes of a part. Several calls may run at once.
+  void restrict_residual(int part, const std::vector<int>& held, const NodeArrays<float>& residual);
   /// For coarse unknowns, after the residual of all nodes.
   void solve(ThreadTeam& team);
   /// From coarse unknowns to the nodes of a part. Several calls may run at once.
@@ -128,9 +131,10 @@ class CoarseCorrection {
   std::vector<CoarseNode> alone_;  ///< of each node
   BorderedBand band_;
   std::vector<Part> of_parts_;
-  AlignedVector<float> sums_;                     ///< blocks, of all parts
-  AlignedVector<float> masses_;                   ///< of hats
-  AlignedVector<float> inertia_;                  ///< likewise
+  AlignedVector<float> sums_;     ///< blocks, of all parts
+  std::vector<float> bending_;    ///< of blocks, the same in all directions; empty: none
+  AlignedVector<float> masses_;   ///< of hats
+  AlignedVector<float> inertia_;  ///< likewise
   std::vector<BorderedBand::Summand> residuals_;  ///< in of_parts_
   Fours solution_;                                ///< of hats
 };

@@ -70,9 +70,9 @@ struct CoarseKernel {
   void (*go_up)(const BandRows& rows, int num, float* vector, float* border);
   /// vector = U^-1 vector, where border has the border's solution.
   void (*go_down)(const BandRows& rows, int num, float* vector, const float* border);
-  /// sums and other_sums, in fours, += weights of nodes times a - b, of arrays of nodes, from sum first_sum on: what is wanted
-  /// is the sum of both.
-  void (*restrict_to)(const HatWeights* weights, int begin, int end, const float* a, const float* b,
+  /// sums and other_sums, in fours, += weights of nodes times the nodes' values, from sum first_sum on: what is wanted is the
+  /// sum of both.
+  void (*restrict_to)(const HatWeights* weights, int begin, int end, const float* values,
                       long stride, int first_sum, float* sums, float* other_sums);
   /// The transpose: values of nodes from fours.
   void (*interpolate)(const HatWeights* weights, int begin, int end, const float* fours,

@@ -8,18 +8,10 @@ namespace {
 
 /// Of a step that is taken at least.
 constexpr double kSmallestShare = 0.1;
-/// Squared motion of a step over that without springs from which on its energy is looked at.
-constexpr double kMostMotion = 1.2;
-/// Work that left-over forces could do, over the energy of the motion without springs, from which on likewise.
-constexpr double kMostWork = 1.0;
 /// Of that energy, what rounding may make of a step that changes nothing.
 constexpr double kRoundingShare = 0.01;
-/// Rounds of a step that would have gained energy, and halvings of each of them.
-constexpr int kExtraRounds = 6;
-constexpr int kHalvings = 6;
-/// Of the energy of the motion without springs: what a round must take away for another one to follow.
-constexpr double kLastDescent = 1e-4;
-constexpr int kExtraIterations = 4;
+/// Rounds of a step that the budget has left with more energy than it began with.
+constexpr int kSafeRounds = 8;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -50,28 +42,24 @@ bool ImplicitSolver<Scalar>::hold_back(double work_before, std::size_t num_held)
 }
 
 template <class Scalar>
-typename ImplicitSolver<Scalar>::Energy ImplicitSolver<Scalar>::energy_of(
-    NodeRange nodes, const Nodes& places) const {
-  const double of_springs = forces_.potential(nodes, places);
+double ImplicitSolver<Scalar>::energy_of(NodeRange nodes, const Nodes& places) const {
   const double squares = sum_kernel<Scalar>().weighted_distance(
       weights_.data(), static_cast<int>(weights_.size()), nodes, places.data(), targets_.data());
-  return {of_springs + 0.5 * squares, of_springs};
+  return forces_.potential(nodes, places) + 0.5 * squares;
 }
 
 // What an implicit step minimises [J], with the bodies that give way to it and with what friction does.
 template <class Scalar>
-typename ImplicitSolver<Scalar>::Energy ImplicitSolver<Scalar>::energy(
-    const StepProblem<Scalar>& problem, const Nodes& places, Vector6 Body::*motion) {
-  auto sum = sum_over_parts<Energy>([&](NodeRange nodes) { return energy_of(nodes, places); });
-  add_energy_of_holds(problem, places, motion, sum);
-  return sum;
+double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem, const Nodes& places,
+                                      Vector6 Body::*motion) {
+  return sum_over_parts([&](NodeRange nodes) { return energy_of(nodes, places); }) +
+         energy_of_step_forces(places) + energy_of_holds(problem, places, motion);
 }
 
 template <class Scalar>
-void ImplicitSolver<Scalar>::add_energy_of_holds(const StepProblem<Scalar>& problem,
-                                                 const Nodes& places, Vector6 Body::*motion,
-                                                 Energy& energy) const {
-  double& sum = energy.total;
+double ImplicitSolver<Scalar>::energy_of_holds(const StepProblem<Scalar>& problem,
+                                               const Nodes& places, Vector6 Body::*motion) const {
+  double sum = 0;
   for (const Body& body : bodies_) {
     const Vector6& way = body.*motion;
     sum += 0.5 * static_cast<double>(way.dot(body.inertia.template cast<Scalar>() * way));
@@ -89,39 +77,17 @@ void ImplicitSolver<Scalar>::add_energy_of_holds(const StepProblem<Scalar>& prob
     }
     sum -= static_cast<double>(std::min(Scalar(0), friction.dot(slip)));
   }
-}
-
-// A contact may have stretched springs; without one, more motion than without springs, or forces that are left over
-// and could do as much work as the step's motion is worth: springs may have pulled, or the solution may be off.
-template <class Scalar>
-bool ImplicitSolver<Scalar>::is_suspicious(const StepProblem<Scalar>& problem) {
-  if (!held_.empty()) return true;
-  const auto stride = static_cast<int>(masses_.size());
-  const SumKernel<Scalar>& sums = sum_kernel<Scalar>();
-  const auto sum = sum_over_parts<Eigen::Array2d>([&](NodeRange nodes) {
-    return Eigen::Array2d(
-        sums.weighted_distance(masses_.data(), stride, nodes, places_.data(), starts_.data()),
-        sums.possible_work(stride, nodes, places_.data(), starts_.data(), unbalanced_.data()));
-  });
-  const double moved = sum[0];
-  const double left = sum[1];
-  const auto h = static_cast<double>(problem.inertia_step);
-  return !(moved <= 2 * h * h * kMostMotion * step_energy_ && left <= kMostWork * step_energy_);
+  return sum;
 }
 
 // Where nothing has moved but what is led, in front of all planes.
 template <class Scalar>
-bool ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
+void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
   for_each_part([&](NodeRange nodes) {
     const int count = nodes.end - nodes.begin;
     unmoved_.middleRows(nodes.begin, count) = starts_.middleRows(nodes.begin, count);
   });
-  bool is_unmoved = problem.led.empty();
-  const auto put = [&](int node, const auto& place) {
-    is_unmoved = is_unmoved && unmoved_.row(node) == place;
-    unmoved_.row(node) = place;
-  };
-  for (const int node : pinned_) put(node, targets_.row(node));
+  for (const int node : pinned_) unmoved_.row(node) = targets_.row(node);
   for (Body& body : bodies_) {
     body.unmoved = body.is_linked ? Vector6(-body.motion_alone) : Vector6(Vector6::Zero());
   }
@@ -133,103 +99,30 @@ bool ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
   for (const PlaneContact<Scalar>& contact : problem.contacts) {
     if (!is_free_[at(contact.node)] || contact.body >= 0) continue;
     if (holds_[at(contact.node)] == Hold::kFixed) {
-      put(contact.node, (starts_.row(contact.node) + contact.motion.transpose()).eval());
+      unmoved_.row(contact.node) = starts_.row(contact.node) + contact.motion.transpose();
     }
     const Scalar gap = contact.normal.dot(at_node(unmoved_, contact.node)) - contact.offset;
-    if (gap >= 0) continue;
-    unmoved_.row(contact.node) -= gap * contact.normal.transpose();
-    is_unmoved = false;
+    if (gap < 0) unmoved_.row(contact.node) -= gap * contact.normal.transpose();
   }
-  return is_unmoved;
 }
 
-// Back towards where nothing has moved, until there is no more energy than there.
+// The exact solution has no more of the energy that it minimises than the places at the start. One that the budget has ended
+// too early for is iterated on, with a linearisation that no spring can exceed: each round takes energy away, however badly
+// its linear system is solved (as the global step of Bouaziz et al. 2014). It is never drawn back towards the start, which
+// would stop the motion.
 template <class Scalar>
-bool ImplicitSolver<Scalar>::descend(const StepProblem<Scalar>& problem) {
-  const double most = energy(problem, unmoved_, &Body::unmoved).total;
-  for (int halvings = 0; halvings <= kHalvings; ++halvings) {
-    if (energy(problem, places_, &Body::motion).total <= most) {
-      if (halvings > 0) evaluate();
-      return true;
-    }
-    places_ = Scalar(0.5) * (places_ + unmoved_);
-    for (Body& body : bodies_) body.motion = Scalar(0.5) * (body.motion + body.unmoved);
-  }
-  return false;
-}
-
-template <class Scalar>
-void ImplicitSolver<Scalar>::go_back() {
-  places_ = unmoved_;
-  for (Body& body : bodies_) body.motion = body.unmoved;
-}
-
-// Newton's method from the start of the step, each round downhill. False if none was.
-template <class Scalar>
-bool ImplicitSolver<Scalar>::go_downhill(const StepProblem<Scalar>& problem, int iterations) {
-  go_back();
+void ImplicitSolver<Scalar>::descend(const StepProblem<Scalar>& problem, int iterations) {
+  stay_at_start(problem);
+  const double most = energy(problem, unmoved_, &Body::unmoved) + kRoundingShare * step_energy_;
+  if (energy(problem, places_, &Body::motion) <= most) return;
+  forces_.set_least_across(1);
   evaluate();
-  bool is_careful = false;
-  bool went_down = false;
-  for (int round = 0; round < kExtraRounds; ++round) {
-    do_round(problem,
-             {.iterations = kExtraIterations * iterations, .factorises = round == 0 || is_careful});
-    const double before = energy(problem, unmoved_, &Body::unmoved).total;
-    const bool goes_down = descend(problem);
-    if (goes_down) {
-      unmoved_ = places_;
-      for (Body& body : bodies_) body.unmoved = body.motion;
-      went_down = true;
-      const double after = energy(problem, places_, &Body::motion).total;
-      if (before - after <= kLastDescent * step_energy_) break;
-    }
-    if (!goes_down && is_careful) break;
-    // Slack springs resist nothing across in a linearisation, and all the more once they have turned.
-    is_careful = !goes_down;
-    forces_.set_least_across(is_careful ? Scalar(1) : Scalar(0));
-    if (!goes_down) {
-      go_back();
-      evaluate();
-    }
+  for (int round = 0; round < kSafeRounds; ++round) {
+    do_round(problem, {.iterations = iterations, .factorises = true});
+    if (energy(problem, places_, &Body::motion) <= most) break;
   }
-  go_back();
   forces_.set_least_across(0);
   evaluate();
-  return went_down;
-}
-
-// The exact solution has no more of the energy that it minimises than the places at the start. One
-// that has is thrown away: Newton's method starts there once more, and now each of its steps must go
-// downhill. So an implicit step gains no energy, however badly its linear systems are solved.
-//
-// Friction follows from the force that holds a node. Where springs are some 10^5 times stiffer than
-// inertia, that is rounding: if nothing goes downhill with it, what does without.
-template <class Scalar>
-void ImplicitSolver<Scalar>::tame(const StepProblem<Scalar>& problem, int iterations) {
-  const bool is_unmoved = stay_at_start(problem);
-  struct Both {
-    Energy before;
-    Energy after;
-    Both operator+(const Both& other) const { return {before + other.before, after + other.after}; }
-  };
-  auto [before, after] = sum_over_parts<Both>([&](NodeRange nodes) {
-    return Both{energy_of(nodes, unmoved_), energy_of(nodes, places_)};
-  });
-  add_energy_of_holds(problem, unmoved_, &Body::unmoved, before);
-  add_energy_of_holds(problem, places_, &Body::motion, after);
-  if (is_unmoved) known_.before = before.of_springs;
-  if (after.total <= before.total + kRoundingShare * step_energy_) {
-    known_.after = after.of_springs;
-    return;
-  }
-  if (go_downhill(problem, iterations)) return;
-  // What springs will hold back would be held by a plane that it would reach without them.
-  std::fill(holds_.begin(), holds_.end(), Hold::kFree);
-  if (go_downhill(problem, iterations)) return;
-  has_friction_ = false;
-  std::fill(holds_.begin(), holds_.end(), Hold::kFree);
-  (void)go_downhill(problem, iterations);
-  has_friction_ = true;
 }
 
 // What conjugate gradients have left over would push the cloth, and the bodies that hang on it, as a whole.

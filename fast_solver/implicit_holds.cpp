@@ -110,8 +110,7 @@ void ImplicitSolver<Scalar>::decide_hold(const PlaneContact<Scalar>& contact, bo
       at_node(places_, i) - at_node(starts_, i) - contact.motion - with_body;
   Vector3<Scalar> tendency = at_node(unbalanced_, i) + inertia * slip;
   tendency -= normal.dot(tendency) * normal;
-  const Scalar friction = has_friction_ ? contact.friction : Scalar(0);
-  const Scalar most = friction * std::max(Scalar(0), pressure);
+  const Scalar most = contact.friction * std::max(Scalar(0), pressure);
   const Scalar size = tendency.norm();
   const bool sticks = size <= most;
   holds_[at(i)] = sticks ? Hold::kFixed : Hold::kOnPlane;

@@ -54,6 +54,7 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
        {&targets_, &starts_, &places_, &unbalanced_, &holding_forces_, &unmoved_, &remainders_}) {
     vectors->setZero(num_rows, 3);
   }
+  for (Matrix3X<Scalar>* vectors : {&more_places_, &more_forces_}) vectors->setZero(3, n);
   masses_.setZero(num_rows);
   masses_.head(n) = masses.cast<Scalar>();
   inertia_.setZero(num_rows);
@@ -61,7 +62,7 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
   if (blocks_.rows() == num_rows) return;  // the others keep no number from one step to the next
   blocks_.setZero(num_rows, 6);
   for (Floats* vectors : {&step_, &residual_vector_, &direction_, &direction_product_, &smoothed_,
-                          &correction_product_, &work_, &coarse_, &coarse_product_}) {
+                          &correction_product_, &work_, &coarse_}) {
     vectors->setZero(num_rows, 3);
   }
   for (Floats& correction : corrections_) correction.setZero(num_rows, 3);
@@ -86,6 +87,7 @@ void ImplicitSolver<Scalar>::change_correction(const std::vector<int>& changed) 
   coarse_correction_.set_free(forces_.isotropic_network(rings.nodes), rings, have_hats(rings.nodes),
                               forces_.slots());
   coarse_correction_.set_masses(masses_.template cast<float>());
+  forces_.note_bending(coarse_correction_);
 }
 
 // Flags of some nodes: neither pinned nor led.
@@ -132,6 +134,7 @@ void ImplicitSolver<Scalar>::tear(const SpringNetwork& springs, const std::vecto
   coarse_correction_.add_copies(origins);
   coarse_correction_.note_springs(forces_.slots(), blocks);
   coarse_correction_.set_masses(masses_.template cast<float>());
+  forces_.note_bending(coarse_correction_);
   // A copy of what is led has no hats yet, and nothing leads it.
   std::vector<int> of_led;
   const int first = num_nodes() - static_cast<int>(origins.size());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <weft/custom_forces/core/trace.hpp>
 
@@ -18,23 +19,24 @@ constexpr float kSmoothing = 0.6F;
 constexpr int kLinkedRounds = 1;
 constexpr double kLinkedResidual = 0.02;
 
-/// An iteration that gains no more than this share of what the first of its round gained is the last of that round:
-/// with short steps inertia outweighs springs, and two are as good as four.
-constexpr float kLastGain = 1e-4F;
+/// An iteration that gains no more than this share of what its round has gained is the last of that round: with short steps
+/// inertia outweighs springs.
+constexpr double kLastGain = 1e-4;
+/// Iterations whose gains together tell what is left to gain, and the share of the whole that may be left.
+constexpr int kGainDelay = 4;
+constexpr double kForcing = 0.1;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Where nothing touches the cloth, the first round only has to find where springs will point: some of its
-/// iterations are worth more in the last.
-template <class Scalar>
-int iterations_of(const StepProblem<Scalar>& problem, const SolverEffort& effort, int round) {
-  const bool is_touched = !problem.contacts.empty() || !problem.led.empty();
-  if (is_touched || effort.rounds == 1) return effort.iterations;
-  if (round == 0) return 1;
-  return effort.iterations + (round == effort.rounds - 1 ? effort.iterations / 4 : 0);
-}
+/// Rounds after which the coarse correction is made anew, for the linearisation as it is then.
+constexpr int kRoundsPerFactor = 4;
+/// How much a round's gain is of that of the one before: assumed of the first, and at most.
+constexpr double kFirstShrink = 0.1;
+constexpr double kSlowest = 0.9;
+/// Of the gain that is asked for: what a single iteration may leave.
+constexpr double kLastShare = 0.02;
 
 }  // namespace
 
@@ -72,9 +74,24 @@ void ImplicitSolver<Scalar>::load(const StepProblem<Scalar>& problem,
                  });
 }
 
+template <class Scalar>
+void ImplicitSolver<Scalar>::evaluate_step_forces() {
+  from_arrays<Scalar>(places_, {0, num_nodes()}, more_places_);
+  more_forces_.setZero();
+  more_forces_of_->add_forces(more_places_, more_forces_);
+}
+
+template <class Scalar>
+double ImplicitSolver<Scalar>::energy_of_step_forces(const Nodes& places) {
+  if (more_forces_of_ == nullptr) return 0;
+  from_arrays<Scalar>(places, {0, num_nodes()}, more_places_);
+  return more_forces_of_->energy(more_places_);
+}
+
 // Forces at the present places, and what they would do along the last step.
 template <class Scalar>
 void ImplicitSolver<Scalar>::evaluate(bool linearises) {
+  if (more_forces_of_ != nullptr) evaluate_step_forces();
   const auto stride = static_cast<int>(weights_.size());
   const SumKernel<Scalar>& sums = sum_kernel<Scalar>();
   const auto both =
@@ -87,6 +104,9 @@ void ImplicitSolver<Scalar>::evaluate(bool linearises) {
                                 places_.col(axis).segment(nodes.begin, count));
         }
         forces_.add_forces(nodes, places_, unbalanced_, linearises);
+        for (int i = nodes.begin; more_forces_of_ != nullptr && i < nodes.end; ++i) {
+          if (i < num_nodes()) unbalanced_.row(i) += more_forces_.col(i).transpose();
+        }
         for (const int node : in_range(pinned_, nodes)) unbalanced_.row(node).setZero();
         return Eigen::Array2d(sums.dot(unbalanced_.data(), step_.data(), stride, nodes),
                               sums.squares(unbalanced_.data(), stride, nodes));
@@ -125,27 +145,36 @@ void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body:
   team_->run(parts_.count(), [this, finish](int part) { finish(parts_[part], part); });
 }
 
-// correction = P residual, with its product with the stiffness.
+// The smoothed residual, and its restriction for the coarse correction: what the preconditioner needs of a part's own nodes.
+template <class Scalar>
+void ImplicitSolver<Scalar>::smooth(int part) {
+  smooth(parts_[part], smoothed_);
+  coarse_correction_.restrict_residual(part, held_, residual_vector_);
+}
+
+// correction = P residual, with its product with the stiffness. P is additive (Dryja and Widlund 1987): the sum of the
+// smoothed residual, of the coarse correction and of the bodies' own, each of them symmetric and positive. A cycle in which
+// one follows the other takes fewer iterations where the coarse matrix is exact; where it is a sample, and springs are stiff,
+// residual . correction became negative, and iterations ended at once.
 template <class Scalar>
 typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition(Floats& correction,
                                                                                bool is_first) {
-  for (Body& body : bodies_) body.correction = body.stiffness.solve(body.residual);
-  add_motions(&Body::correction, smoothed_);
-  multiply(smoothed_, &Body::correction, correction_product_, &Body::correction_product,
-           [this](NodeRange, int part) {
-             coarse_correction_.set_residual(part, held_, residual_vector_, correction_product_);
-           });
   coarse_correction_.solve(*team_);
-  team_->run(parts_.count(),
-             [this](int part) { coarse_correction_.interpolate(part, held_, coarse_); });
+  const auto stride = static_cast<int>(coarse_.rows());
+  team_->run(parts_.count(), [this, &correction, stride](int part) {
+    coarse_correction_.interpolate(part, held_, coarse_);
+    vector_kernel().add(smoothed_.data(), coarse_.data(), stride, parts_[part], correction.data());
+  });
+  for (Body& body : bodies_) body.correction = body.stiffness.solve(body.residual);
+  add_motions(&Body::correction, correction);
   std::array<VectorKernel::Products, ThreadTeam::kMostParts> of_part;
-  multiply(coarse_, &Body::none, coarse_product_, &Body::coarse_product,
-           [this, &correction, is_first, products = of_part.data()](NodeRange nodes, int part) {
-             products[part] = vector_kernel().add_correction(
-                 smoothed_.data(), coarse_.data(), coarse_product_.data(), residual_vector_.data(),
-                 is_first ? nullptr : direction_product_.data(), static_cast<int>(coarse_.rows()),
-                 nodes, correction.data(), correction_product_.data());
-           });
+  multiply(
+      correction, &Body::correction, correction_product_, &Body::correction_product,
+      [this, &correction, is_first, stride, products = of_part.data()](NodeRange nodes, int part) {
+        products[part] = vector_kernel().dot_products(
+            correction.data(), correction_product_.data(), residual_vector_.data(),
+            is_first ? nullptr : direction_product_.data(), stride, nodes);
+      });
   Overlaps sum{0, 0, 0};
   for (int part = 0; part < parts_.count(); ++part) {
     sum.by_residual += of_part[at(part)].by_residual;
@@ -153,7 +182,6 @@ typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition(F
     sum.by_product += of_part[at(part)].by_product;
   }
   for (Body& body : bodies_) {
-    body.correction_product += body.coarse_product;
     sum.by_residual += body.correction.dot(body.residual);
     sum.by_direction += body.correction.dot(body.direction_product);
     sum.by_product += body.correction.dot(body.correction_product);
@@ -194,14 +222,15 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
     moves_held = true;
   }
   find_unbalanced(&Body::residual);
-  for_each_part([this, moves_held](NodeRange nodes) {
+  team_->run(parts_.count(), [this, moves_held](int part) {
+    const NodeRange nodes = parts_[part];
     if (moves_held) {
       const int count = nodes.end - nodes.begin;
       forces_.multiply(nodes, inertia_, step_, work_);
       residual_vector_.middleRows(nodes.begin, count) -= work_.middleRows(nodes.begin, count);
     }
     project(nodes, residual_vector_);
-    smooth(nodes, smoothed_);
+    smooth(part);
   });
   if (!moves_held || links_.empty()) return;
   for (Body& body : bodies_) body.coarse_product.setZero();
@@ -209,19 +238,21 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
   for (Body& body : bodies_) body.residual -= body.coarse_product;
 }
 
-// Leaves the corrections of the last iterations, which move() adds to the step.
+// Leaves the corrections of the last iterations, which move() adds to the step. Flexible conjugate gradients (Notay 2000).
+// Returns twice the energy that the solution takes away, by the linear model: the sum of gain times length over iterations,
+// which is the squared energy norm of the error before; the last terms of it tell how much is left (Strakos and Tichy 2002).
 template <class Scalar>
-void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem, int iterations) {
+typename ImplicitSolver<Scalar>::LinearGain ImplicitSolver<Scalar>::solve_linear(
+    const StepProblem<Scalar>& problem, int iterations, double least_gain) {
   factorise_bodies();
   start_linear(problem);
-  // Flexible conjugate gradients (Notay 2000): the preconditioner is not symmetric, for a second
-  // smoothing costs more than it gains, so that a direction is made conjugate explicitly.
   for (Body& body : bodies_) {
     for (Floats6* vector : {&body.step, &body.direction, &body.direction_product})
       vector->setZero();
   }
   float curvature = 1;
-  float first_gain = 0;
+  LinearGain sum;
+  std::array<double, kGainDelay> last_gains{};
   directions_.clear();
   has_direction_ = false;
   for (int k = 0; k < iterations; ++k) {
@@ -240,20 +271,27 @@ void ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem, in
       body.step += length * body.direction;
       body.residual -= length * body.direction_product;
     }
-    if (k == 0) first_gain = gain;
-    if (k + 1 == iterations || gain <= kLastGain * first_gain) break;
-    for_each_part(
-        [this, share, length, is_first = k == 0, is_full = directions_.is_full()](NodeRange nodes) {
-          vector_kernel().advance(correction_product_.data(), share, length, is_first,
-                                  static_cast<int>(step_.rows()), nodes, direction_product_.data(),
-                                  residual_vector_.data());
-          if (is_full) sum_up(nodes, true);
-          smooth(nodes, smoothed_);
-        });
+    const double now = static_cast<double>(gain) * static_cast<double>(length);
+    last_gains[at(k % kGainDelay)] = now;
+    sum.total += now;
+    sum.left = std::accumulate(last_gains.begin(), last_gains.end(), 0.0);
+    const bool is_done = now <= kLastGain * sum.total || now <= least_gain ||
+                         (k >= kGainDelay && sum.left <= kForcing * sum.total);
+    if (k + 1 == iterations || is_done) break;
+    team_->run(parts_.count(),
+               [this, share, length, is_first = k == 0, is_full = directions_.is_full()](int part) {
+                 const NodeRange nodes = parts_[part];
+                 vector_kernel().advance(correction_product_.data(), share, length, is_first,
+                                         static_cast<int>(step_.rows()), nodes,
+                                         direction_product_.data(), residual_vector_.data());
+                 if (is_full) sum_up(nodes, true);
+                 smooth(part);
+               });
     if (!directions_.is_full()) continue;
     directions_.clear();
     has_direction_ = true;
   }
+  return sum;
 }
 
 // What the corrections that are kept add to the step, and the last direction in their place if there is an iteration to follow.
@@ -292,7 +330,7 @@ void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, const 
     const Scalar squared_step = problem.inertia_step * problem.inertia_step;
     forces_.factorise(coarse_correction_, holds_, static_cast<float>(1 / squared_step), *team_);
   }
-  solve_linear(problem, round.iterations);
+  last_gain_ = solve_linear(problem, round.iterations, round.least_gain);
   const double of_bodies = work_of_bodies();
   move();
   const std::size_t num_held = held_.size();
@@ -324,22 +362,30 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const Sol
                                    Matrix3XRef<Scalar> places, ThreadTeam& team) {
   const TraceScope trace("implicit solve");
   team_ = &team;
-  known_ = {};
+  more_forces_of_ = problem.forces;
   load(problem, places);
   evaluate();
   const double first = std::sqrt(unbalanced_squares_);
-  for (int round = 0; round < effort.rounds; ++round) {
-    const bool is_last = round == effort.rounds - 1 && problem.bodies.empty();
-    do_round(problem, {.iterations = iterations_of(problem, effort, round),
+  const double asked = 2 * effort.tolerance * effort.tolerance * step_energy_;
+  double before = 0;
+  is_converged_ = false;
+  for (int round = 0; round < effort.rounds && !is_converged_; ++round) {
+    do_round(problem, {.iterations = effort.iterations,
                        .is_first = round == 0,
-                       .linearises = !is_last});
+                       .factorises = round % kRoundsPerFactor == 0,
+                       .least_gain = kLastShare * asked});
+    const double shrinks =
+        before > 0 ? std::min(kSlowest, last_gain_.total / before) : kFirstShrink;
+    const double left = last_gain_.left + last_gain_.total * shrinks / (1 - shrinks);
+    is_converged_ = left <= asked;
+    before = last_gain_.total;
   }
   for (int extra = 0; !links_.empty() && extra < kLinkedRounds; ++extra) {
     find_holding_forces();
     if (left_over() <= kLinkedResidual * first) break;
     do_round(problem, {.iterations = effort.iterations});
   }
-  if (is_suspicious(problem)) tame(problem, effort.iterations);
+  if (!is_converged_) descend(problem, effort.iterations);
   find_holding_forces();
   residual_ = first > 0 ? left_over() / first : 0.0;
   const std::optional<Vector3<Scalar>> shift = find_balance(problem);
@@ -353,6 +399,7 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const Sol
     if (holds_[at(i)] != Hold::kOnPlane) remainders_.row(i).setZero();
   }
   team_ = nullptr;
+  more_forces_of_ = nullptr;
 }
 
 // One step of Jacobi's method for the forces that are left, which places on their grid cannot follow.
@@ -375,16 +422,6 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::add_remainders(int first_node, Matrix3XRef<Scalar> ways) const {
   for (Eigen::Index i = 0; i < ways.cols(); ++i)
     ways.col(i) += at_node(remainders_, first_node + i);
-}
-
-template <class Scalar>
-double ImplicitSolver<Scalar>::spring_energy(ConstMatrix3XRef<Scalar> places, ThreadTeam& team) {
-  team_ = &team;
-  for_each_part([&](NodeRange nodes) { to_arrays<Scalar>(places, nodes, unmoved_); });
-  const double energy =
-      sum_over_parts([&](NodeRange nodes) { return forces_.potential(nodes, unmoved_); });
-  team_ = nullptr;
-  return energy;
 }
 
 template class ImplicitSolver<float>;

@@ -20,10 +20,10 @@
 
 namespace weft::fast {
 
-/// Newton's method, each linear system by a few conjugate gradients. Their preconditioner is a two-level cycle. The blocks of
-/// the diagonal smooth: they are exact where neighbours have little to say. What is left is corrected on hats over patches of
-/// nodes, which have the stiffness of the present step: what the cloth does slowly and together. So each iteration takes away
-/// more than half of the error, whatever the number of nodes. Contacts are eliminated: a node on a plane moves in
+/// Newton's method, each linear system by conjugate gradients, until the energy that is left to gain is below a tolerance. The
+/// preconditioner is additive, of two levels (Dryja and Widlund 1987): the blocks of the diagonal, which are exact where
+/// neighbours have little to say, and a correction on hats over patches of nodes, which have the stiffness of the present
+/// step: what the cloth does slowly and together. Contacts are eliminated: a node on a plane moves in
 /// the plane, one that sticks not at all (Baraff and Witkin 1998), and what it takes to hold them is
 /// the contact force, whose sign and friction decide how the next round holds them. Nodes that touch a rigid body
 /// which gives way, or hang on it, move with it: its six unknowns are solved for with the nodes.
@@ -79,13 +79,8 @@ class ImplicitSolver {
   }
   /// After solve(): m |y - q|^2 / (2 h'^2), the energy of the motion without springs [J].
   [[nodiscard]] double step_energy() const { return step_energy_; }
-  /// What springs store at places, and what dampers take away on the way there from the start of the step [J].
-  [[nodiscard]] double spring_energy(ConstMatrix3XRef<Scalar> places, ThreadTeam& team);
-  /// spring_energy() of the start and of the solution of the last solve(), if that had to look at them [J].
-  struct KnownEnergies {
-    std::optional<double> before, after;
-  };
-  [[nodiscard]] const KnownEnergies& known_energies() const { return known_; }
+  /// After solve(): whether it ended by its tolerance, and not by its budget of rounds.
+  [[nodiscard]] bool is_converged() const { return is_converged_; }
   /// After solve(): root mean square of the unbalanced forces over that of the step's first guess [-].
   [[nodiscard]] double residual() const { return residual_; }
 
@@ -122,12 +117,15 @@ class ImplicitSolver {
   }
   void load(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> guess);
   void evaluate(bool linearises = true);
+  void evaluate_step_forces();
+  [[nodiscard]] double energy_of_step_forces(const Nodes& places);
   void decide_holds(const StepProblem<Scalar>& problem, bool is_first);
   void decide_hold(const PlaneContact<Scalar>& contact, bool is_first);
   void list_held();
   [[nodiscard]] Scalar first_push(int node, const Vector3<Scalar>& normal) const;
   void project(NodeRange nodes, Floats& vectors) const;
   void smooth(NodeRange nodes, Floats& correction);
+  void smooth(int part);
   void load_bodies(const StepProblem<Scalar>& problem);
   void link(int node, int body, const Vector3<Scalar>& arm, const Vector3<Scalar>& normal);
   /// Of what is at the end of an arm, to first order.
@@ -153,7 +151,13 @@ class ImplicitSolver {
   void multiply(const Floats& displacements, Floats6 Body::*motion, Floats& product,
                 Floats6 Body::*body_product, const Next& and_then);
   void start_linear(const StepProblem<Scalar>& problem);
-  void solve_linear(const StepProblem<Scalar>& problem, int iterations);
+  /// Twice an energy of the linear model [J]: what its solution takes away, and of that, what the last iterations did.
+  struct LinearGain {
+    double total = 0;
+    double left = 0;
+  };
+  [[nodiscard]] LinearGain solve_linear(const StepProblem<Scalar>& problem, int iterations,
+                                        double least_gain);
   /// Of a correction c and the direction d before it, with their products: c . r, c . A d and c . A c.
   using Overlaps = VectorKernel::Products;
   [[nodiscard]] Overlaps precondition(Floats& correction, bool is_first);
@@ -165,28 +169,18 @@ class ImplicitSolver {
     bool is_first = false;    ///< of a step
     bool linearises = true;   ///< for another round
     bool factorises = false;  ///< makes the coarse correction anew
+    double least_gain = 0;    ///< of an iteration that another one follows [J]
   };
   void do_round(const StepProblem<Scalar>& problem, const Round& round);
-  struct Energy {
-    double total = 0;
-    double of_springs = 0;
-    [[nodiscard]] Energy operator+(const Energy& other) const {
-      return {total + other.total, of_springs + other.of_springs};
-    }
-  };
-  [[nodiscard]] Energy energy(const StepProblem<Scalar>& problem, const Nodes& places,
+  /// What an implicit step minimises [J].
+  [[nodiscard]] double energy(const StepProblem<Scalar>& problem, const Nodes& places,
                               Vector6 Body::*motion);
   /// What a part of the nodes adds to it.
-  [[nodiscard]] Energy energy_of(NodeRange nodes, const Nodes& places) const;
-  void add_energy_of_holds(const StepProblem<Scalar>& problem, const Nodes& places,
-                           Vector6 Body::*motion, Energy& energy) const;
-  [[nodiscard]] bool is_suspicious(const StepProblem<Scalar>& problem);
-  /// False if anything is led, or was behind a plane.
-  bool stay_at_start(const StepProblem<Scalar>& problem);
-  void go_back();
-  bool descend(const StepProblem<Scalar>& problem);
-  void tame(const StepProblem<Scalar>& problem, int iterations);
-  bool go_downhill(const StepProblem<Scalar>& problem, int iterations);
+  [[nodiscard]] double energy_of(NodeRange nodes, const Nodes& places) const;
+  [[nodiscard]] double energy_of_holds(const StepProblem<Scalar>& problem, const Nodes& places,
+                                       Vector6 Body::*motion) const;
+  void stay_at_start(const StepProblem<Scalar>& problem);
+  void descend(const StepProblem<Scalar>& problem, int iterations);
   /// Only part of the last step, if it went too far; evaluate() is due then. num_held: of the linear system, not of clamp().
   bool hold_back(double work_before, std::size_t num_held);
   void move_bodies(Scalar share);
@@ -200,7 +194,8 @@ class ImplicitSolver {
   void find_remainders(NodeRange nodes);
   void clamp(const StepProblem<Scalar>& problem);
 
-  ThreadTeam* team_ = nullptr;  ///< during solve()
+  ThreadTeam* team_ = nullptr;                          ///< during solve()
+  const StepForces<Scalar>* more_forces_of_ = nullptr;  ///< likewise
   NodeParts parts_;
   NetworkForces<Scalar> forces_;
   CoarseCorrection coarse_correction_;
@@ -223,6 +218,8 @@ class ImplicitSolver {
   Nodes holding_forces_;
   Nodes remainders_;
   Nodes unmoved_;
+  Matrix3X<Scalar> more_places_;  ///< as StepForces take them
+  Matrix3X<Scalar> more_forces_;
   std::vector<Hold> holds_;        ///< of each node, filled up
   std::vector<Hold> held_before_;  ///< the same in the round before
   std::vector<int> contact_of_;    ///< of each node: the contact that holds it, or -1
@@ -230,7 +227,7 @@ class ImplicitSolver {
   Matrix3X<float> friction_;       ///< of each sliding node [N]
   BlockArrays blocks_;             ///< inverse of the diagonal's
   Floats step_, residual_vector_, direction_, direction_product_, correction_product_, work_;
-  Floats smoothed_, coarse_, coarse_product_;  ///< parts of a correction, which neighbours read
+  Floats smoothed_, coarse_;  ///< parts of a correction
   std::array<Floats, DirectionWeights::kMost> corrections_;
   alignas(kAlignment) DirectionWeights directions_;  ///< made of them; not near what helpers read
   bool has_direction_ = false;     ///< from before the first of them, in direction_
@@ -238,9 +235,9 @@ class ImplicitSolver {
   double unbalanced_squares_ = 0;  ///< of unbalanced_ [N^2]
   double work_done_ = 0;           ///< the same before the step was taken [J]
   double residual_ = 0;
+  LinearGain last_gain_;       ///< of the last round
+  bool is_converged_ = false;  ///< the last step, to its tolerance
   double step_energy_ = 0;
-  KnownEnergies known_;
-  bool has_friction_ = true;
   bool has_holding_forces_ = false;
 };
 

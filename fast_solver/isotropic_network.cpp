@@ -41,7 +41,7 @@ IsotropicNetwork NetworkForces<Scalar>::isotropic_network(const std::vector<int>
       const double stiffness =
           static_cast<double>(spring[kNodeBlock]) +
           (has_damping_ ? static_cast<double>(damping_[place]) / kTimeStep : 0.0) +
-          (has_stabiliser_ ? static_cast<double>(stabilisers_[place]) : 0.0);
+          (has_bending_ ? static_cast<double>(bending_[place]) : 0.0);
       sum += stiffness;
       const int unknown = unknown_of[at(other)];
       if (unknown < 0) return;

@@ -45,7 +45,6 @@ struct LinkedBody {
   // Of conjugate gradients, as those of nodes.
   Floats6 step, residual, direction, direction_product;
   Floats6 correction, correction_product, coarse_product;
-  Floats6 none = Floats6::Zero();  ///< the motion that goes with the coarse correction
   Floats6 unbalanced;
   bool is_linked = false;  ///< any node, in the present round
   bool is_held = false;    ///< by what is not among bodies

@@ -39,7 +39,7 @@ void NetworkForces<Scalar>::reserve(std::size_t num_slots) {
     damping_.reserve(num_lanes);
     dampers_.reserve(2 * num_lanes);
   }
-  if (has_stabiliser_) stabilisers_.reserve(num_lanes);
+  if (has_bending_) bending_.reserve(num_lanes);
   linear_.reserve(4 * num_lanes);
 }
 
@@ -47,7 +47,7 @@ template <class Scalar>
 NetworkForces<Scalar>::NetworkForces(const SpringNetwork& network, int num_nodes)
     : slots_(make_edge_slots(network.edges, num_nodes)) {
   has_damping_ = (network.damping.array() != 0).any();
-  has_stabiliser_ = (network.stabiliser.array() != 0).any();
+  has_bending_ = (network.bending.array() != 0).any();
   note_stiffest(network);
   reserve(static_cast<std::size_t>(kRoom * slots_.num_slots()));
   resize_arrays();
@@ -60,7 +60,7 @@ NetworkForces<Scalar>::NetworkForces(const SpringNetwork& network, int num_nodes
                   static_cast<Scalar>(network.stiffness[e]),
                   static_cast<Scalar>(network.compressed_stiffness[e] - network.stiffness[e]),
                   static_cast<Scalar>(network.damping[e]),
-                  static_cast<Scalar>(network.stabiliser[e])});
+                  static_cast<float>(network.bending[e])});
   }
   for (const SlotRange& range : slots_.blocks) room_.push_back(range.end - range.begin);
 }
@@ -69,7 +69,7 @@ template <class Scalar>
 void NetworkForces<Scalar>::note_stiffest(const SpringNetwork& springs) {
   if (springs.edges.cols() == 0) return;
   const double most = springs.stiffness.cwiseMax(springs.compressed_stiffness).maxCoeff();
-  stiffest_ = std::max(stiffest_, most + springs.stabiliser.maxCoeff());
+  stiffest_ = std::max(stiffest_, most + springs.bending.maxCoeff());
   most_damped_ = std::max(most_damped_, springs.damping.maxCoeff());
 }
 
@@ -97,10 +97,9 @@ void NetworkForces<Scalar>::resize_arrays() {
     damping_.resize(num_lanes, Scalar(0));
     dampers_.resize(2 * num_lanes, Scalar(0));
   }
-  if (has_stabiliser_) stabilisers_.resize(num_lanes, Scalar(0));
+  if (has_bending_) bending_.resize(num_lanes, 0.0F);
   linear_.resize(4 * num_lanes, 0);
   const int num_rows = rows_for(num_nodes());
-  if (starts_.rows() != num_rows) starts_.setZero(num_rows, 3);
   if (diagonal_.rows() != num_rows) diagonal_.setZero(num_rows, 6);
 }
 
@@ -112,7 +111,7 @@ void NetworkForces<Scalar>::write(std::size_t place, const Spring& values) {
   spring[block] = values.stiffness;
   spring[2 * block] = values.compressed;
   if (has_damping_) damping_[place] = values.damping;
-  if (has_stabiliser_) stabilisers_[place] = values.stabiliser;
+  if (has_bending_) bending_[place] = values.bending;
 }
 
 template <class Scalar>
@@ -120,7 +119,7 @@ std::vector<char> NetworkForces<Scalar>::replace(const SpringNetwork& springs,
                                                  const std::vector<char>& is_changed,
                                                  int num_nodes) {
   has_damping_ = has_damping_ || (springs.damping.array() != 0).any();
-  has_stabiliser_ = has_stabiliser_ || (springs.stabiliser.array() != 0).any();
+  has_bending_ = has_bending_ || (springs.bending.array() != 0).any();
   note_stiffest(springs);
   std::vector<char> blocks = blocks_to_change(springs, is_changed);
   std::vector<std::vector<Spring>> of_block(blocks.size());
@@ -134,7 +133,7 @@ std::vector<char> NetworkForces<Scalar>::replace(const SpringNetwork& springs,
                   static_cast<Scalar>(springs.stiffness[e]),
                   static_cast<Scalar>(springs.compressed_stiffness[e] - springs.stiffness[e]),
                   static_cast<Scalar>(springs.damping[e]),
-                  static_cast<Scalar>(springs.stabiliser[e])};
+                  static_cast<float>(springs.bending[e])};
     for (int end = 0; end < 2; ++end) {
       spring.lane = {springs.edges(end, e), springs.edges(1 - end, e), 0};
       spring.place = place_of(spring.lane);
@@ -161,7 +160,7 @@ std::vector<char> NetworkForces<Scalar>::blocks_to_change(
   for (std::size_t node = 0; node < is_changed.size(); ++node) {
     if (is_changed[node] != 0) blocks[node / kNodeBlock] = 1;
   }
-  if (!has_stabiliser_) return blocks;
+  if (!has_bending_) return blocks;
   const std::vector<char> changed = blocks;
   for (const int node : springs.edges.reshaped()) blocks[at(node / kNodeBlock)] = 1;
   for (int block = 0; block < slots_.num_blocks();
@@ -197,7 +196,7 @@ void NetworkForces<Scalar>::keep_springs(int block, const std::vector<char>& is_
                         spring[kNodeBlock],
                         spring[2 * kNodeBlock],
                         damping_.empty() ? Scalar(0) : damping_[place],
-                        stabilisers_.empty() ? Scalar(0) : stabilisers_[place]});
+                        bending_.empty() ? 0.0F : bending_[place]});
     }
   }
 }
@@ -249,10 +248,10 @@ NetworkView<Scalar> NetworkForces<Scalar>::view() const {
   return {slots_.blocks.data(),
           slots_.slots.data(),
           slots_.others.data(),
-          static_cast<int>(starts_.rows()),
+          static_cast<int>(diagonal_.rows()),
           springs_.data(),
           dampers_.empty() ? nullptr : dampers_.data(),
-          stabilisers_.empty() ? nullptr : stabilisers_.data(),
+          bending_.empty() ? nullptr : bending_.data(),
           least_across_,
           root_scale_,
           linear_.data()};
@@ -266,10 +265,6 @@ void NetworkForces<Scalar>::set_time_step(Scalar time_step) {
 
 template <class Scalar>
 void NetworkForces<Scalar>::begin_step(NodeRange nodes, const NodeArrays<Scalar>& starts) {
-  if (has_stabiliser_) {
-    const int count = nodes.end - nodes.begin;
-    starts_.middleRows(nodes.begin, count) = starts.middleRows(nodes.begin, count);
-  }
   if (!has_damping_) return;
   network_kernel<Scalar>().note_lengths(view(), nodes, starts.data(), damping_.data(), time_step_,
                                         dampers_.data());
@@ -278,13 +273,20 @@ void NetworkForces<Scalar>::begin_step(NodeRange nodes, const NodeArrays<Scalar>
 template <class Scalar>
 void NetworkForces<Scalar>::add_forces(NodeRange nodes, const NodeArrays<Scalar>& places,
                                        NodeArrays<Scalar>& forces, bool linearises) {
-  network_kernel<Scalar>().forces(view(), nodes, places.data(), starts_.data(), forces.data(),
+  network_kernel<Scalar>().forces(view(), nodes, places.data(), forces.data(),
                                   linearises ? diagonal_.data() : nullptr);
 }
 
 template <class Scalar>
 double NetworkForces<Scalar>::potential(NodeRange nodes, const NodeArrays<Scalar>& places) const {
-  return network_kernel<Scalar>().energy(view(), nodes, places.data(), starts_.data());
+  return network_kernel<Scalar>().energy(view(), nodes, places.data());
+}
+
+template <class Scalar>
+void NetworkForces<Scalar>::note_bending(CoarseCorrection& correction) const {
+  if (!has_bending_) return;
+  correction.set_bending(
+      slots_, [this](std::size_t place) { return static_cast<double>(bending_[place]); });
 }
 
 template <class Scalar>

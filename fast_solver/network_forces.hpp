@@ -29,7 +29,7 @@ class NetworkForces {
 
   /// Puts springs in the place of all that have an end among the nodes that are changed (flags of
   /// num_nodes nodes; there may be more nodes than before, and all new ones are changed). springs: each
-  /// has such an end; without stabilisers, those with one such end only are taken to be as they were.
+  /// has such an end; without bending, those with one such end only are taken to be as they were.
   /// Takes time for what changes only: blocks that grow are laid out anew behind the others. Results are
   /// those of a network made anew, but for the order in which the springs of some nodes are summed.
   /// Returns flags of the blocks of kNodeBlock nodes that were laid out anew.
@@ -74,6 +74,8 @@ class NetworkForces {
   [[nodiscard]] IsotropicNetwork isotropic_network(const std::vector<int>& names) const;
   /// Rings 0 to num_springs around some nodes.
   [[nodiscard]] Rings rings_around(const std::vector<int>& nodes, int num_springs) const;
+  /// Tells a correction of the stiffness of bending; to be called whenever its basis or the network has changed.
+  void note_bending(CoarseCorrection& correction) const;
   /// Makes a correction for the last linearisation.
   void factorise(CoarseCorrection& correction, const std::vector<Hold>& holds,
                  float inertia_over_mass, ThreadTeam& team) const {
@@ -89,7 +91,7 @@ class NetworkForces {
     Scalar stiffness;
     Scalar compressed;  ///< what compression adds to the stiffness
     Scalar damping;
-    Scalar stabiliser;
+    float bending;
   };
   [[nodiscard]] NetworkView<Scalar> view() const;
   void note_stiffest(const SpringNetwork& springs);
@@ -108,17 +110,16 @@ class NetworkForces {
   SlotMaker maker_;
   AlignedVector<Scalar> springs_;
   bool has_damping_ = false;  ///< without: no array
-  bool has_stabiliser_ = false;
+  bool has_bending_ = false;
   AlignedVector<Scalar> damping_;  ///< of each lane [N s/m]
   AlignedVector<Scalar> dampers_;
-  AlignedVector<Scalar> stabilisers_;
+  AlignedVector<float> bending_;
   Scalar least_across_ = 0;
   double stiffest_ = 0;     ///< [N/m]
   double most_damped_ = 0;  ///< [N s/m]
   mutable AlignedVector<std::uint16_t> linear_;
   float root_scale_ = 1;
-  Scalar time_step_ = 1;       ///< [s]
-  NodeArrays<Scalar> starts_;  ///< of networks with stabilisers
+  Scalar time_step_ = 1;  ///< [s]
   BlockArrays diagonal_;
 };
 

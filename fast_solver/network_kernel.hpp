@@ -30,11 +30,11 @@ struct NetworkView {
   const EdgeSlot* slots;
   const int* others;
   int stride;
-  const Scalar* springs;      ///< rest length, stiffness, what compression adds to the stiffness
-  const Scalar* dampers;      ///< damping / time step, length at the start; nullptr: none
-  const Scalar* stabilisers;  ///< w; nullptr: none
-  Scalar least_across;        ///< t over s at least
-  float root_scale;           ///< square root of what the stiffness is multiplied by to be stored
+  const Scalar* springs;  ///< rest length, stiffness, what compression adds to the stiffness
+  const Scalar* dampers;  ///< damping / time step, length at the start; nullptr: none
+  const float* bending;   ///< w of the matrix; nullptr: none
+  Scalar least_across;    ///< t over s at least
+  float root_scale;       ///< square root of what the stiffness is multiplied by to be stored
   /// sqrt(s - t) u and t, of the stiffness s u u^T + t (I - u u^T) of an edge of direction u, in half precision: what a
   /// correction is off by is small beside what one step of Newton's method leaves
   unsigned short* linear;
@@ -49,13 +49,12 @@ struct NetworkKernel {
   /// forces += those at places; linearises there. diagonal, six arrays: the blocks of the stiffness; without them
   /// the linearisation stays as it was.
   void (*forces)(const NetworkView<Scalar>& network, NodeRange nodes, const Scalar* places,
-                 const Scalar* starts, Scalar* forces, float* diagonal);
+                 Scalar* forces, float* diagonal);
   /// product = inertia displacements + stiffness displacements
   void (*multiply)(const NetworkView<Scalar>& network, NodeRange nodes, const float* inertia,
                    const float* displacements, float* product);
   /// [J]
-  double (*energy)(const NetworkView<Scalar>& network, NodeRange nodes, const Scalar* places,
-                   const Scalar* starts);
+  double (*energy)(const NetworkView<Scalar>& network, NodeRange nodes, const Scalar* places);
 };
 
 /// Sums over some nodes, in double precision but for short pieces. Arrays of nodes have `stride` numbers per
@@ -89,11 +88,12 @@ struct VectorKernel {
   /// result = blocks vectors, node by node: 3 arrays from 6.
   void (*multiply_blocks)(const float* blocks, int stride, NodeRange nodes, const float* vectors,
                           float* result);
-  /// correction = one + more, product += more_product. Returns correction . residual, correction . direction_product
-  /// and correction . product. direction_product: nullptr if there is none; its sum is 0 then.
-  Products (*add_correction)(const float* one, const float* more, const float* more_product,
-                             const float* residual, const float* direction_product, int stride,
-                             NodeRange nodes, float* correction, float* product);
+  /// sum = one + other.
+  void (*add)(const float* one, const float* other, int stride, NodeRange nodes, float* sum);
+  /// correction . residual, correction . direction_product and correction . product. direction_product: nullptr if there
+  /// is none; its product is 0 then.
+  Products (*dot_products)(const float* correction, const float* product, const float* residual,
+                           const float* direction_product, int stride, NodeRange nodes);
   /// direction_product = correction_product - share direction_product, residual -= length direction_product.
   /// is_first: there is no direction before, and direction_product is not read.
   void (*advance)(const float* correction_product, float share, float length, bool is_first,

@@ -4,10 +4,11 @@ namespace weft::fast {
 
 /// How much work a step is worth.
 struct SolverEffort {
-  int rounds = 2;  ///< linearisations, >= 1
-  /// Conjugate gradients in each, >= 1. Where nothing touches the body the first of several takes one, and the last a
-  /// quarter more.
-  int iterations = 4;
+  int rounds = 24;      ///< linearisations at most, >= 1
+  int iterations = 32;  ///< of conjugate gradients in each at most, >= 1
+  /// When a step is done: what is left to gain, over the energy of the step's motion without springs, is less than the square
+  /// of this [-].
+  double tolerance = 0.001;
 };
 
 }  // namespace weft::fast

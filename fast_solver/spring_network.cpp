@@ -16,13 +16,9 @@ struct Entry {
   double stiffness = 0;
   double compressed = 0;
   double damping = 0;
-  double stabiliser = 0;
+  double bending = 0;
 };
 using Entries = std::map<std::pair<int, int>, Entry>;
-
-bool is_bending(const forces::LawSpecification& law) {
-  return law.law == "hinge_torsion" || law.law == "torsion";
-}
 
 void add_springs(const forces::LawSpecification& law, const ClothMesh& mesh, Entries& entries) {
   const Edges edges = forces::law_edges(law, mesh);
@@ -42,6 +38,10 @@ void add_springs(const forces::LawSpecification& law, const ClothMesh& mesh, Ent
 
 }  // namespace
 
+bool is_bending(std::string_view law) {
+  return law == "hinge_torsion" || law == "torsion";
+}
+
 bool is_implicit(const forces::LawSpecification& law) {
   return law.law == "tension" || law.law == "spring_damping";
 }
@@ -53,11 +53,11 @@ SpringNetwork make_network(const ClothMesh& mesh,
   for (const forces::LawSpecification& given : laws) {
     const forces::LawSpecification law = forces::checked(given);
     if (is_implicit(law)) add_springs(law, mesh, entries);
-    if (is_bending(law)) bending.push_back(law);
+    if (is_bending(law.law)) bending.push_back(law);
   }
   for (const MatrixPart& part : rest_stiffness(mesh, bending)) {
     Entry& entry = entries[{part.row, part.column}];
-    entry.stabiliser -= part.value;
+    entry.bending -= part.value;
     if (entry.rest_length > 0) continue;
     const double distance =
         (mesh.rest_positions.col(part.row) - mesh.rest_positions.col(part.column)).norm();
@@ -68,7 +68,7 @@ SpringNetwork make_network(const ClothMesh& mesh,
   const auto m = static_cast<Eigen::Index>(entries.size());
   network.edges.resize(2, m);
   for (auto* values : {&network.rest_lengths, &network.stiffness, &network.compressed_stiffness,
-                       &network.damping, &network.stabiliser}) {
+                       &network.damping, &network.bending}) {
     values->resize(m);
   }
   Eigen::Index e = 0;
@@ -78,7 +78,7 @@ SpringNetwork make_network(const ClothMesh& mesh,
     network.stiffness[e] = entry.stiffness;
     network.compressed_stiffness[e] = entry.compressed;
     network.damping[e] = entry.damping;
-    network.stabiliser[e] = entry.stabiliser;
+    network.bending[e] = entry.bending;
     ++e;
   }
   return network;
@@ -93,7 +93,7 @@ bool is_marked(const std::vector<char>& flags, int node) {
 void resize(Eigen::Index num_springs, SpringNetwork& network) {
   network.edges.resize(2, num_springs);
   for (auto* values : {&network.rest_lengths, &network.stiffness, &network.compressed_stiffness,
-                       &network.damping, &network.stabiliser}) {
+                       &network.damping, &network.bending}) {
     values->resize(num_springs);
   }
 }
@@ -101,9 +101,9 @@ void resize(Eigen::Index num_springs, SpringNetwork& network) {
 void copy_springs(const SpringNetwork& from, Eigen::Index first, Eigen::Index count,
                   Eigen::Index to, SpringNetwork& network) {
   network.edges.middleCols(to, count) = from.edges.middleCols(first, count);
-  for (auto values : {&SpringNetwork::rest_lengths, &SpringNetwork::stiffness,
-                      &SpringNetwork::compressed_stiffness, &SpringNetwork::damping,
-                      &SpringNetwork::stabiliser}) {
+  for (auto values :
+       {&SpringNetwork::rest_lengths, &SpringNetwork::stiffness,
+        &SpringNetwork::compressed_stiffness, &SpringNetwork::damping, &SpringNetwork::bending}) {
     (network.*values).segment(to, count) = (from.*values).segment(first, count);
   }
 }

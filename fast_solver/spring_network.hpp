@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include <weft/custom_forces/core/cloth_mesh.hpp>
@@ -11,25 +12,24 @@ namespace weft::fast {
 ///
 ///   tension     k' (l - l0)            k' = stiffness if l >= l0, else compressed_stiffness
 ///   damper      c (dl/dt)              l the distance of i and j
-///   stabiliser  w ((x_j - x_i) - (q_j - q_i))  q the places at the start of the step
 ///
-/// The stabiliser is for forces that are computed at the start of the step (bending): it is the change
-/// that a constant matrix predicts for them, so that a stiff force needs no small step. It vanishes
-/// where nothing moves, so that it changes no equilibrium. Single w may be negative; the sum over all
-/// edges is a positive semidefinite matrix.
+/// Bending is no force of the network, which leaves it to StepForces: w (x_j - x_i), summed over all edges, is the constant
+/// positive semidefinite matrix that stands for its stiffness in Newton's method. Single w may be negative.
 struct SpringNetwork {
   Edges edges = Edges(2, 0);             ///< 2 x m, first index < second index, each pair once
   VectorX<double> rest_lengths;          ///< l0, m [m], > 0
   VectorX<double> stiffness;             ///< m [N/m], >= 0
   VectorX<double> compressed_stiffness;  ///< m [N/m], 0 to stiffness
   VectorX<double> damping;               ///< c, m [N s/m], >= 0
-  VectorX<double> stabiliser;            ///< w, m [N/m]
+  VectorX<double> bending;               ///< w, m [N/m]
 };
 
-/// Laws of which a network is made; all others are left to be computed at the start of the step.
+/// Laws of which a network is made; all others are left to be computed elsewhere.
 [[nodiscard]] bool is_implicit(const forces::LawSpecification& law);
+/// By its id: whether the network has the stiffness of the law, whose forces are StepForces.
+[[nodiscard]] bool is_bending(std::string_view law);
 
-/// The network of the tension and spring_damping laws among these, and the stabiliser of the
+/// The network of the tension and spring_damping laws among these, and the bending of the
 /// hinge_torsion and torsion laws among them: the trace of each 3 x 3 block of their stiffness matrix
 /// at the rest shape. Throws InvalidArgument as forces::make_law().
 [[nodiscard]] SpringNetwork make_network(const ClothMesh& mesh,

@@ -7,11 +7,25 @@
 
 namespace weft::fast {
 
+/// Forces that follow the places within a step, beside those of the network: minus the gradient of an energy.
+template <class Scalar>
+class StepForces {
+ public:
+  StepForces() = default;
+  StepForces(const StepForces&) = delete;
+  StepForces& operator=(const StepForces&) = delete;
+  virtual ~StepForces() = default;
+  /// forces += those at places, both 3 x n [m], [N].
+  virtual void add_forces(ConstMatrix3XRef<Scalar> places, Matrix3XRef<Scalar> forces) const = 0;
+  /// [J]
+  [[nodiscard]] virtual double energy(ConstMatrix3XRef<Scalar> places) const = 0;
+};
+
 /// One implicit step: find x with
 ///
 ///   m_i (x_i - y_i) / h'^2 = f_i(x) + contact_i         for free nodes
 ///
-/// f of a SpringNetwork, y where the node would go without f. Implicit Euler has h' = h.
+/// f of a SpringNetwork and of StepForces, y where the node would go without f. Implicit Euler has h' = h.
 template <class Scalar>
 struct StepProblem {
   Eigen::Ref<const Matrix3X<Scalar>> targets;  ///< y, 3 x n [m]; of pinned nodes: where they go
@@ -21,6 +35,7 @@ struct StepProblem {
   std::span<const PlaneContact<Scalar>> contacts = {};
   std::span<const LedNode<Scalar>> led = {};
   std::span<const RigidInertia<Scalar>> bodies = {};
+  const StepForces<Scalar>* forces = nullptr;  ///< beside the network's
 };
 
 }  // namespace weft::fast

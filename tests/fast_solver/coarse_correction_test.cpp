@@ -69,7 +69,7 @@ struct Sheet {
     NodeArrays<float> result(residual.rows(), 3);
     const NodeParts parts(mesh.num_nodes());
     for (int part = 0; part < parts.count(); ++part) {
-      correction.set_residual(part, held, residual, zeros);
+      correction.restrict_residual(part, held, residual);
     }
     correction.solve(team);
     for (int part = 0; part < parts.count(); ++part) correction.interpolate(part, held, result);
@@ -211,7 +211,7 @@ TEST(CoarseCorrection, CorrectsNothingWhereAllIsPinned) {
   CoarseCorrection correction(IsotropicNetwork{{{0, 0, 0, 0}, {}, {}, {1, 1, 1}}, {}}, {});
   NodeArrays<float> values = NodeArrays<float>::Ones(rows_for(3), 3);
   ThreadTeam team;
-  correction.set_residual(0, {}, values, values);
+  correction.restrict_residual(0, {}, values);
   correction.solve(team);
   correction.interpolate(0, {}, values);
   EXPECT_TRUE(values.isZero(0));

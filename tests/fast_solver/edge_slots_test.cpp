@@ -42,7 +42,7 @@ SpringNetwork network_of(const Edges& edges) {
   network.stiffness = VectorX<double>::LinSpaced(m, 10, 90);
   network.compressed_stiffness = 0.5 * network.stiffness;
   network.damping = VectorX<double>::LinSpaced(m, 0.1, 0.3);
-  network.stabiliser = VectorX<double>::LinSpaced(m, 0.0, 2.0);
+  network.bending = VectorX<double>::LinSpaced(m, 0.0, 2.0);
   return network;
 }
 
@@ -99,12 +99,11 @@ TEST(NetworkForces, AreThoseOfEachEdgeInAnyLayout) {
       const double k = extension < 0 ? network.compressed_stiffness[e] : network.stiffness[e];
       const double longer = d.norm() - before.norm();
       const double c = network.damping[e] / h;
-      const Vector3<double> force =
-          (k * extension + c * longer) * d.normalized() + network.stabiliser[e] * (d - before);
+      // Bending is in the matrix only.
+      const Vector3<double> force = (k * extension + c * longer) * d.normalized();
       expected.col(edges(0, e)) += force;
       expected.col(edges(1, e)) -= force;
-      energy += 0.5 * (k * extension * extension + c * longer * longer +
-                       network.stabiliser[e] * (d - before).squaredNorm());
+      energy += 0.5 * (k * extension * extension + c * longer * longer);
     }
     NetworkForces<double> forces(network, n);
     begin_step(forces, q, h);

@@ -123,10 +123,10 @@ TEST(SpringNetwork, TheStabiliserBoundsBendingAtRest) {
   for (Eigen::Index e = 0; e < network.edges.cols(); ++e) {
     const int i = network.edges(0, e);
     const int j = network.edges(1, e);
-    bound(i, i) += network.stabiliser[e];
-    bound(j, j) += network.stabiliser[e];
-    bound(i, j) -= network.stabiliser[e];
-    bound(j, i) -= network.stabiliser[e];
+    bound(i, i) += network.bending[e];
+    bound(j, j) += network.bending[e];
+    bound(i, j) -= network.bending[e];
+    bound(j, i) -= network.bending[e];
   }
   const auto law = forces::make_law<double>(kBending, mesh);
   forces::LawSet<double> laws;
@@ -155,7 +155,7 @@ TEST(SpringNetwork, TheStabiliserBoundsBendingAtRest) {
 TEST(SpringNetwork, ThreadsAndRunsAgree) {
   const SpringNetwork a = make_network(cloth(), {kTension, kDamping, kBending});
   const SpringNetwork b = make_network(cloth(), {kTension, kDamping, kBending});
-  EXPECT_EQ(a.stabiliser, b.stabiliser);
+  EXPECT_EQ(a.bending, b.bending);
   EXPECT_EQ(a.edges, b.edges);
 }
 

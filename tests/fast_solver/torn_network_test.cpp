@@ -56,8 +56,8 @@ void expect_same_network(const SpringNetwork& a, const SpringNetwork& b) {
   EXPECT_EQ(a.compressed_stiffness, b.compressed_stiffness);
   EXPECT_EQ(a.damping, b.damping);
   // Sums over hinges in another order.
-  EXPECT_LT((a.stabiliser - b.stabiliser).lpNorm<Eigen::Infinity>(),
-            1e-13 * b.stabiliser.lpNorm<Eigen::Infinity>());
+  EXPECT_LT((a.bending - b.bending).lpNorm<Eigen::Infinity>(),
+            1e-13 * b.bending.lpNorm<Eigen::Infinity>());
 }
 
 void expect_same_forces(NetworkForces<double>& a, NetworkForces<double>& b, int num_nodes) {
