@@ -9,6 +9,7 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 
 #include <weft/bridge/bullet_vector.hpp>
+#include <weft/bridge/energy_limit.hpp>
 #include <weft/bridge/node_prediction.hpp>
 #include <weft/bridge/node_state.hpp>
 #include <weft/custom_forces/core/error.hpp>
@@ -17,6 +18,9 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
+
+/// Of m |y - q|^2 / (2 h^2), what a step may gain: rounding.
+constexpr double kEnergySlack = 0.01;
 
 /// [m] Places are counted from a multiple of this near the body.
 constexpr btScalar kOriginGrid = btScalar(0.25);
@@ -80,6 +84,7 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
   contacts_.clear();
   obstacles_.clear();
   ways_.outdate();
+  excess_ = 0;
   wake();
 }
 
@@ -248,7 +253,38 @@ bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
   return std::all_of(is_same.begin(), is_same.end(), [](bool same) { return same; });
 }
 
+// What does that work is not known: pins and anchors that lead, obstacles that move, other cloth.
+bool FastBody::gets_work_from_outside() const {
+  if (!led_.empty()) return true;
+  for (const RigidContact& contact : contacts_) {
+    if (contact.motion.length2() > 0 || movable(contact.object) != nullptr) return true;
+  }
+  return std::any_of(pins_.begin(), pins_.end(),
+                     [&](int pin) { return places_.col(pin) != starts_.col(pin); });
+}
+
+// A node that is put out of a surface after the solution stretches springs, and a very stiff sheet would throw it back with
+// energy that nobody has given to it. What is stored in springs cannot be taken away without another step: it is kept in mind
+// until it comes out as motion. Solutions that stay as they are gain nothing and are not looked at.
+void FastBody::keep_energy(btScalar time_step) {
+  if (gets_work_from_outside()) excess_ = 0;
+  if (!is_projected_ && excess_ == 0) return;
+  if (weights_.cols() != places_.cols()) {
+    weights_ = masses_.transpose().cast<btScalar>().replicate(3, 1);
+  }
+  for (const int pin : pins_) weights_.col(pin).setZero();
+  const double given =
+      energy_put_in({weights_, starts_, start_velocities_, predicted_, places_, time_step}, team_);
+  const double now = kinetic_energy(weights_, velocities_, team_);
+  const double most = given + solver_->spring_energy(starts_, team_) - excess_ +
+                      kEnergySlack * solver_->step_energy() -
+                      solver_->spring_energy(places_, team_);
+  if (now > most) limit_energy(weights_, most, pins_.empty(), velocities_, team_);
+  excess_ = std::max(0.0, -most);
+}
+
 void FastBody::place(btSoftBody& body, btScalar time_step, bool is_looked_at) {
+  is_projected_ = solver_->was_clamped();
   keep_out_of_missed(body, time_step);
   leave_depths();
   give_impulses(body, time_step);
@@ -295,6 +331,11 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
     solver_->add_remainders(begin, velocities);
     velocities /= inertia_step_;
   });
+  if (meets_cloth) {
+    excess_ = 0;
+  } else {
+    keep_energy(time_step);
+  }
   for_nodes([&](int begin, int count) {
     for (int i = begin; i < begin + count; ++i) {
       btSoftBody::Node& node = body.m_nodes[i];
@@ -398,7 +439,7 @@ void FastBody::solve_again(btSoftBody& body, btScalar time_step,
   const TraceScope trace("fast body");
   const fast::ThreadTeam::Scope scope(team_, team_size());
   all_pushed_.assign(pushed.begin(), pushed.end());
-  solve(body, time_step, {1, settings_.effort.iterations}, true);
+  solve(body, time_step, settings_.effort, true);
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -170,6 +170,8 @@ class FastBody {
   void keep_out_of_missed(btSoftBody& body, btScalar time_step);
   void leave_depths();
   void stay_outside(btSoftBody& body, bool of_movable) const;
+  [[nodiscard]] bool gets_work_from_outside() const;
+  void keep_energy(btScalar time_step);
   [[nodiscard]] btVector3 motion_since_solution(const btRigidBody& rigid,
                                                 const btVector3& place) const;
 
@@ -187,6 +189,7 @@ class FastBody {
   BodySleep sleep_;
   Vector3<btScalar> origin_ = Vector3<btScalar>::Zero();  ///< that places are counted from [m]
   // Of the present step, 3 x n.
+  Matrix3X<btScalar> weights_;           ///< masses, each thrice [kg]; 0 for pins
   Matrix3X<btScalar> starts_;            ///< q [m]
   Matrix3X<btScalar> start_velocities_;  ///< v [m/s]
   Matrix3X<btScalar> predicted_;         ///< v + h a [m/s]
@@ -203,6 +206,8 @@ class FastBody {
   bool is_predicted_ = false;
   bool has_normals_ = false;         ///< of the places at the end of the present step
   bool is_placed_ = false;           ///< before end_solve()
+  bool is_projected_ = false;        ///< out of what the solution let a node into
+  double excess_ = 0;                ///< energy in springs that projections have put in [J]
   bool is_contact_missing_ = false;  ///< in the present solution, for all that is known
   bool is_support_missing_ = false;  ///< likewise
   std::vector<Obstacle> obstacles_;  ///< of this step

@@ -92,6 +92,7 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
 // What the last solution needs too: nodes that slide from one facet into the next.
 void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
   if (!is_unfinished()) return;
+  is_projected_ = true;
   const std::size_t num_solved = contacts_.size();
   for (int look = 0; look <= kMostLooks && find_missed_contacts(body, time_step); ++look) {
     for (const RigidContact& contact : contacts_) {
@@ -111,6 +112,7 @@ void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
 // A node is held by one plane at a time; where facets meet, that of one may let it into another. Where the step
 // began it was outside.
 void FastBody::leave_depths() {
+  is_projected_ = is_projected_ || !deep_.empty();
   for (const RigidContact& contact : deep_) {
     const Vector3<btScalar> normal = from_bullet<btScalar>(contact.normal);
     const Vector3<btScalar> start =

@@ -1,10 +1,13 @@
 // What keeps a step from gaining energy or momentum, however badly it has converged.
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 
 #include <weft/fast_solver/implicit_solver.hpp>
 
 namespace weft::fast {
 namespace {
+int g_desc=0; struct P{~P(){ if(getenv("DBG")) fprintf(stderr,"descends %d\n",g_desc);} } g_p;
 
 /// Of a step that is taken at least.
 constexpr double kSmallestShare = 0.1;
@@ -12,6 +15,9 @@ constexpr double kSmallestShare = 0.1;
 constexpr double kRoundingShare = 0.01;
 /// Rounds of a step that the budget has left with more energy than it began with.
 constexpr int kSafeRounds = 8;
+constexpr int kHalvings = 6;
+/// Of the energy of the motion without springs: more than it began with by so much has gone astray, and is begun anew.
+constexpr double kFarUp = 10;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -106,23 +112,42 @@ void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
   }
 }
 
-// The exact solution has no more of the energy that it minimises than the places at the start. One that the budget has ended
-// too early for is iterated on, with a linearisation that no spring can exceed: each round takes energy away, however badly
-// its linear system is solved (as the global step of Bouaziz et al. 2014). It is never drawn back towards the start, which
-// would stop the motion.
+// The exact solution has no more of the energy that it minimises than the places at the start. One that has is iterated on,
+// with a linearisation that no spring can exceed: each round takes energy away, however badly its linear system is solved (as
+// the global step of Bouaziz et al. 2014). Contacts that come and go may spoil that: the last resort is a line search from the
+// start.
 template <class Scalar>
 void ImplicitSolver<Scalar>::descend(const StepProblem<Scalar>& problem, int iterations) {
   stay_at_start(problem);
-  const double most = energy(problem, unmoved_, &Body::unmoved) + kRoundingShare * step_energy_;
-  if (energy(problem, places_, &Body::motion) <= most) return;
+  const double slack = kRoundingShare * step_energy_;
+  const double most = energy(problem, unmoved_, &Body::unmoved) + slack;
+  const double reached = energy(problem, places_, &Body::motion);
+  if (reached <= most) return;
+  if (getenv("DBG")) fprintf(stderr, "desc excess/step %.3g excess %.3g conv %d held %zu\n", (reached-most+slack)/step_energy_, reached-most+slack, is_converged_, held_.size());
+  const auto goes_up = [&] { return !(energy(problem, places_, &Body::motion) <= most); };
+  if (!(reached <= most + kFarUp * step_energy_)) go_back();
   forces_.set_least_across(1);
   evaluate();
   for (int round = 0; round < kSafeRounds; ++round) {
     do_round(problem, {.iterations = iterations, .factorises = true});
-    if (energy(problem, places_, &Body::motion) <= most) break;
+    if (!goes_up()) break;
   }
   forces_.set_least_across(0);
+  for (int halving = 0; goes_up(); ++halving) {
+    if (halving == kHalvings) {
+      go_back();
+      break;
+    }
+    places_ = Scalar(0.5) * (places_ + unmoved_);
+    for (Body& body : bodies_) body.motion = Scalar(0.5) * (body.motion + body.unmoved);
+  }
   evaluate();
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::go_back() {
+  places_ = unmoved_;
+  for (Body& body : bodies_) body.motion = body.unmoved;
 }
 
 // What conjugate gradients have left over would push the cloth, and the bodies that hang on it, as a whole.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 #include <weft/fast_solver/implicit_solver.hpp>
 
@@ -25,6 +26,7 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bool is_first) {
   const bool can_hold =
       !problem.contacts.empty() || !problem.led.empty() || !problem.bodies.empty();
+  have_holds_changed_ = false;
   if (!can_hold && held_.empty()) return;
   held_before_.swap(holds_);
   std::fill(holds_.begin(), holds_.end(), Hold::kFree);
@@ -73,6 +75,7 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bo
   }
   list_held();
   release_bodies();
+  have_holds_changed_ = holds_ != held_before_;
 }
 
 // Most nodes are free: eight are looked at together.
@@ -110,13 +113,27 @@ void ImplicitSolver<Scalar>::decide_hold(const PlaneContact<Scalar>& contact, bo
       at_node(places_, i) - at_node(starts_, i) - contact.motion - with_body;
   Vector3<Scalar> tendency = at_node(unbalanced_, i) + inertia * slip;
   tendency -= normal.dot(tendency) * normal;
-  const Scalar most = contact.friction * std::max(Scalar(0), pressure);
+  const Scalar friction = contact.friction;
+  const Scalar most = friction * std::max(Scalar(0), pressure);
   const Scalar size = tendency.norm();
-  const bool sticks = size <= most;
+  // A node that slides, or that a plane has only now been found for, would be drawn back to where the step began: not by what
+  // may be rounding.
+  const bool did_stick = held_before_[at(i)] == Hold::kFixed;
+  const Scalar doubt = is_first || did_stick ? Scalar(0) : friction * rounding_of_force(i);
+  const bool sticks = size <= most - doubt;
   holds_[at(i)] = sticks ? Hold::kFixed : Hold::kOnPlane;
   normals_.col(i) = normal.template cast<float>();
   friction_.col(i).setZero();
   if (!sticks) friction_.col(i) = (-(most / size) * tendency).template cast<float>();
+}
+
+// What the rounding of places makes of the forces of stiff springs [N].
+template <class Scalar>
+Scalar ImplicitSolver<Scalar>::rounding_of_force(int node) const {
+  constexpr Scalar kRoundings = 8;
+  const Scalar stiffness = Scalar(forces_.diagonal_blocks().row(node).template head<3>().maxCoeff());
+  return kRoundings * std::numeric_limits<Scalar>::epsilon() * stiffness *
+         at_node(places_, node).cwiseAbs().maxCoeff();
 }
 
 // How far what pushes a node would move it along a normal, if its neighbours stood still [m]. Without springs would
@@ -146,6 +163,7 @@ void ImplicitSolver<Scalar>::project(NodeRange nodes, Floats& vectors) const {
 // Planes that no round has met, and those of a node on several.
 template <class Scalar>
 void ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
+  was_clamped_ = false;
   const auto is_linked = [&](int node) {
     const int contact = contact_of_[at(node)];
     if (contact >= 0) return problem.contacts[at(contact)].body >= 0;
@@ -160,6 +178,7 @@ void ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
     const Scalar gap = contact.normal.dot(at_node(places_, i)) - contact.offset;
     if (!(gap < 0) || is_linked(i)) continue;
     places_.row(i) -= gap * contact.normal.transpose();
+    was_clamped_ = true;
     if (holds_[at(i)] != Hold::kFree) continue;
     step_.row(i) -= (gap * contact.normal).transpose().template cast<float>();
     holds_[at(i)] = Hold::kOnPlane;

@@ -51,7 +51,7 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
     holds->assign(static_cast<std::size_t>(num_rows), Hold::kFree);
   }
   for (Nodes* vectors :
-       {&targets_, &starts_, &places_, &unbalanced_, &holding_forces_, &unmoved_, &remainders_}) {
+       {&targets_, &starts_, &places_, &unbalanced_, &holding_forces_, &unmoved_, &last_places_, &remainders_}) {
     vectors->setZero(num_rows, 3);
   }
   for (Matrix3X<Scalar>* vectors : {&more_places_, &more_forces_}) vectors->setZero(3, n);

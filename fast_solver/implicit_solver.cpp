@@ -22,6 +22,8 @@ constexpr double kLinkedResidual = 0.02;
 /// An iteration that gains no more than this share of what its round has gained is the last of that round: with short steps
 /// inertia outweighs springs.
 constexpr double kLastGain = 1e-4;
+/// Of a correction's curvature, what is left of it across the direction before: less is rounding.
+constexpr float kLeastCurvature = 1e-4F;
 /// Iterations whose gains together tell what is left to gain, and the share of the whole that may be left.
 constexpr int kGainDelay = 4;
 constexpr double kForcing = 0.1;
@@ -32,9 +34,21 @@ std::size_t at(int i) {
 
 /// Rounds after which the coarse correction is made anew, for the linearisation as it is then.
 constexpr int kRoundsPerFactor = 4;
+/// How often in a step contacts are decided: in its first rounds, where most of them are found out, and of a solution.
+constexpr int kFirstDecisions = 2;
+constexpr int kMostDecisions = 8;
 /// How much a round's gain is of that of the one before: assumed of the first, and at most.
 constexpr double kFirstShrink = 0.1;
 constexpr double kSlowest = 0.9;
+/// From this share of the gain of the round before on, so many times, a round gains rounding only.
+constexpr double kStalled = 0.9;
+constexpr int kMostStalled = 3;
+/// Least stiffness across a spring over that along it, after a round that has gained energy, and how it grows if that was not
+/// enough: with 1 no round gains any.
+constexpr double kFirstAcross = 0.02;
+constexpr double kMoreAcross = 7;
+/// Of an energy.
+constexpr double kEnergyRounding = 2e-7;
 /// Of the gain that is asked for: what a single iteration may leave.
 constexpr double kLastShare = 0.02;
 
@@ -259,10 +273,16 @@ typename ImplicitSolver<Scalar>::LinearGain ImplicitSolver<Scalar>::solve_linear
     const Overlaps overlaps = precondition(corrections_[at(directions_.count())], k == 0);
     // The residual has nothing of the last direction any more.
     const float gain = overlaps.by_residual;
-    if (!(gain > 0)) break;
+    if (!(gain > 0)) {
+      sum.is_broken = !(gain == 0);
+      break;
+    }
     const float share = overlaps.by_direction / curvature;
     curvature = overlaps.by_product - share * overlaps.by_direction;
-    if (!(curvature > 0)) break;
+    if (!(curvature > kLeastCurvature * overlaps.by_product)) {
+      sum.is_broken = k == 0;
+      break;
+    }
     const float length = gain / curvature;
     directions_.add(share, length);
     for (Body& body : bodies_) {
@@ -325,7 +345,11 @@ void ImplicitSolver<Scalar>::move() {
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem, const Round& round) {
-  decide_holds(problem, round.is_first);
+  if (round.decides) {
+    decide_holds(problem, round.is_first);
+  } else {
+    list_held();
+  }
   if (round.is_first || round.factorises) {
     const Scalar squared_step = problem.inertia_step * problem.inertia_step;
     forces_.factorise(coarse_correction_, holds_, static_cast<float>(1 / squared_step), *team_);
@@ -357,6 +381,76 @@ double ImplicitSolver<Scalar>::left_over() {
   return std::sqrt(std::max(0.0, sum));
 }
 
+// Newton's method until what is left to gain is less than asked for, or no more than rounding.
+template <class Scalar>
+void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
+                                     const SolverEffort& effort) {
+  const bool has_contacts = !problem.contacts.empty();
+  const double asked = 2 * effort.tolerance * effort.tolerance * step_energy_;
+  double before = 0;
+  double energy_before = 0;
+  double across = 0;
+  int num_stalled = 0;
+  int num_decisions = 0;
+  bool decides = true;
+  is_converged_ = false;
+  for (int round = 0; round < effort.rounds && !is_converged_; ++round) {
+    remember_places();
+    do_round(problem, {.iterations = effort.iterations,
+                       .is_first = round == 0,
+                       .decides = decides,
+                       .factorises = round % kRoundsPerFactor == 0,
+                       .least_gain = kLastShare * asked});
+    if (decides) ++num_decisions;
+    const bool are_holds_new = decides && (round == 0 || have_holds_changed_);
+    const double now = energy(problem, places_, &Body::motion);
+    if (!are_holds_new && !(now <= energy_before * (1 + kEnergyRounding) + asked)) {
+      if (across == 1) {
+        recall_places();
+        break;  // rounding
+      }
+      across = std::min(1.0, std::max(kFirstAcross, kMoreAcross * across));
+      forces_.set_least_across(static_cast<Scalar>(across));
+      recall_places();
+      decides = false;
+      continue;
+    }
+    energy_before = now;
+    across = across > kFirstAcross ? across / kMoreAcross : 0.0;
+    forces_.set_least_across(static_cast<Scalar>(across));
+    const double shrinks = before > 0 ? last_gain_.total / before : kFirstShrink;
+    const double limited = std::min(kSlowest, shrinks);
+    const double left = last_gain_.left + last_gain_.total * limited / (1 - limited);
+    num_stalled = !are_holds_new && !(shrinks < kStalled) ? num_stalled + 1 : 0;
+    const bool is_solved = left <= asked && !last_gain_.is_broken;
+    const bool is_over = is_solved || num_stalled == kMostStalled;
+    // With these contacts. Whether they are the right ones is asked of a solution: on the way there forces say little.
+    const bool can_decide = has_contacts && num_decisions < kMostDecisions;
+    is_converged_ = is_solved && (!has_contacts || (decides && !are_holds_new) || !can_decide);
+    if (is_over && !is_converged_ && !can_decide) break;
+    decides = can_decide && (round < kFirstDecisions || is_over);
+    if (decides) num_stalled = 0;
+    before = last_gain_.total;
+  }
+  forces_.set_least_across(0);
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::remember_places() {
+  for_each_part([this](NodeRange nodes) {
+    const int count = nodes.end - nodes.begin;
+    last_places_.middleRows(nodes.begin, count) = places_.middleRows(nodes.begin, count);
+  });
+  for (Body& body : bodies_) body.last_motion = body.motion;
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::recall_places() {
+  places_ = last_places_;
+  for (Body& body : bodies_) body.motion = body.last_motion;
+  evaluate();
+}
+
 template <class Scalar>
 void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const SolverEffort& effort,
                                    Matrix3XRef<Scalar> places, ThreadTeam& team) {
@@ -366,26 +460,13 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const Sol
   load(problem, places);
   evaluate();
   const double first = std::sqrt(unbalanced_squares_);
-  const double asked = 2 * effort.tolerance * effort.tolerance * step_energy_;
-  double before = 0;
-  is_converged_ = false;
-  for (int round = 0; round < effort.rounds && !is_converged_; ++round) {
-    do_round(problem, {.iterations = effort.iterations,
-                       .is_first = round == 0,
-                       .factorises = round % kRoundsPerFactor == 0,
-                       .least_gain = kLastShare * asked});
-    const double shrinks =
-        before > 0 ? std::min(kSlowest, last_gain_.total / before) : kFirstShrink;
-    const double left = last_gain_.left + last_gain_.total * shrinks / (1 - shrinks);
-    is_converged_ = left <= asked;
-    before = last_gain_.total;
-  }
+  iterate(problem, effort);
   for (int extra = 0; !links_.empty() && extra < kLinkedRounds; ++extra) {
     find_holding_forces();
     if (left_over() <= kLinkedResidual * first) break;
     do_round(problem, {.iterations = effort.iterations});
   }
-  if (!is_converged_) descend(problem, effort.iterations);
+  if (!is_converged_ || !held_.empty()) descend(problem, effort.iterations);
   find_holding_forces();
   residual_ = first > 0 ? left_over() / first : 0.0;
   const std::optional<Vector3<Scalar>> shift = find_balance(problem);
@@ -422,6 +503,16 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::add_remainders(int first_node, Matrix3XRef<Scalar> ways) const {
   for (Eigen::Index i = 0; i < ways.cols(); ++i)
     ways.col(i) += at_node(remainders_, first_node + i);
+}
+
+template <class Scalar>
+double ImplicitSolver<Scalar>::spring_energy(ConstMatrix3XRef<Scalar> places, ThreadTeam& team) {
+  team_ = &team;
+  for_each_part([&](NodeRange nodes) { to_arrays<Scalar>(places, nodes, unmoved_); });
+  const double energy =
+      sum_over_parts([&](NodeRange nodes) { return forces_.potential(nodes, unmoved_); });
+  team_ = nullptr;
+  return energy;
 }
 
 template class ImplicitSolver<float>;

@@ -79,6 +79,10 @@ class ImplicitSolver {
   }
   /// After solve(): m |y - q|^2 / (2 h'^2), the energy of the motion without springs [J].
   [[nodiscard]] double step_energy() const { return step_energy_; }
+  /// What springs store at places, and what dampers take away on the way there from the start of the step [J].
+  [[nodiscard]] double spring_energy(ConstMatrix3XRef<Scalar> places, ThreadTeam& team);
+  /// After solve(): whether a node was put in front of a plane that the last linear system did not know.
+  [[nodiscard]] bool was_clamped() const { return was_clamped_; }
   /// After solve(): whether it ended by its tolerance, and not by its budget of rounds.
   [[nodiscard]] bool is_converged() const { return is_converged_; }
   /// After solve(): root mean square of the unbalanced forces over that of the step's first guess [-].
@@ -122,6 +126,7 @@ class ImplicitSolver {
   void decide_holds(const StepProblem<Scalar>& problem, bool is_first);
   void decide_hold(const PlaneContact<Scalar>& contact, bool is_first);
   void list_held();
+  [[nodiscard]] Scalar rounding_of_force(int node) const;
   [[nodiscard]] Scalar first_push(int node, const Vector3<Scalar>& normal) const;
   void project(NodeRange nodes, Floats& vectors) const;
   void smooth(NodeRange nodes, Floats& correction);
@@ -155,6 +160,7 @@ class ImplicitSolver {
   struct LinearGain {
     double total = 0;
     double left = 0;
+    bool is_broken = false;  ///< by rounding, before anything was found out
   };
   [[nodiscard]] LinearGain solve_linear(const StepProblem<Scalar>& problem, int iterations,
                                         double least_gain);
@@ -167,11 +173,15 @@ class ImplicitSolver {
   struct Round {
     int iterations;
     bool is_first = false;    ///< of a step
+    bool decides = true;      ///< how contacts hold nodes
     bool linearises = true;   ///< for another round
     bool factorises = false;  ///< makes the coarse correction anew
     double least_gain = 0;    ///< of an iteration that another one follows [J]
   };
   void do_round(const StepProblem<Scalar>& problem, const Round& round);
+  void iterate(const StepProblem<Scalar>& problem, const SolverEffort& effort);
+  void remember_places();
+  void recall_places();
   /// What an implicit step minimises [J].
   [[nodiscard]] double energy(const StepProblem<Scalar>& problem, const Nodes& places,
                               Vector6 Body::*motion);
@@ -181,6 +191,7 @@ class ImplicitSolver {
                                        Vector6 Body::*motion) const;
   void stay_at_start(const StepProblem<Scalar>& problem);
   void descend(const StepProblem<Scalar>& problem, int iterations);
+  void go_back();
   /// Only part of the last step, if it went too far; evaluate() is due then. num_held: of the linear system, not of clamp().
   bool hold_back(double work_before, std::size_t num_held);
   void move_bodies(Scalar share);
@@ -218,6 +229,7 @@ class ImplicitSolver {
   Nodes holding_forces_;
   Nodes remainders_;
   Nodes unmoved_;
+  Nodes last_places_;  ///< of the round before
   Matrix3X<Scalar> more_places_;  ///< as StepForces take them
   Matrix3X<Scalar> more_forces_;
   std::vector<Hold> holds_;        ///< of each node, filled up
@@ -239,6 +251,8 @@ class ImplicitSolver {
   bool is_converged_ = false;  ///< the last step, to its tolerance
   double step_energy_ = 0;
   bool has_holding_forces_ = false;
+  bool was_clamped_ = false;
+  bool have_holds_changed_ = false;  ///< in the last round
 };
 
 extern template class ImplicitSolver<float>;

@@ -107,7 +107,7 @@ TEST(ImplicitSolver, SolvesTheEquationsThatADenseNewtonMethodSolves) {
   const Matrix3X<double> expected = dense_solution(network, mesh.masses, is_free, q, y);
   ImplicitSolver<double> solver(network, mesh.masses, is_free);
   Matrix3X<double> x = q + kTimeStep * v;
-  solver.solve({y, q, kTimeStep, kTimeStep}, {20, 20}, x);
+  solver.solve({y, q, kTimeStep, kTimeStep}, {20, 20, 0.0}, x);
   const double moved = (expected - q).norm();
   EXPECT_GT(moved, 0.05);
   // The places are in double precision, whatever the corrections are in.
