@@ -50,7 +50,7 @@ Vector3<double> velocity(Dice& dice) {
   return dice.magnitude(0.01, 10, 1e-3, 1e5) * dice.direction();
 }
 
-ClothSource source(Dice& dice, std::string_view /*engine*/, const Vector3<double>& center) {
+ClothSource source(Dice& dice, const Vector3<double>& center) {
   const MassLumping lumping = dice.chance(0.5) ? MassLumping::kArea : MassLumping::kUniform;
   switch (dice.below(5)) {
     case 0: {
@@ -134,8 +134,8 @@ bool is_possible(const forces::LawInfo& info, const ClothSource& source, std::st
 Cloth cloth(Dice& dice, std::string_view engine, int number) {
   Cloth result;
   result.name = "cloth_" + std::to_string(number);
-  result.source = source(
-      dice, engine, {dice.uniform(-0.2, 0.2), dice.uniform(0.0, 1.0), dice.uniform(-0.2, 0.2)});
+  result.source =
+      source(dice, {dice.uniform(-0.2, 0.2), dice.uniform(0.0, 1.0), dice.uniform(-0.2, 0.2)});
   const int nodes = num_nodes(result.source);
   result.velocity = velocity(dice);
   if (dice.chance(0.3)) result.pins.push_back(NodePin{{dice.below(nodes)}});
