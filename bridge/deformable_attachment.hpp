@@ -51,6 +51,9 @@ struct DeformableAttachment {
   void add_effective_mass(btScalar time_step);
   /// Speed [m/s] to which Bullet's explicit step clamps: the diagonal of the body's bounds per step.
   [[nodiscard]] double clamp_speed(btScalar time_step) const;
+  /// The first node that a step of time_step [s] at its velocity takes beyond what the distance field
+  /// of the world covers: a billion voxels from the origin.
+  [[nodiscard]] std::optional<BodyBlowUp> beyond_distance_field(btScalar time_step) const;
   /// Reports, stops the body and takes it out of the simulation.
   void explode(int node, std::string reason);
 

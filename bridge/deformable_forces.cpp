@@ -133,6 +133,18 @@ void DeformableForces::reinitialize(bool /*nodes_updated*/) {
   }
 }
 
+void DeformableForces::find_explosions(btScalar time_step) {
+  for (const auto& attachment : attachments_) {
+    if (!takes_part(*attachment)) continue;
+    attachment->read(&btSoftBody::Node::m_x);
+    attachment->no_velocities.setZero(3, attachment->positions.cols());
+    auto found = predicted_blow_up(*attachment->body, attachment->velocities,
+                                   attachment->no_velocities, time_step, kBlowUpSpeed);
+    if (!found) found = attachment->beyond_distance_field(time_step);
+    if (found) attachment->explode(found->node, std::move(found->reason));
+  }
+}
+
 void DeformableForces::addScaledExplicitForce(btScalar scale, Stack& force) {
   for (const auto& attachment : attachments_) {
     if (!takes_part(*attachment)) continue;

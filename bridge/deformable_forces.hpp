@@ -71,6 +71,11 @@ class DeformableForces : public btDeformableLagrangianForce {
   /// Bullet's own solver the time of laws with moving targets (drive) stands still otherwise.
   void advance_time(double time_step);
 
+  /// Finds bodies that the prediction of a step of time_step [s] has made explode, before contact
+  /// looks at where they would be: Bullet's distance field counts its cells in int, and reads beyond
+  /// a cell where the count overflows. DeformableSolver does it in every implicit step.
+  void find_explosions(btScalar time_step);
+
   void addScaledExplicitForce(btScalar scale, TVStack& force) override;
   void addScaledDampingForce(btScalar scale, TVStack& force) override;
   void addScaledForces(btScalar scale, TVStack& force) override;

@@ -124,6 +124,7 @@ void DeformableSolver::applyExplicitForce() {
   for (int f = 0; f < m_objective->m_lf.size(); ++f) m_objective->m_lf[f]->addScaledHessian(m_dt);
   add_gravity();
   apply_predicting_impulses();
+  forces_.find_explosions(m_dt);
 }
 
 void DeformableSolver::applyTransforms(btScalar time_step) {

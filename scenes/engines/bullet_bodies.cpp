@@ -8,6 +8,7 @@
 #include <weft/bridge/pinned_nodes.hpp>
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/scenes/characters/start_state.hpp>
+#include <weft/scenes/engines/blow_up_check.hpp>
 #include <weft/scenes/engines/bullet_shapes.hpp>
 
 namespace weft::scenes {
@@ -91,6 +92,21 @@ void BulletBodies::begin_step(const Steering* steering, double time_step) {
       lead_collider(*pose, rigid_offsets_[r], *rigids_[r]);
     push_collider(steering->pushes[r], rigid_offsets_[r], *rigids_[r]);
   }
+}
+
+std::optional<BlowUp> BulletBodies::predicted_blow_up(int step, double time,
+                                                      double time_step) const {
+  for (std::size_t r = 0; r < rigids_.size(); ++r) {
+    const btRigidBody& body = *rigids_[r];
+    if (body.isStaticOrKinematicObject()) continue;
+    const auto h = static_cast<btScalar>(time_step);
+    const btVector3 acceleration = body.getTotalForce() * body.getInvMass() + body.getGravity();
+    const btVector3 spin = body.getInvInertiaTensorWorld() * body.getTotalTorque();
+    const auto fault = fault_of_motion(from_bullet(body.getLinearVelocity() + h * acceleration),
+                                       from_bullet(body.getAngularVelocity() + h * spin));
+    if (fault) return BlowUp{step, time, state_.rigids[r].name, 0, *fault};
+  }
+  return std::nullopt;
 }
 
 void BulletBodies::end_step(const Steering* steering, double time_step) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,10 @@ class BulletBodies {
   /// led, and the forces of controllers are added. steering may be nullptr. time_step [s] is that
   /// which Bullet takes.
   void begin_step(const Steering* steering, double time_step);
+  /// After begin_step(): the first rigid body that its forces are about to make explode, with step and
+  /// time [s] of the report. Bullet's contact stage is not for such velocities.
+  [[nodiscard]] std::optional<BlowUp> predicted_blow_up(int step, double time,
+                                                        double time_step) const;
   /// After the step: puts what was led exactly where it shall be.
   void end_step(const Steering* steering, double time_step);
   /// Reads all positions and velocities from Bullet; time is [s].

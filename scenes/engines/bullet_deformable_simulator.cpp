@@ -29,11 +29,13 @@ class DeformableSimulator final : public Simulator {
   std::unique_ptr<bridge::DeformableWorld> world_;
   BulletBodies bodies_;
   StepReport report_;
+  double reach_ = 0.0;  // [m] from the origin
 };
 
 void DeformableSimulator::load(const Scene& scene) {
   bodies_ = {};
   report_ = {};
+  reach_ = distance_field_reach(scene);
   world_ = std::make_unique<bridge::DeformableWorld>(
       bridge::DeformableWorldSettings{.gravity = scene.world.gravity,
                                       .scheme = scheme_,
@@ -80,14 +82,16 @@ std::optional<BlowUp> DeformableSimulator::find_blow_up() const {
       return BlowUp{report_.step, report_.time, state().cloths[c].name, found->node, found->reason};
     }
   }
-  return first_blow_up(state(), report_.step, report_.time);
+  return first_blow_up(state(), report_.step, report_.time, reach_);
 }
 
 StepReport DeformableSimulator::step(double time_step) {
   if (report_.blow_up) return report_;
-  world_->step(time_step);
   report_.time_step = static_cast<double>(static_cast<btScalar>(time_step));
   report_.step += 1;
+  if (report_.step == 1) report_.blow_up = first_blow_up(state(), 1, 0.0, reach_);
+  if (report_.blow_up) return report_;
+  world_->step(time_step);
   report_.time += report_.time_step;
   report_.num_contacts = 0;
   for (const btSoftBody* cloth : bodies_.cloths()) {

@@ -38,7 +38,12 @@ constexpr double kCapsuleVoxelRatio = 0.125;
 constexpr double kMeshVoxelRatio = 0.25;
 /// A height field's prisms are few and deep: a finer field costs little.
 constexpr double kFieldVoxelRatio = 0.15;
-constexpr double kLargestVoxel = 0.25;  ///< [m] Bullet's default
+constexpr double kLargestVoxel = 0.25;   ///< [m] Bullet's default
+constexpr double kSmallestVoxel = 1e-6;  ///< [m]
+/// Voxel edge as a fraction of the largest collider, at least: about what single precision resolves.
+constexpr double kSmallestVoxelRatio = 1e-7;
+/// Bullet counts cells of four voxels in int; the rest leaves room for the collider's own place.
+constexpr double kMaxVoxels = 1e9;
 
 btQuaternion in_bullet(const Eigen::Quaterniond& orientation) {
   const Eigen::Quaternion<btScalar> q = orientation.cast<btScalar>();
@@ -75,6 +80,26 @@ struct Voxel {
   template <class Convex>
   double operator()(const Convex& s) const {
     return kVoxelRatio * SmallestHalfExtent{}(s);
+  }
+};
+
+/// Distance of the farthest point from the origin, roughly [m].
+struct LargestExtent {
+  double operator()(const SphereShape& s) const { return s.radius; }
+  double operator()(const BoxShape& s) const { return s.half_extents.norm(); }
+  double operator()(const PlaneShape&) const { return 2 * kPlaneHalfWidth; }
+  double operator()(const CapsuleShape& s) const { return s.radius + s.height; }
+  double operator()(const CylinderShape& s) const { return s.radius + s.height; }
+  double operator()(const ConeShape& s) const { return s.radius + s.height; }
+  double operator()(const ConvexHullShape& s) const { return s.points.cwiseAbs().maxCoeff(); }
+  double operator()(const MeshShape& s) const { return s.points.cwiseAbs().maxCoeff(); }
+  double operator()(const HeightFieldShape& s) const { return (*this)(height_field_surface(s)); }
+  double operator()(const CompoundShape& s) const {
+    double extent = 0.0;
+    for (const CompoundPart& part : s.parts) {
+      extent = std::max(extent, part.position.norm() + std::visit(*this, part.shape));
+    }
+    return extent;
   }
 };
 
@@ -206,7 +231,15 @@ double distance_field_voxel(const Scene& scene) {
   for (const Collider& collider : scene.colliders) {
     voxel = std::min(voxel, std::visit(Voxel{}, collider.shape));
   }
-  return voxel;
+  double finest = kSmallestVoxel;
+  for (const Collider& collider : scene.colliders) {
+    finest = std::max(finest, kSmallestVoxelRatio * std::visit(LargestExtent{}, collider.shape));
+  }
+  return std::max(voxel, finest);
+}
+
+double distance_field_reach(const Scene& scene) {
+  return kMaxVoxels * distance_field_voxel(scene);
 }
 
 }  // namespace weft::scenes

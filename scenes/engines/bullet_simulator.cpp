@@ -39,12 +39,14 @@ class BulletSimulator final : public Simulator {
   BulletTears tears_;
   Director director_;
   StepReport report_;
+  double reach_ = 0.0;  // [m] from the origin
 };
 
 void BulletSimulator::load(const Scene& scene) {
   bodies_ = {};
   tears_ = {};
   report_ = {};
+  reach_ = distance_field_reach(scene);
   links_time_step_ = scene.world.time_step;
   world_ = std::make_unique<bridge::SoftWorld>(
       bridge::SoftWorldSettings{scene.world.gravity, distance_field_voxel(scene)});
@@ -124,7 +126,7 @@ std::optional<BlowUp> BulletSimulator::find_blow_up() const {
       return BlowUp{report_.step, report_.time, state().cloths[c].name, found->node, found->reason};
     }
   }
-  return first_blow_up(state(), report_.step, report_.time);
+  return first_blow_up(state(), report_.step, report_.time, reach_);
 }
 
 StepReport BulletSimulator::step(double time_step) {
@@ -137,10 +139,14 @@ StepReport BulletSimulator::step(double time_step) {
   // Bullet hands its soft bodies a single-precision step in both builds.
   report_.time_step = static_cast<double>(static_cast<float>(time_step));
   report_.step += 1;
+  if (report_.step == 1) report_.blow_up = first_blow_up(state(), 1, 0.0, reach_);
+  if (report_.blow_up) return report_;
   report_.time += report_.time_step;
   const Steering* steering =
       director_.is_needed() ? &director_.steer(state(), report_.time) : nullptr;
   bodies_.begin_step(steering, report_.time_step);
+  report_.blow_up = bodies_.predicted_blow_up(report_.step, report_.time, report_.time_step);
+  if (report_.blow_up) return report_;
   if (steering) set_freedom(*steering);
   world_->step(time_step);
   bodies_.end_step(steering, report_.time_step);

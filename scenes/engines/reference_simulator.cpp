@@ -6,6 +6,7 @@
 #include <weft/custom_forces/registry.hpp>
 #include <weft/scenes/characters/start_state.hpp>
 #include <weft/scenes/controllers/director.hpp>
+#include <weft/scenes/engines/blow_up_check.hpp>
 #include <weft/scenes/engines/reference_tears.hpp>
 #include <weft/scenes/scene_words.hpp>
 #include <weft/scenes/shape_surface.hpp>
@@ -250,6 +251,8 @@ StepReport ReferenceSimulator::step(double time_step) {
   if (outcome.blow_up) {
     report_.blow_up = BlowUp{report_.step, report_.time, outcome.blow_up->body,
                              outcome.blow_up->node, outcome.blow_up->reason};
+  } else {
+    report_.blow_up = first_blow_up(state_, report_.step, report_.time);
   }
   return report_;
 }

@@ -66,7 +66,9 @@ RunSummary record_run(Simulator& simulator, const Scene& scene, RecordingWriter&
     engine += Clock::now() - start;
     ++summary.steps;
     summary.blow_up = report.blow_up;
-    if (summary.steps % frame_steps == 0 || summary.blow_up) {
+    // The last state too where the duration is no whole number of intervals.
+    const bool is_last = summary.steps == num_steps || summary.blow_up;
+    if (summary.steps % frame_steps == 0 || is_last) {
       write_frame(simulator, report.time, writer, summary);
     }
     if (progress) {

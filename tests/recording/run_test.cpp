@@ -80,6 +80,22 @@ TEST(RecordRun, WritesTheInitialStateAndThenOneFramePerInterval) {
   EXPECT_EQ(reader.frame_time(10), time);  // the engine's time, not 30 * 0.01
 }
 
+TEST(RecordRun, WritesTheLastStateWhereTheDurationIsNoWholeNumberOfIntervals) {
+  const TemporaryFolder folder;
+  Scene scene = timed_scene();
+  scene.world.duration = 0.32;  // frames after 0, 3, ... 30 steps, and 2 steps more
+  FakeSimulator simulator(kNever);
+  RecordingWriter writer(folder / "a", scene, {}, StoredPrecision::kFloat64);
+  const RunSummary summary = record_run(simulator, scene, writer, {});
+  writer.finish();
+  EXPECT_EQ(summary.steps, 32);
+  EXPECT_EQ(summary.frames, 12);
+  const RecordingReader reader(folder / "a");
+  ASSERT_EQ(reader.num_frames(), 12);
+  EXPECT_EQ(reader.frame_time(11), simulator.state().time);
+  EXPECT_EQ(reader.frame(11).cloths[0].positions, simulator.state().cloths[0].positions);
+}
+
 TEST(RecordRun, StopsAtABlowUpAndKeepsTheLastFrame) {
   const TemporaryFolder folder;
   const Scene scene = timed_scene();

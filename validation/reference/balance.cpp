@@ -1,5 +1,7 @@
 #include <weft/validation/reference/balance.hpp>
 
+#include <weft/validation/reference/rigid_motion.hpp>
+
 namespace weft::reference {
 namespace {
 
@@ -35,9 +37,8 @@ Energies energies(const System& system, double time) {
   }
   for (const Collider& collider : system.colliders) {
     if (!collider.mass) continue;
-    const Vector3<double> spin = world_inertia(collider) * collider.angular_velocity;
     sum.kinetic += 0.5 * (*collider.mass * collider.velocity.squaredNorm() +
-                          collider.angular_velocity.dot(spin));
+                          collider.angular_velocity.dot(angular_momentum(collider)));
     sum.potential -= *collider.mass * system.gravity.dot(collider.position);
   }
   return sum;
@@ -62,8 +63,7 @@ Vector3<double> angular_momentum(const System& system) {
   }
   for (const Collider& collider : system.colliders) {
     if (!collider.mass) continue;
-    sum += *collider.mass * collider.position.cross(collider.velocity) +
-           world_inertia(collider) * collider.angular_velocity;
+    sum += *collider.mass * collider.position.cross(collider.velocity) + angular_momentum(collider);
   }
   return sum;
 }

@@ -1,5 +1,7 @@
 #include <weft/validation/reference/rigid_motion.hpp>
 
+#include <weft/validation/reference/free_rotation.hpp>
+
 namespace weft::reference {
 namespace {
 
@@ -12,46 +14,47 @@ Eigen::Quaterniond rotated(const Eigen::Quaterniond& orientation,
   return (turn * orientation).normalized();
 }
 
-Matrix3<double> inverse_inertia(const Collider& collider, const Eigen::Quaterniond& orientation) {
-  const Matrix3<double> rotation = orientation.toRotationMatrix();
-  const Vector3<double> inverse = principal_inertia(collider).cwiseInverse();
-  return rotation * inverse.asDiagonal() * rotation.transpose();
-}
-
 }  // namespace
+
+Vector3<double> angular_momentum(const Collider& collider) {
+  const Eigen::Quaterniond& orientation = collider.orientation;
+  const Vector3<double> angular_velocity = orientation.conjugate() * collider.angular_velocity;
+  return orientation * principal_inertia(collider).cwiseProduct(angular_velocity);
+}
 
 RigidMotion free_motion(const Collider& collider, const Vector3<double>& gravity,
                         IntegratorKind integrator, double time_step) {
   RigidMotion motion;
   motion.mean_velocity = motion.end_velocity = collider.velocity;
-  motion.mean_angular_velocity = collider.angular_velocity;
-  if (!collider.mass) return motion;
+  if (!collider.mass) {
+    motion.mean_angular_velocity = motion.free_angular_velocity = collider.angular_velocity;
+    motion.free_orientation = rotated(collider.orientation, time_step * collider.angular_velocity);
+    return motion;
+  }
 
   motion.inverse_mass = 1.0 / *collider.mass;
-  motion.start_inverse_inertia = inverse_inertia(collider, collider.orientation);
-  motion.angular_momentum = world_inertia(collider) * collider.angular_velocity;
   motion.end_velocity += time_step * gravity;
-  switch (integrator) {
-    case IntegratorKind::kExplicitEuler:
-      break;
-    case IntegratorKind::kModifiedEuler:
-    case IntegratorKind::kImplicitEuler:
-      motion.mean_velocity = motion.end_velocity;
-      break;
-    default: {
-      motion.mean_velocity += 0.5 * time_step * gravity;
-      const Eigen::Quaterniond middle =
-          rotated(collider.orientation, 0.5 * time_step * collider.angular_velocity);
-      motion.mean_angular_velocity = inverse_inertia(collider, middle) * motion.angular_momentum;
-      break;
-    }
+  if (moves_with_end_velocity(integrator)) {
+    motion.mean_velocity = motion.end_velocity;
+  } else if (integrator != IntegratorKind::kExplicitEuler) {
+    motion.mean_velocity += 0.5 * time_step * gravity;
   }
+
+  motion.angular_momentum = angular_momentum(collider);
+  const FreeRotation rotation(principal_inertia(collider), motion.angular_momentum);
+  motion.tumbling = rotation.tumbling(collider.orientation, time_step);
+  const Eigen::Quaterniond middle = rotation.advance(collider.orientation, 0.5 * time_step);
+  motion.start_inverse_inertia = rotation.inverse_inertia(collider.orientation);
+  motion.free_angular_velocity = rotation.angular_velocity(middle);
+  motion.mean_angular_velocity = motion.free_angular_velocity;
+  motion.free_orientation = rotation.advance(middle, 0.5 * time_step);
   return motion;
 }
 
 Pose end_pose(const Collider& collider, const RigidMotion& motion, double time_step) {
   return {collider.position + time_step * motion.mean_velocity,
-          rotated(collider.orientation, time_step * motion.mean_angular_velocity)};
+          rotated(motion.free_orientation,
+                  time_step * (motion.mean_angular_velocity - motion.free_angular_velocity))};
 }
 
 void write_motion(const RigidMotion& motion, double time_step, Collider& collider) {
@@ -60,8 +63,8 @@ void write_motion(const RigidMotion& motion, double time_step, Collider& collide
   collider.orientation = pose.orientation;
   collider.velocity = motion.end_velocity;
   if (collider.mass) {
-    collider.angular_velocity =
-        inverse_inertia(collider, collider.orientation) * motion.angular_momentum;
+    collider.angular_velocity = FreeRotation(principal_inertia(collider), motion.angular_momentum)
+                                    .angular_velocity(collider.orientation);
   }
 }
 

@@ -12,8 +12,13 @@ struct RigidMotion {
   Matrix3<double> start_inverse_inertia = Matrix3<double>::Zero();  ///< world frame [1/(kg m^2)]
   Vector3<double> mean_velocity{0, 0, 0};                           ///< (X1 - X0) / h [m/s]
   Vector3<double> end_velocity{0, 0, 0};                            ///< [m/s]
-  Vector3<double> mean_angular_velocity{0, 0, 0};  ///< q1 = exp(h Omega) q0 [rad/s]
-  Vector3<double> angular_momentum{0, 0, 0};       ///< about the centre of mass [kg m^2/s]
+  /// Orientation at the end of the step without contact, and the angular velocity [rad/s] in its
+  /// middle. Contact changes mean_angular_velocity [rad/s]: q1 = exp(h (Omega - free)) q_free.
+  Eigen::Quaterniond free_orientation = Eigen::Quaterniond::Identity();
+  Vector3<double> free_angular_velocity{0, 0, 0};
+  Vector3<double> mean_angular_velocity{0, 0, 0};
+  Vector3<double> angular_momentum{0, 0, 0};  ///< about the centre of mass [kg m^2/s]
+  double tumbling = 0.0;                      ///< FreeRotation::tumbling() in the step [rad]
 };
 
 struct Pose {
@@ -21,9 +26,11 @@ struct Pose {
   Eigen::Quaterniond orientation;
 };
 
-/// Motion under gravity alone, with the same method as the cloth: the translation of each method is
-/// exact for it; the rotation is q1 = exp(h Omega) q0 with Omega at the start (Euler methods, order
-/// 1) or at the midpoint (all others, order 2; exact for a sphere).
+/// About its centre of mass, of a collider with a mass [kg m^2/s], world frame.
+[[nodiscard]] Vector3<double> angular_momentum(const Collider& collider);
+
+/// Motion under gravity alone. The translation is what the cloth's method makes of it; the rotation
+/// is FreeRotation's for every method, so that angular momentum and energy are kept.
 [[nodiscard]] RigidMotion free_motion(const Collider& collider, const Vector3<double>& gravity,
                                       IntegratorKind integrator, double time_step);
 

@@ -8,21 +8,6 @@
 #include <weft/custom_forces/core/error.hpp>
 
 namespace weft::reference {
-namespace {
-
-std::optional<std::string> fault_of(const Vector3<double>& position,
-                                    const Vector3<double>& velocity) {
-  if (!position.allFinite()) return "position is not finite";
-  if (!velocity.allFinite()) return "velocity is not finite";
-  const double speed = velocity.norm();
-  if (speed <= kBlowUpSpeed) return std::nullopt;
-  std::ostringstream reason;
-  reason.precision(3);
-  reason << "speed " << speed << " m/s is over " << kBlowUpSpeed << " m/s";
-  return reason.str();
-}
-
-}  // namespace
 
 SpringSolver::SpringSolver(System system, SolverOptions options)
     : system_(std::make_unique<System>(std::move(system))),
@@ -37,7 +22,7 @@ SpringSolver::SpringSolver(System system, SolverOptions options)
   }
   motion_.bodies.resize(system_->bodies.size());
   motion_.mean_is_end = moves_with_end_velocity(options.integrator);
-  blow_up_ = find_blow_up();
+  blow_up_ = find_blow_up(*system_);
 }
 
 StepOutcome SpringSolver::step(double time_step) {
@@ -66,7 +51,6 @@ StepOutcome SpringSolver::step(double time_step) {
 
   for (int i = 0; i < outcome.substeps && !blow_up_; ++i) {
     substep(time_ + i * substep_size, substep_size, outcome);
-    blow_up_ = find_blow_up();
   }
   time_ += time_step;
   outcome.blow_up = blow_up_;
@@ -103,10 +87,21 @@ void SpringSolver::substep(double time, double time_step, StepOutcome& outcome) 
     motion_.rigids.push_back(
         free_motion(collider, system_->gravity, options_.integrator, time_step));
   }
-  const ContactOutcome contact = contact_->resolve(*system_, motion_);
-  outcome.contact = combined(outcome.contact, contact);
-  outcome.contact.num_contacts = contact.num_contacts;
+  blow_up_ = find_non_finite_force();
+  if (!blow_up_) blow_up_ = find_exhausted();
+  if (!blow_up_) blow_up_ = find_blow_up(*system_, motion_);
+  if (!blow_up_) {
+    const ContactOutcome contact = contact_->resolve(*system_, motion_);
+    outcome.contact = combined(outcome.contact, contact);
+    outcome.contact.num_contacts = contact.num_contacts;
+    if (contact.exhausted) {
+      blow_up_ =
+          BlowUp{system_->bodies[contact.exhausted->body].name, 0, contact.exhausted->reason};
+    }
+  }
   write(time_step);
+  if (!blow_up_) blow_up_ = find_non_finite_force();
+  if (!blow_up_) blow_up_ = find_blow_up(*system_);
 }
 
 void SpringSolver::write(double time_step) {
@@ -125,20 +120,19 @@ Stability SpringSolver::stability() {
   return assess(*system_, options_.integrator);
 }
 
-std::optional<BlowUp> SpringSolver::find_blow_up() const {
-  for (const BodyDynamics& dynamics : dynamics_) {
-    const Body& body = dynamics.body();
-    if (const auto node = dynamics.first_non_finite_node()) {
-      return BlowUp{body.name, *node, "state was not finite within the step"};
-    }
-    for (int node = 0; node < body.mesh.num_nodes(); ++node) {
-      const auto fault = fault_of(body.positions.col(node), body.velocities.col(node));
-      if (fault) return BlowUp{body.name, node, *fault};
-    }
+std::optional<BlowUp> SpringSolver::find_exhausted() const {
+  for (std::size_t b = 0; b < motion_.bodies.size(); ++b) {
+    const char* reason = motion_.bodies[b].report.exhausted;
+    if (reason) return BlowUp{system_->bodies[b].name, 0, reason};
   }
-  for (const Collider& collider : system_->colliders) {
-    const auto fault = fault_of(collider.position, collider.velocity);
-    if (fault) return BlowUp{collider.name, 0, *fault};
+  return std::nullopt;
+}
+
+std::optional<BlowUp> SpringSolver::find_non_finite_force() const {
+  for (const BodyDynamics& dynamics : dynamics_) {
+    if (const auto node = dynamics.first_non_finite_node()) {
+      return BlowUp{dynamics.body().name, *node, "state was not finite within the step"};
+    }
   }
   return std::nullopt;
 }

@@ -2,10 +2,10 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <weft/custom_forces/core/position_limits.hpp>
+#include <weft/validation/reference/blow_up.hpp>
 #include <weft/validation/reference/contact/contact_model.hpp>
 #include <weft/validation/reference/integrators/integrator.hpp>
 #include <weft/validation/reference/options.hpp>
@@ -14,17 +14,6 @@
 
 namespace weft::reference {
 
-/// Where a state left the range in which numbers mean anything.
-struct BlowUp {
-  std::string body;    ///< of the cloth or the collider
-  int node = 0;        ///< of the cloth; 0 for a collider
-  std::string reason;  ///< "position is not finite", "speed 3.1e+08 m/s is over 1e+06 m/s"
-};
-
-/// Speed beyond which a state counts as blown up [m/s]: a thousand times any cloth, far below
-/// overflow.
-inline constexpr double kBlowUpSpeed = 1e6;
-
 /// What one step did.
 struct StepOutcome {
   int substeps = 1;
@@ -32,7 +21,8 @@ struct StepOutcome {
   bool is_step_stable = true;     ///< the (sub)step is below it
   IntegrationReport integration;  ///< all bodies and substeps
   ContactOutcome contact;  ///< impulses and sweeps summed over substeps, contacts of the last one
-  std::optional<BlowUp> blow_up;  ///< once set, further steps do nothing
+  /// Once set, further steps do nothing. Found before contact looks at the step, if it is there.
+  std::optional<BlowUp> blow_up;
 };
 
 /// The reference spring solver: double precision, no engine, every number of a step documented and
@@ -83,7 +73,8 @@ class SpringSolver {
  private:
   void substep(double time, double time_step, StepOutcome& outcome);
   void write(double time_step);
-  [[nodiscard]] std::optional<BlowUp> find_blow_up() const;
+  [[nodiscard]] std::optional<BlowUp> find_non_finite_force() const;
+  [[nodiscard]] std::optional<BlowUp> find_exhausted() const;
 
   std::unique_ptr<System> system_;  // on the heap: dynamics_ refer to its bodies
   SolverOptions options_;

@@ -51,7 +51,7 @@ struct Stability {
 /// stiffen.
 inline constexpr double kSubstepSafety = 0.9;
 /// More substeps than this are a mistake in the scene.
-inline constexpr int kMaxSubsteps = 100000;
+inline constexpr int kMaxSubsteps = 10000;
 
 /// Number of equal substeps of time_step [s] under a policy: 1, or for kSubstep the smallest number
 /// that keeps the safety. Throws InvalidArgument for kRefuse and a step beyond the stable one, and

@@ -24,6 +24,7 @@ ContactOutcome combined(const ContactOutcome& first, const ContactOutcome& secon
   sum.passes += second.passes;
   sum.converged = first.converged && second.converged;
   sum.num_stopped_nodes += second.num_stopped_nodes;
+  if (!sum.exhausted) sum.exhausted = second.exhausted;
   sum.normal_impulse += second.normal_impulse;
   return sum;
 }

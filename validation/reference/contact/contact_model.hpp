@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <weft/validation/reference/integrators/integrator.hpp>
@@ -18,6 +20,12 @@ struct SystemStep {
   std::vector<RigidMotion> rigids;              ///< as System::colliders
 };
 
+/// A budget of work that a step has used up (contact/search_budget.hpp).
+struct Exhausted {
+  std::size_t body = 0;  ///< index in System::bodies
+  std::string reason;    ///< "the contact search found 31 candidate pairs, more than ..."
+};
+
 struct ContactOutcome {
   int num_contacts = 0;   ///< pairs of node and collider that exchanged an impulse
   int sweeps = 0;         ///< Gauss-Seidel sweeps in all
@@ -27,6 +35,8 @@ struct ContactOutcome {
   /// result that shall count.
   int num_stopped_nodes = 0;
   double normal_impulse = 0.0;  ///< sum over the contacts of the step [N s]
+  /// The search for contacts ended before it was done: the step means nothing.
+  std::optional<Exhausted> exhausted = std::nullopt;
 };
 
 /// Two contact outcomes, one after the other, as one; the larger number of contacts counts.

@@ -223,16 +223,24 @@ ContactOutcome run_position_stage(const System& system, const PositionStage& opt
     ++passes;
     sweeps += report.sweeps;
     converged = report.converged;
+    if (pairs.is_needed()) {
+      pairs.count_visits(static_cast<std::int64_t>(report.sweeps) *
+                         static_cast<std::int64_t>(stage.problem.contacts.size()));
+      if (pairs.exhausted()) break;
+    }
     changed = look(passes >= kSmoothPasses);
   }
   ContactOutcome outcome = outcome_of(stage.problem);
   outcome.passes = passes;
   outcome.sweeps = sweeps;
   outcome.converged = converged && !changed;
+  outcome.exhausted = pairs.exhausted();
+  if (outcome.exhausted) return outcome;
   write_position_stage(stage.problem, options, step);
   faces.collect(stage.problem, touches.faces);
   pairs.collect(stage.problem, touches.pairs);
   if (pairs.is_needed()) outcome.num_stopped_nodes = pairs.stop_crossings(system, step);
+  outcome.exhausted = pairs.exhausted();
   return outcome;
 }
 

@@ -10,7 +10,8 @@ Nearest nearest(PairKind kind, const FourPoints& points) {
 }
 
 std::optional<double> first_approach(PairKind kind, const FourPoints& start,
-                                     const FourPoints& motion, double distance) {
+                                     const FourPoints& motion, double distance,
+                                     std::int64_t* num_distances) {
   // Common motion changes no distance; without it the bound is tighter.
   const FourPoints own = motion.colwise() - motion.rowwise().mean();
   const int split = kind == PairKind::kPointTriangle ? 1 : 2;
@@ -23,6 +24,7 @@ std::optional<double> first_approach(PairKind kind, const FourPoints& start,
   constexpr int kMaxAdvances = 2000;  // a pair that creeps along at this distance counts as near
   double part = 0.0;
   for (int advance = 0; advance < kMaxAdvances; ++advance) {
+    if (num_distances) ++*num_distances;
     const double now = nearest(kind, start + part * motion).distance();
     if (!(now > distance)) return part;
     if (!(speed > 0.0)) return std::nullopt;

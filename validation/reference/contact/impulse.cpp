@@ -8,7 +8,7 @@ class ImpulseContact final : public ContactModel {
   [[nodiscard]] ContactOutcome resolve(const System& system, SystemStep& step) const override {
     Touches touches;
     const ContactOutcome landing = run_position_stage(system, {}, step, touches);
-    if (step.mean_is_end) return landing;
+    if (step.mean_is_end || landing.exhausted) return landing;
     return combined(landing, run_velocity_stage(system, /*friction=*/true, touches, step));
   }
 };

@@ -9,6 +9,7 @@ class ProjectionContact final : public ContactModel {
     Touches touches;
     ContactOutcome shift = run_position_stage(
         system, {.friction = false, .change_end_velocity = false}, step, touches);
+    if (shift.exhausted) return shift;
     shift.normal_impulse = 0.0;  // the shift of positions carries no momentum
     return combined(shift, run_velocity_stage(system, /*friction=*/false, touches, step));
   }

@@ -83,6 +83,7 @@ SelfContacts::SelfContacts(const System& system) {
     }
     edges_.insert(edges_.end(), edges.begin(), edges.end());
   }
+  budget_ = search_budget(nodes_.size() + edges_.size() + triangles_.size());
 }
 
 bool SelfContacts::may_meet(int first, int second) const {
@@ -92,19 +93,22 @@ bool SelfContacts::may_meet(int first, int second) const {
 }
 
 std::vector<SelfContacts::Candidate> SelfContacts::candidates(const Matrix3X<double>& start,
-                                                              const Matrix3X<double>& end) const {
+                                                              const Matrix3X<double>& end) {
   const double margin = 0.5 * largest_thickness_;
   std::vector<std::array<int, 1>> points(nodes_.size());
   for (std::size_t n = 0; n < nodes_.size(); ++n) points[n] = {static_cast<int>(n)};
   std::vector<Candidate> found;
-  overlaps(
-      swept(points, start, end, margin), swept(triangles_, start, end, margin),
-      [&](int node, int triangle) {
-        const auto& corners = triangles_[static_cast<std::size_t>(triangle)];
-        if (std::find(corners.begin(), corners.end(), node) != corners.end()) return;
-        if (!may_meet(node, corners[0])) return;
-        found.push_back({PairKind::kPointTriangle, {node, corners[0], corners[1], corners[2]}});
-      });
+  std::int64_t num_found = 0;
+  const auto keep = [&](const Candidate& candidate) {
+    if (++num_found <= budget_.pairs) found.push_back(candidate);
+  };
+  overlaps(swept(points, start, end, margin), swept(triangles_, start, end, margin),
+           [&](int node, int triangle) {
+             const auto& corners = triangles_[static_cast<std::size_t>(triangle)];
+             if (std::find(corners.begin(), corners.end(), node) != corners.end()) return;
+             if (!may_meet(node, corners[0])) return;
+             keep({PairKind::kPointTriangle, {node, corners[0], corners[1], corners[2]}});
+           });
   const std::vector<Swept> edges = swept(edges_, start, end, margin);
   overlaps(edges, edges, [&](int first, int second) {
     if (first >= second) return;
@@ -112,9 +116,22 @@ std::vector<SelfContacts::Candidate> SelfContacts::candidates(const Matrix3X<dou
     const auto& b = edges_[static_cast<std::size_t>(second)];
     if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) return;
     if (!may_meet(a[0], b[0])) return;
-    found.push_back({PairKind::kEdges, {a[0], a[1], b[0], b[1]}});
+    keep({PairKind::kEdges, {a[0], a[1], b[0], b[1]}});
   });
+  spend("found", num_found, "candidate pairs", budget_.pairs);
+  if (exhausted_) found.clear();
   return found;
+}
+
+void SelfContacts::spend(const char* what, std::int64_t count, const char* unit,
+                         std::int64_t budget) {
+  if (count <= budget || exhausted_) return;
+  exhausted_ = Exhausted{nodes_.front().body, over_budget(what, count, unit, budget)};
+}
+
+void SelfContacts::count_visits(std::int64_t visits) {
+  num_visits_ += visits;
+  spend("visited", num_visits_, "contacts", budget_.visits);
 }
 
 double SelfContacts::gap(const System& system, const Candidate& candidate) const {
@@ -152,18 +169,21 @@ bool SelfContacts::update(const System& system, const SystemStep& step, bool fri
   }
   bool changed = false;
   for (const Candidate& candidate : candidates(start, start + motion)) {
+    spend("took", num_distances_, "distances of pairs", budget_.distances);
+    if (exhausted_) return false;
     const FourPoints from = gathered(start, candidate.nodes);
     const FourPoints way = gathered(motion, candidate.nodes);
     const Nearest before = nearest(candidate.kind, from);
     const double at_start = before.distance();
+    num_distances_ += 3;              // at the start, at the end and at rest
     if (!(at_start > 0.0)) continue;  // no side to keep to
     const double kept = gap(system, candidate);
     // Layers that begin too near part over a few steps, not in one.
     const double wanted = at_start >= kept ? kept : std::min(kept, at_start + 0.25 * kept);
     const bool ends_near =
         nearest(candidate.kind, from + way).distance() < wanted - kGapTolerance * kept;
-    const auto hit =
-        first_approach(candidate.kind, from, way, closest_allowed(kNearestPart, at_start, kept));
+    const auto hit = first_approach(candidate.kind, from, way,
+                                    closest_allowed(kNearestPart, at_start, kept), &num_distances_);
     if (!ends_near && !hit) continue;
     Nearest place = before;
     if (hit) place = nearest(candidate.kind, from + *hit * way);
@@ -206,7 +226,7 @@ void SelfContacts::collect(const ContactProblem& problem, std::vector<PairTouch>
   }
 }
 
-int SelfContacts::stop_crossings(const System& system, SystemStep& step) const {
+int SelfContacts::stop_crossings(const System& system, SystemStep& step) {
   const Matrix3X<double> start = positions(system);
   std::set<int> stopped;
   for (;;) {
@@ -218,11 +238,15 @@ int SelfContacts::stop_crossings(const System& system, SystemStep& step) const {
     }
     const std::size_t before = stopped.size();
     for (const Candidate& candidate : candidates(start, start + motion)) {
+      spend("took", num_distances_, "distances of pairs", budget_.distances);
+      if (exhausted_) return static_cast<int>(stopped.size());
       const FourPoints from = gathered(start, candidate.nodes);
       const double at_start = nearest(candidate.kind, from).distance();
+      num_distances_ += 2;  // at the start and at rest
       if (!(at_start > 0.0)) continue;
       const double allowed = closest_allowed(kStopPart, at_start, gap(system, candidate));
-      if (!first_approach(candidate.kind, from, gathered(motion, candidate.nodes), allowed)) {
+      if (!first_approach(candidate.kind, from, gathered(motion, candidate.nodes), allowed,
+                          &num_distances_)) {
         continue;
       }
       for (const int number : candidate.nodes) {

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <weft/validation/reference/contact/contact_points.hpp>
 #include <weft/validation/reference/contact/continuous_distance.hpp>
+#include <weft/validation/reference/contact/search_budget.hpp>
 #include <weft/validation/reference/contact/touches.hpp>
 
 namespace weft::reference {
@@ -28,7 +31,13 @@ class SelfContacts {
   /// Last resort, on the mean velocities of the step: nodes of a pair that would still come together
   /// stay where they are for this step. Returns their number: 0 where the impulses converged. Nodes
   /// without a free motion cannot be stopped.
-  [[nodiscard]] int stop_crossings(const System& system, SystemStep& step) const;
+  [[nodiscard]] int stop_crossings(const System& system, SystemStep& step);
+
+  /// Counts the visits of sweeps over contacts among nodes that it may have added.
+  void count_visits(std::int64_t visits);
+  /// Which budget of the step is used up, and the first body that takes part: a blow-up. From then on
+  /// nothing is searched.
+  [[nodiscard]] const std::optional<Exhausted>& exhausted() const { return exhausted_; }
 
  private:
   struct Node {
@@ -45,7 +54,8 @@ class SelfContacts {
   };
 
   [[nodiscard]] std::vector<Candidate> candidates(const Matrix3X<double>& start,
-                                                  const Matrix3X<double>& end) const;
+                                                  const Matrix3X<double>& end);
+  void spend(const char* what, std::int64_t count, const char* unit, std::int64_t budget);
   [[nodiscard]] bool may_meet(int first, int second) const;
   [[nodiscard]] double gap(const System& system, const Candidate& candidate) const;
   [[nodiscard]] Matrix3X<double> positions(const System& system) const;
@@ -56,6 +66,9 @@ class SelfContacts {
   std::vector<bool> meets_itself_, meets_others_;  // per body
   double largest_thickness_ = 0.0;                 // [m]
   std::vector<Entry> entries_;
+  SearchBudget budget_;
+  std::int64_t num_distances_ = 0, num_visits_ = 0;  // of the step so far
+  std::optional<Exhausted> exhausted_;
 };
 
 /// Part of the distance at the start of a step, or of the thickness if that is less, below which a

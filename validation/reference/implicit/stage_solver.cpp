@@ -73,20 +73,21 @@ class StageSolver::Preconditioner {
   explicit Preconditioner(const BodyDynamics& dynamics)
       : matrix_(nearly_coupled_nodes(dynamics.body()), pinned_flags(dynamics)) {}
 
-  /// The step of y by which the linearised equation is solved.
-  void solve(Linearisation& linear, const StageEquation& equation, Matrix3X<double>& step) {
+  /// The step of y by which the linearised equation is solved. Returns how many iterations it took.
+  int solve(Linearisation& linear, const StageEquation& equation, Matrix3X<double>& step) {
     const bool is_other =
         position_gain_ != equation.position_gain || velocity_gain_ != equation.velocity_gain;
     if (is_other) make_factor(linear, equation);
     const VectorX<double> right = gathered(linear.residual());
     VectorX<double> solution;
-    KrylovOutcome outcome = run(linear, right, solution);
-    if (outcome.iterations > kStaleFactor && !is_new_) {
+    int iterations = run(linear, right, solution).iterations;
+    if (iterations > kStaleFactor && !is_new_) {
       make_factor(linear, equation);
-      outcome = run(linear, right, solution);
+      iterations += run(linear, right, solution).iterations;
     }
     is_new_ = false;
     scatter(solution, step);
+    return iterations;
   }
 
   [[nodiscard]] bool has_unknowns() const { return matrix_.num_free() > 0; }
@@ -152,9 +153,14 @@ IntegrationReport StageSolver::solve(BodyDynamics& dynamics, const StageEquation
   double merit = linear.set(y);
   bool is_solved = merit == 0.0;
   report.converged = is_solved;
+  int iterations = 0;
   while (!is_solved && std::isfinite(merit) && report.newton_iterations < kMaxNewtonIterations) {
     ++report.newton_iterations;
-    preconditioner_->solve(linear, equation, step);
+    iterations += preconditioner_->solve(linear, equation, step);
+    if (iterations > kMaxStageIterations) {
+      report.exhausted = "an implicit stage is not solved after 5000 iterations of GMRES";
+      break;
+    }
     const double longest = equation.position_gain * step.cwiseAbs().maxCoeff();
     const bool is_last = longest <= kNewtonStep * linear.size() ||
                          step.cwiseAbs().maxCoeff() <= kNewtonStep * y.cwiseAbs().maxCoeff();

@@ -51,6 +51,8 @@ inline constexpr int kMaxNewtonIterations = 50;
 /// Residual of the linear systems, relative [-]: with kNewtonStep, an error of 1e-19.
 inline constexpr double kKrylovTolerance = 1e-8;
 inline constexpr int kMaxKrylovIterations = 200;
+/// Over all linear systems of one stage, a hundred times what a stage takes: more is a blow-up.
+inline constexpr int kMaxStageIterations = 5000;
 /// Iterations at which the factor is made anew: about what a factor costs.
 inline constexpr int kStaleFactor = 12;
 

@@ -59,15 +59,18 @@ class DormandPrince5 final : public Integrator {
       time = is_end ? time_step : time + h;
       // A step cut off by the end says nothing against the longer one that was planned.
       if (!is_end || factor * h > proposal_) proposal_ = factor * h;
-      if (is_forced) break;
+      if (is_forced) {
+        step.report.exhausted = "the error of a step is over its tolerance after 20000 inner steps";
+        break;
+      }
     }
     step.mean_velocities = moved_ / time_step;
     step.end_velocities = velocity_;
   }
 
  private:
-  /// More than this within one step is an error that cannot be met; the report says so.
-  static constexpr int kMaxInnerSteps = 100000;
+  /// More than this within one step is an error that cannot be met: a blow-up.
+  static constexpr int kMaxInnerSteps = 20000;
 
   /// All stages of an inner step; the last one is its result.
   void evaluate_stages(BodyDynamics& dynamics, double time, double h) {

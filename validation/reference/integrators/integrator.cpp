@@ -23,7 +23,8 @@ IntegrationReport combined(const IntegrationReport& first, const IntegrationRepo
           .rejected_steps = first.rejected_steps + second.rejected_steps,
           .newton_iterations = first.newton_iterations + second.newton_iterations,
           .residual = std::max(first.residual, second.residual),
-          .converged = first.converged && second.converged};
+          .converged = first.converged && second.converged,
+          .exhausted = first.exhausted ? first.exhausted : second.exhausted};
 }
 
 std::unique_ptr<Integrator> make_integrator(IntegratorKind kind,

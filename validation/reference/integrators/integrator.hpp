@@ -14,6 +14,8 @@ struct IntegrationReport {
   int newton_iterations = 0;  ///< of an implicit method, over all its stages
   double residual = 0.0;      ///< largest force left on a node in a stage equation [N]
   bool converged = true;      ///< every stage equation, and every error within its tolerance
+  /// Which budget of work was used up before the step was done; nullptr: none. The step means nothing.
+  const char* exhausted = nullptr;
 };
 
 /// Two reports, one after the other, as one: sums, and the larger residual.
