@@ -121,6 +121,7 @@ Eigen::MatrixXd GltfDocument::accessor(std::size_t index,
     fail(where + " has " + std::to_string(*count) +
          " elements that reach beyond its bufferView or buffer");
   }
+  claim(*count * num_rows, where);
   const auto normalized = accessor.find("normalized");
   const bool is_normalized =
       normalized != accessor.end() && normalized->is_boolean() && normalized->get<bool>();

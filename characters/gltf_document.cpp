@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <utility>
 
 #include <weft/characters/base64.hpp>
@@ -22,7 +21,13 @@ constexpr std::size_t kHeaderSize = 12;
 constexpr std::size_t kChunkHeaderSize = 8;
 
 /// Larger files are no game characters; every buffer is held in memory.
-constexpr std::size_t kMaxBytes = 256 * 1024 * 1024;
+constexpr std::size_t kMaxBytes = kMaxInputSize;
+
+/// Numbers of all parts and clips: 256 MB of doubles, more than a million vertices need.
+constexpr std::size_t kMaxValues = 32'000'000;
+
+constexpr std::size_t kMaxShown = 80;     ///< of a text of the file, in a message
+constexpr std::size_t kMaxMessage = 400;  ///< a message is one line
 
 std::uint32_t number_at(std::span<const std::byte> bytes, std::size_t offset) {
   std::uint32_t value = 0;
@@ -35,7 +40,7 @@ std::uint32_t number_at(std::span<const std::byte> bytes, std::size_t offset) {
 }  // namespace
 
 GltfDocument::GltfDocument(std::span<const std::byte> bytes, std::string name,
-                           std::filesystem::path folder)
+                           const FileSource& files)
     : name_(std::move(name)) {
   if (bytes.size() > kMaxBytes) {
     fail("has " + std::to_string(bytes.size()) + " bytes, expected at most " +
@@ -44,11 +49,20 @@ GltfDocument::GltfDocument(std::span<const std::byte> bytes, std::string name,
   const bool is_binary = bytes.size() >= 4 && number_at(bytes, 0) == kMagic;
   is_binary ? read_binary(bytes) : parse(bytes);
   check_version();
-  read_buffers(folder);
+  read_buffers(files);
 }
 
 void GltfDocument::fail(const std::string& message) const {
-  throw InvalidArgument(name_ + ": " + message);
+  const bool is_long = message.size() > kMaxMessage;
+  throw InvalidArgument(name_ + ": " +
+                        (is_long ? message.substr(0, kMaxMessage) + "..." : message));
+}
+
+void GltfDocument::claim(std::size_t num_values, const std::string& where) const {
+  if (num_values > kMaxValues - num_claimed_) {
+    fail(where + " and what is before it have over " + std::to_string(kMaxValues) + " numbers");
+  }
+  num_claimed_ += num_values;
 }
 
 void GltfDocument::read_binary(std::span<const std::byte> bytes) {
@@ -110,12 +124,12 @@ void GltfDocument::check_version() const {
   }
 }
 
-void GltfDocument::read_buffers(const std::filesystem::path& folder) {
+void GltfDocument::read_buffers(const FileSource& files) {
   std::size_t total = 0;
   for (std::size_t b = 0; b < count("buffers"); ++b) {
     const Json& buffer = entry("buffers", b);
     const std::string where = "buffers[" + std::to_string(b) + "]";
-    std::vector<std::byte> bytes = buffer_bytes(b, folder);
+    std::vector<std::byte> bytes = buffer_bytes(b, files);
     const auto length = buffer.find("byteLength");
     if (length == buffer.end() || !length->is_number_unsigned() ||
         length->get<std::size_t>() > bytes.size()) {
@@ -130,7 +144,7 @@ void GltfDocument::read_buffers(const std::filesystem::path& folder) {
 }
 
 std::vector<std::byte> GltfDocument::buffer_bytes(std::size_t index,
-                                                  const std::filesystem::path& folder) const {
+                                                  const FileSource& files) const {
   const Json& buffer = entry("buffers", index);
   const std::string where = "buffers[" + std::to_string(index) + "]";
   const std::string uri = text(buffer, "uri", "");
@@ -146,17 +160,17 @@ std::vector<std::byte> GltfDocument::buffer_bytes(std::size_t index,
     if (!bytes) fail(where + ".uri is no base64 data");
     return std::move(*bytes);
   }
-  const std::filesystem::path path = folder / uri;
-  std::ifstream stream(path, std::ios::binary);
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (!stream || error) fail(where + ".uri = '" + uri + "': cannot be opened");
-  if (size > kMaxBytes)
-    fail(where + ".uri = '" + uri + "': has " + std::to_string(size) + " bytes");
-  std::vector<std::byte> bytes(static_cast<std::size_t>(size));
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!stream) fail(where + ".uri = '" + uri + "': cannot be read");
-  return bytes;
+  const std::string place = where + ".uri = '" + uri.substr(0, kMaxShown) + "': ";
+  if (!files) fail(place + "names another file, expected a .glb with everything inside");
+  std::optional<std::string> bytes;
+  try {
+    bytes = files(uri);
+  } catch (const InvalidArgument& error) {
+    fail(place + error.what());
+  }
+  if (!bytes) fail(place + "no such file");
+  const auto view = std::as_bytes(std::span(*bytes));
+  return {view.begin(), view.end()};
 }
 
 std::size_t GltfDocument::count(const std::string& array) const {

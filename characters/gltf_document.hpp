@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,14 +9,16 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include <weft/custom_forces/core/input_file.hpp>
+
 namespace weft::characters {
 
 /// A glTF 2.0 file taken apart: its JSON and the bytes of its buffers. Every fault is an
 /// InvalidArgument "figure.glb: accessors[3]: ...". Private to the reader.
 class GltfDocument {
  public:
-  /// bytes: of a .glb or .gltf file; folder: where other files that it names lie.
-  GltfDocument(std::span<const std::byte> bytes, std::string name, std::filesystem::path folder);
+  /// bytes: of a .glb or .gltf file; files: other files that it may name, none without it.
+  GltfDocument(std::span<const std::byte> bytes, std::string name, const FileSource& files);
 
   [[nodiscard]] const nlohmann::json& root() const { return root_; }
   [[noreturn]] void fail(const std::string& message) const;
@@ -48,18 +49,23 @@ class GltfDocument {
   [[nodiscard]] Eigen::MatrixXd accessor(std::size_t index,
                                          const std::vector<std::string>& types) const;
 
+  /// Says that so many numbers are about to be kept in memory; a fault if they are too many with all
+  /// before them. Parts may share the same bytes of a file, so its size is no bound on them.
+  void claim(std::size_t num_values, const std::string& where) const;
+
  private:
   void read_binary(std::span<const std::byte> bytes);
   void parse(std::span<const std::byte> text);
   void check_version() const;
-  void read_buffers(const std::filesystem::path& folder);
+  void read_buffers(const FileSource& files);
   [[nodiscard]] std::vector<std::byte> buffer_bytes(std::size_t index,
-                                                    const std::filesystem::path& folder) const;
+                                                    const FileSource& files) const;
 
   std::string name_;
   nlohmann::json root_;
   std::optional<std::vector<std::byte>> binary_;
   std::vector<std::vector<std::byte>> buffers_;
+  mutable std::size_t num_claimed_ = 0;
 };
 
 }  // namespace weft::characters

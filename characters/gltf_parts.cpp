@@ -10,6 +10,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kTriangleMode = 4;
+constexpr std::size_t kNumbersOfJoint = 17;  ///< its bone and its matrix
 constexpr Eigen::Index kMaxVertices = 1'000'000;
 
 /// Sums of weights this close to 1 are 1 [-]: 8-bit weights are off by up to 4 x 0.5 / 255.
@@ -33,6 +34,7 @@ Joints read_skin(const GltfDocument& document, std::size_t index, const ReadBone
   if (list == skin.end() || !list->is_array() || list->empty()) {
     document.fail(where + ".joints is missing or empty, expected the nodes of its joints");
   }
+  document.claim(kNumbersOfJoint * list->size(), where);
   Joints joints;
   for (const Json& entry : *list) {
     const std::size_t size = bones.bone_of_node.size();
@@ -92,12 +94,6 @@ Triangles read_triangles(const GltfDocument& document, const Json& primitive,
   return corners.reshaped(3, corners.size() / 3).cast<int>();
 }
 
-void add_influence(Part& part, int joint, double weight) {
-  if (weight == 0) return;
-  part.influence_joint.push_back(joint);
-  part.influence_weight.push_back(weight);
-}
-
 /// One vertex's influences, which are the last ones, to sum 1.
 void normalize_last(const GltfDocument& document, Part& part, std::size_t first, std::size_t vertex,
                     const std::string& where, ImportReport& report) {
@@ -149,12 +145,15 @@ void read_influences(const GltfDocument& document, const Json& attributes, Part&
     for (std::size_t set = 0; set < joints.size(); ++set) {
       for (Eigen::Index k = 0; k < 4; ++k) {
         const double joint = joints[set](k, v);
-        if (weights[set](k, v) != 0 && !(joint >= 0 && joint < num_joints)) {
+        const double weight = weights[set](k, v);
+        if (weight == 0) continue;  // its joint may be any number
+        if (!(joint >= 0 && joint < num_joints)) {
           document.fail(where + ": vertex " + std::to_string(v) + " names joint " +
                         std::to_string(joint) + ", expected 0 to " +
                         std::to_string(part.joints.size() - 1));
         }
-        add_influence(part, static_cast<int>(joint), weights[set](k, v));
+        part.influence_joint.push_back(static_cast<int>(joint));
+        part.influence_weight.push_back(weight);
       }
     }
     normalize_last(document, part, first, static_cast<std::size_t>(v), where, report);
@@ -215,6 +214,7 @@ std::optional<Part> read_primitive(const GltfDocument& document, const Json& pri
   part.triangles = read_triangles(document, primitive, num_vertices, where);
   read_looks(document, *attributes, part, where);
   if (skin != nullptr) {
+    document.claim(kNumbersOfJoint * skin->bones.size(), where);
     part.joints = skin->bones;
     part.inverse_bind = skin->inverse_bind;
     read_influences(document, *attributes, part, where, report);

@@ -1,8 +1,5 @@
 #include <weft/characters/gltf_reader.hpp>
 
-#include <fstream>
-#include <system_error>
-
 #include <weft/characters/gltf_content.hpp>
 #include <weft/characters/gltf_document.hpp>
 #include <weft/custom_forces/core/error.hpp>
@@ -108,8 +105,8 @@ ReadBones read_bones(const GltfDocument& document) {
 }
 
 Character read_gltf(std::span<const std::byte> bytes, const std::string& name,
-                    const std::filesystem::path& folder) {
-  const GltfDocument document(bytes, name, folder);
+                    const FileSource& files) {
+  const GltfDocument document(bytes, name, files);
   const ReadBones bones = read_bones(document);
   Character character;
   character.skeleton = bones.skeleton;
@@ -120,20 +117,15 @@ Character read_gltf(std::span<const std::byte> bytes, const std::string& name,
 }
 
 Character read_gltf_file(const std::filesystem::path& path) {
-  return read_gltf(file_bytes(path), path.filename().string(), path.parent_path());
-}
-
-std::vector<std::byte> file_bytes(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  std::ifstream stream(path, std::ios::binary);
-  if (error || !stream) {
-    throw InvalidArgument(path.string() + ": no such file, expected a glTF model (.glb or .gltf)");
+  std::string bytes;
+  try {
+    bytes = read_input_file(path);
+  } catch (const InvalidArgument& error) {
+    throw InvalidArgument(path.string() + ": " + error.what() +
+                          "; expected a glTF model (.glb or .gltf)");
   }
-  std::vector<std::byte> bytes(static_cast<std::size_t>(size));
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!stream) throw InvalidArgument(path.string() + ": cannot be read");
-  return bytes;
+  return read_gltf(std::as_bytes(std::span(bytes)), path.filename().string(),
+                   files_below(path.parent_path()));
 }
 
 }  // namespace weft::characters

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <vector>
 
 #include <weft/characters/character.hpp>
+#include <weft/custom_forces/core/input_file.hpp>
 
 namespace weft::characters {
 
@@ -23,12 +23,12 @@ namespace weft::characters {
 /// Throws InvalidArgument that names the file and the place in it for anything that is no such file:
 /// damaged containers, indices and bytes out of range, numbers that are not finite, hierarchies with a
 /// loop, matrices without an inverse, times that do not grow, weights that sum to 0, compression.
+///
+/// files: the buffers that the file may name; without them it may name none.
 [[nodiscard]] Character read_gltf(std::span<const std::byte> bytes, const std::string& name,
-                                  const std::filesystem::path& folder = {});
-/// The same for a file. Throws InvalidArgument if it cannot be read.
+                                  const FileSource& files = {});
+/// The same for a file, whose buffers are in its folder or below. Throws InvalidArgument if it cannot
+/// be read.
 [[nodiscard]] Character read_gltf_file(const std::filesystem::path& path);
-
-/// The bytes of a file. Throws InvalidArgument if it cannot be read.
-[[nodiscard]] std::vector<std::byte> file_bytes(const std::filesystem::path& path);
 
 }  // namespace weft::characters

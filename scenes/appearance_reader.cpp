@@ -50,20 +50,18 @@ void read_repeat(const TomlValue& value, Appearance& appearance) {
   }
 }
 
-void load_file(const TomlTable& body, const Appearance& appearance, const FileSource& files,
-               Scene& scene) {
+void load_file(const TomlTable& body, const Appearance& appearance, Scene& scene) {
   if (appearance.image.empty()) return;
   const auto same = [&](const SceneFile& file) { return file.name == appearance.image; };
   if (std::any_of(scene.files.begin(), scene.files.end(), same)) return;
   const TomlValue value = body.require("texture", "");
-  std::optional<std::string> bytes = files ? files(appearance.image) : std::nullopt;
-  if (!bytes) value.fail("no such file, expected a picture beside the scene file");
+  std::string bytes = value.named_file("a picture");
   try {
-    (void)decode_image(*bytes);
+    (void)decode_image(bytes);
   } catch (const Error& error) {
     value.fail(fmt::format("{}, expected a PNG or JPEG", error.what()));
   }
-  scene.files.push_back({appearance.image, std::move(*bytes)});
+  scene.files.push_back({appearance.image, std::move(bytes)});
 }
 
 }  // namespace
@@ -82,14 +80,14 @@ Appearance read_appearance(const TomlTable& table) {
   return appearance;
 }
 
-void load_appearance_files(const TomlTable& root, const FileSource& files, Scene& scene) {
+void load_appearance_files(const TomlTable& root, Scene& scene) {
   const std::vector<TomlTable> cloths = root.tables("cloth");
   for (std::size_t i = 0; i < cloths.size(); ++i) {
-    load_file(cloths[i], scene.cloths[i].appearance, files, scene);
+    load_file(cloths[i], scene.cloths[i].appearance, scene);
   }
   const std::vector<TomlTable> colliders = root.tables("collider");
   for (std::size_t i = 0; i < colliders.size(); ++i) {
-    load_file(colliders[i], scene.colliders[i].appearance, files, scene);
+    load_file(colliders[i], scene.colliders[i].appearance, scene);
   }
 }
 

@@ -20,7 +20,7 @@ inline constexpr std::array<std::string_view, 6> kColliderAppearanceKeys = {
 
 /// Loads the files that the cloths and colliders of a scene name, each once. Throws SceneError at
 /// the place that names one that is missing or no picture.
-void load_appearance_files(const TomlTable& root, const FileSource& files, Scene& scene);
+void load_appearance_files(const TomlTable& root, Scene& scene);
 
 /// TOML lines of what is not as by default: a scene without appearances is written as ever.
 [[nodiscard]] std::string write_appearance(const Appearance& appearance);

@@ -13,14 +13,33 @@
 namespace weft::scenes {
 namespace {
 
+constexpr int kMaxScans = 64;
+
 Image make_image(long long width, long long height) {
   if (width < 1 || height < 1 || width > kMaxImageSize || height > kMaxImageSize) {
     throw Error(fmt::format("has {} x {} pixels, expected at most {} x {}", width, height,
                             kMaxImageSize, kMaxImageSize));
   }
+  if (width * height > kMaxImagePixels) {
+    throw Error(fmt::format("has {} x {} pixels, expected at most {} in all", width, height,
+                            kMaxImagePixels));
+  }
   Image image{static_cast<int>(width), static_cast<int>(height), {}};
   image.rgb.resize(static_cast<std::size_t>(3 * width * height));
   return image;
+}
+
+/// A progressive JPEG may go over all its pixels once more for every few bytes of the file. Encoders
+/// write about ten scans.
+void check_scans(std::string_view bytes) {
+  constexpr std::string_view kStartOfScan = "\xff\xda";
+  int num_scans = 0;
+  for (std::size_t at = bytes.find(kStartOfScan); at != std::string_view::npos;
+       at = bytes.find(kStartOfScan, at + 1)) {
+    if (++num_scans > kMaxScans) {
+      throw Error(fmt::format("has over {} scans, expected an ordinary JPEG", kMaxScans));
+    }
+  }
 }
 
 Image decode_png(std::string_view bytes) {
@@ -59,6 +78,7 @@ Image decode_jpeg(std::string_view bytes) {
     throw Error(fmt::format("is no readable JPEG: {}", tjGetErrorStr2(handle.get())));
   }
   Image image = make_image(width, height);
+  check_scans(bytes);
   // The accurate transform gives the same bytes on every processor.
   if (tjDecompress2(handle.get(), data, bytes.size(), image.rgb.data(), width, 0, height, TJPF_RGB,
                     TJFLAG_ACCURATEDCT | TJFLAG_STOPONWARNING) != 0) {

@@ -14,11 +14,14 @@ struct Image {
 };
 
 inline constexpr int kMaxImageSize = 8192;  ///< of an image file, per axis [pixel]
+/// Of an image file [pixel]: 100 MB when it is decoded.
+inline constexpr long long kMaxImagePixels = 33'554'432;
 
 /// Whether a name ends as those of files that decode_image() reads: .png, .jpg, .jpeg.
 [[nodiscard]] bool has_image_extension(std::string_view name);
 
-/// Decodes a PNG or JPEG; what is transparent becomes white. Throws Error without the file's name.
+/// Decodes a PNG or JPEG; what is transparent becomes white. Its size is checked before memory is
+/// reserved for it. Throws Error without the file's name.
 [[nodiscard]] Image decode_image(std::string_view bytes);
 
 }  // namespace weft::scenes

@@ -1,11 +1,9 @@
 // Nodes that a picture marks, for pins and regions.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 
-#include <weft/characters/gltf_reader.hpp>
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/scenes/image_file.hpp>
 #include <weft/scenes/scene_reader.hpp>
@@ -16,10 +14,9 @@ namespace {
 Image read_picture(const TomlValue& value) {
   const std::string name = value.text();
   if (!has_image_extension(name)) value.fail("expected the name of a .png or .jpg file");
-  const std::filesystem::path path = std::filesystem::path(value.file()).parent_path() / name;
+  const std::string bytes = value.named_file("a picture");
   try {
-    const std::vector<std::byte> bytes = characters::file_bytes(path);
-    return decode_image({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    return decode_image(bytes);
   } catch (const Error& error) {
     value.fail(error.what());
   }

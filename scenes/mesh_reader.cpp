@@ -1,5 +1,4 @@
 #include <array>
-#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
@@ -30,9 +29,11 @@ MeshGeometry import_shape(const TomlTable& table) {
   }
   if (const auto value = table.find("part")) options.part = value->text();
   if (const auto value = table.find("weld")) options.weld_tolerance = value->non_negative("m");
-  const std::filesystem::path folder = std::filesystem::path(file.file()).parent_path();
+  const std::string name = file.text();
+  const import::MeshInput input{name, file.named_file("a mesh file"),
+                                files_beside(file.files(), name)};
   try {
-    import::ImportedMesh mesh = import::import_mesh(folder / file.text(), options);
+    import::ImportedMesh mesh = import::import_mesh(input, options);
     return {std::move(mesh.surface), std::move(mesh.groups)};
   } catch (const InvalidArgument& error) {
     file.fail(error.what());

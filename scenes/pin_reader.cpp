@@ -155,6 +155,7 @@ void check_holds_nodes(const TomlValue& entry, const Pin& pin, const Cloth& clot
   Cloth probe;
   probe.name = cloth.name;
   probe.source = cloth.source;
+  probe.bulge = cloth.bulge;
   // The fewest springs: only positions matter.
   if (auto* grid = std::get_if<ClothGrid>(&probe.source)) grid->stencil = GridStencil::k8Neighbour;
   probe.pins = {pin};

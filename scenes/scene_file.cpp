@@ -1,9 +1,6 @@
 #include <weft/scenes/scene_file.hpp>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,37 +15,6 @@ namespace {
 // Long enough for any real path and parser message, short enough for one line.
 constexpr std::size_t kMaxMessageLength = 1000;
 
-std::string read_bytes(const std::filesystem::path& path) {
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-  if (!std::filesystem::exists(status)) {
-    throw SceneError(path.string(), 1, 1, "no such file, expected a scene file or a catalog name");
-  }
-  if (std::filesystem::is_directory(status)) {
-    throw SceneError(path.string(), 1, 1, "is a directory, expected a scene file");
-  }
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw SceneError(path.string(), 1, 1, "cannot be opened, expected a readable file");
-  // One byte over the limit is enough for the reader to refuse it, also for endless devices.
-  std::string text(kMaxTextSize + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad())
-    throw SceneError(path.string(), 1, 1, "cannot be read, expected a readable file");
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  return text;
-}
-
-std::optional<std::string> read_beside(const std::filesystem::path& scene,
-                                       const std::string& name) {
-  const std::filesystem::path path = scene.parent_path() / name;
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
-  std::ifstream stream(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) return std::nullopt;
-  return bytes;
-}
-
 }  // namespace
 
 SceneError::SceneError(std::string file, int line, int column, const std::string& message)
@@ -59,8 +25,15 @@ SceneError::SceneError(std::string file, int line, int column, const std::string
       column_(column) {}
 
 Scene read_scene_file(const std::filesystem::path& path) {
-  return read_scene_text(read_bytes(path), path.string(),
-                         [&](const std::string& name) { return read_beside(path, name); });
+  std::string text;
+  try {
+    text = read_input_file(path, kMaxTextSize);
+  } catch (const InvalidArgument& error) {
+    std::string reason = error.what();
+    if (reason == "no such file") reason += ", expected a scene file or a catalog name";
+    throw SceneError(path.string(), 1, 1, reason);
+  }
+  return read_scene_text(text, path.string(), files_below(path.parent_path()));
 }
 
 FileSource files_of(const Scene& scene) {
@@ -84,7 +57,8 @@ Scene read_scene_text(std::string_view text, const std::string& name, const File
     throw SceneError(name, std::max(1, static_cast<int>(place.line)),
                      std::max(1, static_cast<int>(place.column)), std::string(error.description()));
   }
-  return read_scene(TomlTable(name, "", root), files);
+  const TomlSource source{name, files};
+  return read_scene(TomlTable(source, "", root));
 }
 
 }  // namespace weft::scenes

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/core/input_file.hpp>
 #include <weft/scenes/scene.hpp>
 
 namespace weft::scenes {
@@ -25,12 +24,11 @@ class SceneError : public InvalidArgument {
   int column_;
 };
 
-/// Gives the whole content of a file that a scene names; none if there is no such file.
-using FileSource = std::function<std::optional<std::string>(const std::string& name)>;
 /// The files that a scene has taken along.
 [[nodiscard]] FileSource files_of(const Scene& scene);
 
-/// Reads and checks a scene file, and the files that it names, relative to its folder. Throws SceneError.
+/// Reads and checks a scene file, and the files that it names, which are in its folder or below.
+/// Throws SceneError.
 [[nodiscard]] Scene read_scene_file(const std::filesystem::path& path);
 /// The same for a text; name stands for the file in messages. Without files no file may be named.
 [[nodiscard]] Scene read_scene_text(std::string_view text, const std::string& name,

@@ -214,7 +214,7 @@ World read_world(const TomlTable& table) {
   return world;
 }
 
-Scene read_scene(const TomlTable& root, const FileSource& files) {
+Scene read_scene(const TomlTable& root) {
   check_schema(root);
   root.allow(kRootKeys);
   Scene scene;
@@ -224,7 +224,7 @@ Scene read_scene(const TomlTable& root, const FileSource& files) {
   const std::string world = "a table [world] with time_step and duration";
   scene.world = read_world(root.require("world", world).table(world));
   read_bodies(root, scene);
-  load_appearance_files(root, files, scene);
+  load_appearance_files(root, scene);
   if (const auto value = root.find("bullet")) scene.bullet = read_bullet(value->table("a table"));
   if (const auto value = root.find("reference")) {
     scene.reference = read_reference(value->table("a table"));

@@ -11,8 +11,7 @@ namespace weft::scenes {
 inline constexpr int kMaxSteps = 10'000'000;  ///< of a whole run
 inline constexpr int kMaxNodes = 1'000'000;   ///< of all cloths together
 
-/// files: for the pictures that bodies are drawn with.
-[[nodiscard]] Scene read_scene(const TomlTable& root, const FileSource& files);
+[[nodiscard]] Scene read_scene(const TomlTable& root);
 [[nodiscard]] World read_world(const TomlTable& table);
 [[nodiscard]] Cloth read_cloth(const TomlTable& table, const World& world);
 /// more: further keys that the table may have.
@@ -43,7 +42,7 @@ void read_character(const TomlTable& table, Scene& scene);
 /// scene: its cloths say which there are.
 [[nodiscard]] ControllerSettings read_controller(const TomlTable& table, const Scene& scene);
 [[nodiscard]] std::vector<Pin> read_pins(const TomlValue& value, const Cloth& cloth);
-/// The nodes at the bright places of a picture file beside the scene file; table: has more of the pin.
+/// The nodes at the bright places of a picture file; table: has more of the pin.
 [[nodiscard]] NodePin read_mask(const TomlTable& table, const TomlValue& value, const Cloth& cloth);
 /// The pins of a cloth, which may move.
 void read_cloth_pins(const TomlValue& value, Cloth& cloth);

@@ -68,8 +68,20 @@ bool is_identifier(std::string_view text) {
 }  // namespace
 
 void TomlValue::fail(const std::string& message) const {
-  throw error_at(*file_, node_->source(),
+  throw error_at(source_->name, node_->source(),
                  fmt::format("{} = {}: {}", path_, shown_value(*node_), message));
+}
+
+std::string TomlValue::named_file(std::string_view expected) const {
+  const std::string name = text();
+  std::optional<std::string> bytes;
+  try {
+    if (source_->files) bytes = source_->files(name);
+  } catch (const InvalidArgument& error) {
+    fail(error.what());
+  }
+  if (!bytes) fail(fmt::format("no such file, expected {} beside the scene file", expected));
+  return std::move(*bytes);
 }
 
 double TomlValue::quantity(std::string_view unit) const {
@@ -169,7 +181,7 @@ std::vector<TomlValue> TomlValue::items(std::string_view expected,
   std::vector<TomlValue> values;
   values.reserve(array->size());
   for (const toml::node& entry : *array) {
-    values.emplace_back(*file_, fmt::format("{}[{}]", path_, values.size()), entry);
+    values.emplace_back(*source_, fmt::format("{}[{}]", path_, values.size()), entry);
   }
   return values;
 }
@@ -177,11 +189,11 @@ std::vector<TomlValue> TomlValue::items(std::string_view expected,
 TomlTable TomlValue::table(std::string_view expected) const {
   const toml::table* table = node_->as_table();
   if (table == nullptr) fail(fmt::format("expected {}", expected));
-  return {*file_, path_, *table};
+  return {*source_, path_, *table};
 }
 
 void TomlTable::fail(const std::string& message) const {
-  throw error_at(*file_, table_->source(), path_.empty() ? message : path_ + ": " + message);
+  throw error_at(source_->name, table_->source(), path_.empty() ? message : path_ + ": " + message);
 }
 
 void TomlTable::allow(Keys keys) const {
@@ -193,7 +205,7 @@ void TomlTable::allow(Keys keys) const {
     if (unknown == nullptr || place < unknown->source().begin) unknown = &key;
   }
   if (unknown == nullptr) return;
-  throw error_at(*file_, unknown->source(),
+  throw error_at(source_->name, unknown->source(),
                  fmt::format("{}: unknown key{}", child_path(unknown->str()),
                              suggestion(unknown->str(), keys)));
 }
@@ -201,7 +213,7 @@ void TomlTable::allow(Keys keys) const {
 std::optional<TomlValue> TomlTable::find(std::string_view key) const {
   const toml::node* node = table_->get(key);
   if (node == nullptr) return std::nullopt;
-  return TomlValue(*file_, child_path(key), *node);
+  return TomlValue(*source_, child_path(key), *node);
 }
 
 TomlValue TomlTable::require(std::string_view key, const std::string& expected) const {
@@ -216,7 +228,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
   if (node == nullptr) return result;
   const std::string path = child_path(key);
   const std::string expected = fmt::format("{} {} written [[{}]]", article(key), key, path);
-  const TomlValue value(*file_, path, *node);
+  const TomlValue value(*source_, path, *node);
   for (const TomlValue& entry : value.items(expected)) {
     result.push_back(entry.table(expected));
     result.back().path_ = path;

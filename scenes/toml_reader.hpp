@@ -8,6 +8,7 @@
 
 #include <toml++/toml.h>
 
+#include <weft/custom_forces/core/input_file.hpp>
 #include <weft/custom_forces/core/types.hpp>
 
 namespace weft::scenes {
@@ -17,16 +18,24 @@ namespace weft::scenes {
 
 using Keys = std::span<const std::string_view>;
 
+/// Where a text comes from. It outlives every value and table of the text.
+struct TomlSource {
+  std::string name;  ///< in messages: the path of the scene file
+  FileSource files;  ///< those that the text may name; without it none
+};
+
 class TomlTable;
 
 class TomlValue {
  public:
-  TomlValue(const std::string& file, std::string path, const toml::node& node)
-      : file_(&file), path_(std::move(path)), node_(&node) {}
+  TomlValue(const TomlSource& source, std::string path, const toml::node& node)
+      : source_(&source), path_(std::move(path)), node_(&node) {}
 
   [[noreturn]] void fail(const std::string& message) const;
-  /// Name of the text that this is in: the path of the scene file.
-  [[nodiscard]] const std::string& file() const { return *file_; }
+  /// Content of the file that this value names; expected says what the file is, "a picture".
+  [[nodiscard]] std::string named_file(std::string_view expected) const;
+  /// The files that the text may name, relative to its folder; none if it may name none.
+  [[nodiscard]] const FileSource& files() const { return source_->files; }
 
   /// SI value of a quantity string with the dimension of unit; a bare number for unit "1".
   [[nodiscard]] double quantity(std::string_view unit) const;
@@ -50,18 +59,15 @@ class TomlValue {
   [[nodiscard]] TomlTable table(std::string_view expected) const;
 
  private:
-  const std::string* file_;
+  const TomlSource* source_;
   std::string path_;
   const toml::node* node_;
 };
 
 class TomlTable {
  public:
-  TomlTable(const std::string& file, std::string path, const toml::table& table)
-      : file_(&file), path_(std::move(path)), table_(&table) {}
-
-  /// Name of the text that the table is from.
-  [[nodiscard]] const std::string& file() const { return *file_; }
+  TomlTable(const TomlSource& source, std::string path, const toml::table& table)
+      : source_(&source), path_(std::move(path)), table_(&table) {}
 
   /// "path: message" at the start of the table.
   [[noreturn]] void fail(const std::string& message) const;
@@ -79,7 +85,7 @@ class TomlTable {
  private:
   [[nodiscard]] std::string child_path(std::string_view key) const;
 
-  const std::string* file_;
+  const TomlSource* source_;
   std::string path_;
   const toml::table* table_;
 };

@@ -33,6 +33,7 @@ MAY_INCLUDE = {
     "validation": _ALL,
     "apps": _ALL | {"apps", "validation/converged"},
     "bench": _ALL | {"bench"},
+    "fuzz": _SCENES | {"fuzz"},
     "tests": _ALL | {"apps", "bench", "tests", "validation/converged"},
 }
 

@@ -229,8 +229,7 @@ void read_character(const TomlTable& table, Scene& scene) {
   CharacterSettings settings;
   settings.name = table.require("name", "a name such as \"figure\"").identifier();
   const TomlValue file = table.require("file", "a glTF model such as \"figure.glb\"");
-  const std::string path = file.text();
-  settings.model = at(file, [&] { return load_model(path, table.file()); });
+  settings.model = at(file, [&] { return load_model(file.text(), file.files()); });
   settings.pose = read_pose(table, *settings.model);
   std::vector<bool> is_taken(settings.model->character.parts.size(), false);
   for (const TomlTable& part : table.tables("cloth")) {

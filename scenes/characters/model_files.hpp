@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include <weft/custom_forces/core/input_file.hpp>
 #include <weft/scenes/characters/skin_source.hpp>
 
 namespace weft::scenes {
@@ -20,11 +21,11 @@ struct ModelFile {
 /// Largest model of a scene [bytes]: a recording keeps it.
 inline constexpr std::size_t kMaxModelSize = std::size_t{8} * 1024 * 1024;
 
-/// The model that a scene file names: the text of model_uri(), one that comes with Weft, or a file,
-/// relative to the folder of the scene file. Throws InvalidArgument for anything else, for a model that
-/// needs other files, and for one that is too large.
+/// The model that a scene names: the text of model_uri(), one that comes with Weft, or one of the
+/// files that the scene may name. Throws InvalidArgument for anything else, for a model that needs
+/// other files, and for one that is too large.
 [[nodiscard]] std::shared_ptr<const CharacterModel> load_model(const std::string& name,
-                                                               const std::string& scene_file);
+                                                               const FileSource& files);
 
 /// The whole model as a text, "data:model/gltf-binary;base64,...", so that a recording needs no file.
 [[nodiscard]] std::string model_uri(const CharacterModel& model);

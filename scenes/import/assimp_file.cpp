@@ -1,12 +1,19 @@
 #include <weft/scenes/import/assimp_file.hpp>
 
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
+#include <assimp/BaseImporter.h>
+#include <assimp/importerdesc.h>
 #include <assimp/scene.h>
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/LogStream.hpp>
-#include <string>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/scenes/import/input_system.hpp>
 
 namespace weft::import {
 namespace {
@@ -53,6 +60,24 @@ class LogGuard {
  private:
   LossLog log_;
 };
+
+/// assimp looks into a file and may take another reader than the one of its extension. Those of the
+/// other forty formats are not tested here, and some open further files.
+void keep_tested_readers(Assimp::Importer& importer) {
+  constexpr std::array<std::string_view, 5> kKept = {"obj", "glb", "ply", "fbx", "stl"};
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    const aiImporterDesc& description = *importer.GetImporterInfo(i);
+    const std::string extensions = " " + std::string(description.mFileExtensions) + " ";
+    const bool is_kept = std::any_of(kKept.begin(), kKept.end(), [&](std::string_view one) {
+      return extensions.find(" " + std::string(one) + " ") != std::string::npos;
+    });
+    // Two readers take the extensions of glTF; this one is for version 1.
+    const bool is_old = std::string_view(description.mName) == "glTF Importer";
+    if (is_kept && !is_old) continue;
+    const std::unique_ptr<Assimp::BaseImporter> owned(importer.GetImporter(i));
+    (void)importer.UnregisterLoader(owned.get());
+  }
+}
 
 class PartCollector {
  public:
@@ -137,22 +162,26 @@ class PartCollector {
 
 }  // namespace
 
-AssimpFile::AssimpFile(const std::filesystem::path& path)
-    : importer_(std::make_unique<Assimp::Importer>()) {
+AssimpFile::AssimpFile(const MeshInput& input) : importer_(std::make_unique<Assimp::Importer>()) {
+  keep_tested_readers(*importer_);
+  auto* const system = new InputSystem(input);
+  importer_->SetIOHandler(system);  // which owns it from now on
   std::string loss;
   {
     const LogGuard guard(loss);
-    scene_ = importer_->ReadFile(path.string(), 0);
+    scene_ = importer_->ReadFile(system->mesh_name(), 0);
   }
-  if (scene_ == nullptr) throw Error(importer_->GetErrorString());
+  if (scene_ == nullptr) {
+    throw Error(system->refusal().empty() ? importer_->GetErrorString() : system->refusal());
+  }
   require(loss.empty(), loss);
   require(scene_->mRootNode != nullptr, "holds no scene");
 }
 
 AssimpFile::~AssimpFile() = default;
 
-AssimpFile load_assimp(const std::filesystem::path& path) {
-  return AssimpFile(path);
+AssimpFile load_assimp(const MeshInput& input) {
+  return AssimpFile(input);
 }
 
 std::vector<FilePart> parts_of(const aiScene& scene) {

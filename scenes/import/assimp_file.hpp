@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -16,7 +15,7 @@ namespace weft::import {
 /// A file as assimp reads it, unchanged: no step of assimp's that would renumber faces or vertices.
 class AssimpFile {
  public:
-  explicit AssimpFile(const std::filesystem::path& path);
+  explicit AssimpFile(const MeshInput& input);
   ~AssimpFile();
   AssimpFile(const AssimpFile&) = delete;
   AssimpFile& operator=(const AssimpFile&) = delete;
@@ -28,8 +27,8 @@ class AssimpFile {
 };
 
 /// Only within run_isolated(): a damaged file can bring assimp down. Throws Error with assimp's
-/// message.
-[[nodiscard]] AssimpFile load_assimp(const std::filesystem::path& path);
+/// message, or with the file that it was not given.
+[[nodiscard]] AssimpFile load_assimp(const MeshInput& input);
 
 /// The meshes of a scene where its nodes put them. Throws Error for a scene that is not consistent
 /// or too large.

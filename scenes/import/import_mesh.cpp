@@ -153,10 +153,11 @@ void weld_vertices(const ImportOptions& options, Draft& draft) {
   }
 }
 
-Draft make_draft(const std::filesystem::path& file, const ImportOptions& options) {
+Draft make_draft(const MeshInput& input, const ImportOptions& options) {
   check(options);
+  const std::filesystem::path& file = input.name;
   Draft draft;
-  draft.parts = select(read_mesh_file(file), file, options.part);
+  draft.parts = select(read_mesh_file(input), file, options.part);
   place_vertices(options, file, draft);
   cut_faces(draft);
   weld_vertices(options, draft);
@@ -217,23 +218,27 @@ std::vector<NodeGroup> groups_of(const Draft& draft) {
 
 }  // namespace
 
-ImportedMesh import_mesh(const std::filesystem::path& file, const ImportOptions& options) {
-  const Draft draft = make_draft(file, options);
+ImportedMesh import_mesh(const MeshInput& input, const ImportOptions& options) {
+  const Draft draft = make_draft(input, options);
   if (const std::optional<std::string> fault = draft.report.fault()) {
-    throw ImportError(file, *fault);
+    throw ImportError(input.name, *fault);
   }
   ImportedMesh mesh;
   mesh.surface = surface_of(draft);
   if (!mesh.surface.corner_texture_coordinates.allFinite()) {
-    throw ImportError(file, "a texture coordinate is not finite");
+    throw ImportError(input.name, "a texture coordinate is not finite");
   }
   mesh.groups = groups_of(draft);
   mesh.report = draft.report;
   return mesh;
 }
 
+ImportedMesh import_mesh(const std::filesystem::path& file, const ImportOptions& options) {
+  return import_mesh(mesh_input(file), options);
+}
+
 MeshReport check_mesh(const std::filesystem::path& file, const ImportOptions& options) {
-  return make_draft(file, options).report;
+  return make_draft(mesh_input(file), options).report;
 }
 
 }  // namespace weft::import

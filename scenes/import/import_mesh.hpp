@@ -43,6 +43,8 @@ struct ImportedMesh {
 /// Throws ImportError, with the number of the face (from 0) and the name of its part, for what
 /// read_mesh_file() refuses, a part that is not there, positions that are not finite, and everything
 /// that MeshReport::fault() says.
+[[nodiscard]] ImportedMesh import_mesh(const MeshInput& input, const ImportOptions& options = {});
+/// The same for mesh_input(file).
 [[nodiscard]] ImportedMesh import_mesh(const std::filesystem::path& file,
                                        const ImportOptions& options = {});
 

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstring>
 #include <exception>
+#include <fstream>
 #include <new>
 
 #include <weft/custom_forces/core/error.hpp>
@@ -16,8 +17,6 @@
 namespace weft::import {
 namespace {
 
-constexpr rlim_t kMaxSeconds = 60;
-constexpr rlim_t kMaxBytes = rlim_t{4} << 30U;
 constexpr char kDone = 'd';
 constexpr char kFailed = 'f';
 
@@ -47,10 +46,19 @@ void write_all(int file, const std::string& text) {
   }
 }
 
-[[noreturn]] void run_child(int file, const std::function<std::string()>& work) {
-  limit(RLIMIT_CPU, kMaxSeconds);
+/// Address space of this process [bytes]: a child begins with all of its parent's.
+rlim_t address_space() {
+  std::ifstream statistics("/proc/self/statm");
+  rlim_t pages = 0;
+  statistics >> pages;
+  return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+}
+
+[[noreturn]] void run_child(int file, const std::function<std::string()>& work,
+                            const IsolationBudget& budget) {
+  limit(RLIMIT_CPU, budget.seconds);
   limit(RLIMIT_CORE, 0);
-  if (!has_address_sanitizer()) limit(RLIMIT_AS, kMaxBytes);
+  if (!has_address_sanitizer()) limit(RLIMIT_AS, address_space() + budget.bytes);
   std::string answer;
   try {
     answer = kDone + work();
@@ -78,17 +86,17 @@ std::string read_all(int file) {
 }
 
 /// Why the child has ended without an answer.
-std::string describe(int status) {
+std::string describe(int status, const IsolationBudget& budget) {
   if (!WIFSIGNALED(status)) return "ends without an answer";
   if (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL) {
-    return "takes more than a minute";
+    return "takes more than " + std::to_string(budget.seconds) + " s";
   }
   return "crashes (" + std::string(strsignal(WTERMSIG(status))) + ")";
 }
 
 }  // namespace
 
-std::string run_isolated(const std::function<std::string()>& work) {
+std::string run_isolated(const std::function<std::string()>& work, const IsolationBudget& budget) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) throw Error("cannot make a pipe: " + std::string(strerror(errno)));
   const pid_t child = fork();
@@ -100,7 +108,7 @@ std::string run_isolated(const std::function<std::string()>& work) {
   }
   if (child == 0) {
     close(ends[0]);
-    run_child(ends[1], work);
+    run_child(ends[1], work, budget);
   }
   close(ends[1]);
   const std::string answer = read_all(ends[0]);
@@ -109,7 +117,7 @@ std::string run_isolated(const std::function<std::string()>& work) {
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   const bool has_ended = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  if (!has_ended || answer.empty()) throw Error(describe(status));
+  if (!has_ended || answer.empty()) throw Error(describe(status, budget));
   if (answer[0] != kDone) throw Error(answer.substr(1));
   return answer.substr(1);
 }

@@ -1,17 +1,27 @@
 #include <weft/scenes/import/mesh_file.hpp>
 
 #include <algorithm>
-#include <system_error>
+#include <array>
+#include <cctype>
+#include <optional>
+#include <string_view>
 
 #include <weft/scenes/import/assimp_file.hpp>
 #include <weft/scenes/import/byte_stream.hpp>
 #include <weft/scenes/import/isolated_run.hpp>
+#include <weft/scenes/import/ply_header.hpp>
 
 namespace weft::import {
 namespace {
 
-constexpr std::uintmax_t kMaxFileSize = 256'000'000;
 constexpr std::size_t kMaxMessageLength = 300;
+
+/// What reading may cost, from a few times what assimp takes for the largest files of each format.
+IsolationBudget budget_of(std::size_t size) {
+  constexpr std::uint64_t kMebibyte = std::uint64_t{1} << 20U;
+  return {std::min<std::uint64_t>(60, 5 + size / (2 * kMebibyte)),
+          std::min<std::uint64_t>(4096 * kMebibyte, 256 * kMebibyte + 64 * size)};
+}
 
 void put(ByteWriter& out, const FilePart& part) {
   for (const std::string* text : {&part.node, &part.mesh, &part.material}) out.put(*text);
@@ -41,17 +51,27 @@ FilePart get_part(ByteReader& in) {
   return part;
 }
 
-void check(const std::filesystem::path& path) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw ImportError(path, "no such file");
-  if (!std::filesystem::is_regular_file(status)) throw ImportError(path, "is not a file");
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) throw ImportError(path, error.message());
-  if (size == 0) throw ImportError(path, "is empty, expected a mesh");
-  if (size > kMaxFileSize) {
-    throw ImportError(path, "has " + std::to_string(size) + " bytes, expected at most " +
-                                std::to_string(kMaxFileSize));
+constexpr std::array<std::string_view, 6> kExtensions = {".obj", ".gltf", ".glb",
+                                                         ".ply", ".fbx",  ".stl"};
+
+/// The extension in lower case.
+std::string extension_of(const std::filesystem::path& name) {
+  std::string extension = name.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+void check(const MeshInput& input) {
+  if (input.bytes.empty()) throw ImportError(input.name, "is empty, expected a mesh");
+  const std::string extension = extension_of(input.name);
+  if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end()) {
+    throw ImportError(input.name,
+                      "cannot be read: expected a name that ends with .obj, .gltf, .glb, .ply, "
+                      ".fbx or .stl");
+  }
+  if (extension != ".ply") return;
+  if (const std::optional<std::string> fault = ply_header_fault(input.bytes)) {
+    throw ImportError(input.name, "cannot be read: " + *fault);
   }
 }
 
@@ -68,25 +88,34 @@ std::string one_line(std::string message) {
 
 }  // namespace
 
-std::vector<FilePart> read_mesh_file(const std::filesystem::path& path) {
-  check(path);
+MeshInput mesh_input(const std::filesystem::path& path) {
+  try {
+    return {path, read_input_file(path), files_below(path.parent_path())};
+  } catch (const InvalidArgument& error) {
+    throw ImportError(path, error.what());
+  }
+}
+
+std::vector<FilePart> read_mesh_file(const MeshInput& input) {
+  check(input);
   std::string bytes;
   try {
-    bytes = run_isolated([&] {
-      const std::vector<FilePart> parts = parts_of(*load_assimp(path));
+    const auto work = [&] {
+      const std::vector<FilePart> parts = parts_of(*load_assimp(input));
       ByteWriter out;
       out.put(static_cast<std::uint64_t>(parts.size()));
       for (const FilePart& part : parts) put(out, part);
       return out.bytes();
-    });
+    };
+    bytes = run_isolated(work, budget_of(input.bytes.size()));
   } catch (const Error& error) {
-    throw ImportError(path, "cannot be read: " + one_line(error.what()));
+    throw ImportError(input.name, "cannot be read: " + one_line(error.what()));
   }
   ByteReader in(bytes);
   std::vector<FilePart> parts(in.count());
   for (FilePart& part : parts) {
     part = get_part(in);
-    if (part.node.empty() && part.mesh.empty()) part.mesh = path.stem().string();
+    if (part.node.empty() && part.mesh.empty()) part.mesh = input.name.stem().string();
   }
   return parts;
 }

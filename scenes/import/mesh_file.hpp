@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/core/input_file.hpp>
 
 namespace weft::import {
 
@@ -35,10 +36,22 @@ struct FilePart {
   [[nodiscard]] int num_vertices() const { return static_cast<int>(positions.size() / 3); }
 };
 
-/// Reads what a file of any format that assimp knows (OBJ, glTF, GLB, PLY, FBX, STL, ...) holds, in
-/// a process of its own. Every vertex that a face or a group names exists; positions may be anything.
-/// Throws ImportError: no such file, over 256 MB, unknown or damaged format, more than 10 million
-/// vertices or corners.
-[[nodiscard]] std::vector<FilePart> read_mesh_file(const std::filesystem::path& path);
+/// A mesh file in memory.
+struct MeshInput {
+  std::filesystem::path name;  ///< in messages; its extension says the format
+  std::string bytes;
+  FileSource files = {};  ///< the buffers that a glTF file may name; without it none
+};
+
+/// The file at a path, with the files beside it and below. Throws ImportError: no such file, no
+/// regular file, over 256 MB.
+[[nodiscard]] MeshInput mesh_input(const std::filesystem::path& path);
+
+/// Reads what an OBJ, glTF, GLB, PLY, FBX or STL file holds, in a process of its own. Of the files
+/// that a mesh may name only the buffers of glTF are read (*.bin, *.glbin, *.glbuf): no material
+/// library and no picture. Every vertex that a face or a group names exists; positions may be
+/// anything. Throws ImportError: empty, unknown or damaged format, more than 10 million vertices or
+/// corners, more time or memory than a file of this size may take.
+[[nodiscard]] std::vector<FilePart> read_mesh_file(const MeshInput& input);
 
 }  // namespace weft::import

@@ -4,17 +4,18 @@
 #include <span>
 #include <string_view>
 
-namespace weft::scenes {
-namespace {
+#include <fmt/core.h>
 
-constexpr const char* kAssetSchema = R"sql(
+#include <weft/custom_forces/core/input_file.hpp>
+
+namespace weft::scenes {
+
+const std::string_view kAssetSchema = R"sql(
 CREATE TABLE asset (
   id   INTEGER PRIMARY KEY,  -- from 0
   name TEXT NOT NULL,        -- as the scene spells it
   data BLOB NOT NULL         -- the whole file
 ))sql";
-
-}  // namespace
 
 std::string asset_hash(const std::vector<SceneFile>& files) {
   StreamHash hash;
@@ -26,7 +27,7 @@ std::string asset_hash(const std::vector<SceneFile>& files) {
 }
 
 void write_assets(Database& database, const std::vector<SceneFile>& files) {
-  database.execute(kAssetSchema);
+  database.execute(std::string(kAssetSchema));
   Statement insert = database.prepare("INSERT INTO asset VALUES (?, ?, ?)");
   std::int64_t id = 0;
   for (const SceneFile& file : files) {
@@ -44,8 +45,14 @@ std::vector<SceneFile> read_assets(const Database& database, const Header& heade
       database.prepare("SELECT 1 FROM sqlite_master WHERE name = 'asset' AND type = 'table'");
   if (!tables.step()) throw Error(file + ": has no table 'asset': the file is damaged");
   Statement rows = database.prepare("SELECT name, data FROM asset ORDER BY id");
+  std::uintmax_t size = 0;
   while (rows.step()) {
     const std::vector<std::byte> data = rows.blob(1);
+    size += data.size();
+    if (size > kMaxInputSize) {
+      throw Error(fmt::format("{}: table asset has over {} bytes, as no scene's files have", file,
+                              kMaxInputSize));
+    }
     SceneFile& entry = files.emplace_back();
     entry.name = rows.text(0);
     entry.bytes.assign(reinterpret_cast<const char*>(data.data()), data.size());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <weft/scenes/appearance.hpp>
@@ -11,6 +12,9 @@ namespace weft::scenes {
 
 /// Key of meta with the hash of table asset. Recordings without assets have neither.
 inline constexpr const char* kAssetHashKey = "asset_hash";
+
+/// The statement that makes table asset, which most recordings do not have.
+extern const std::string_view kAssetSchema;
 
 [[nodiscard]] std::string asset_hash(const std::vector<SceneFile>& files);
 

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <system_error>
+#include <utility>
 
 #include <fmt/core.h>
 #include <sqlite3.h>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/core/input_file.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -16,10 +19,64 @@ constexpr int kBusyTimeout = 5000;
 
 [[noreturn]] void fail(sqlite3* connection, const std::string& file, int code) {
   const int primary = code & 0xff;
+  if (primary == SQLITE_INTERRUPT) {
+    throw DatabaseError(
+        fmt::format("{}: has more rows than a file of its size: the file is damaged", file),
+        primary);
+  }
   std::string message = connection != nullptr ? sqlite3_errmsg(connection) : sqlite3_errstr(code);
   // Messages about a damaged schema quote it, lines and all.
   message.resize(std::min(message.find('\n'), message.size()));
   throw DatabaseError(fmt::format("{}: {}", file, message), primary);
+}
+
+/// Steps of SQLite's machine between two looks at the clock.
+constexpr int kStepsPerLook = 1000;
+
+/// A row takes at least 6 bytes of a file and a scan about 15 steps for it. Pages that are shared by
+/// several parents, which only a forged file has, make more rows than that.
+constexpr std::int64_t kStepsPerByte = 4;
+constexpr std::int64_t kLeastSteps = 1'000'000;
+
+constexpr std::size_t kMaxShown = 40;  // of a name, in a message
+constexpr int kMaxSqlLength = 10'000;  // of a statement or a table's definition
+
+int count_down(void* left) {
+  auto& steps = *static_cast<std::int64_t*>(left);
+  steps -= kStepsPerLook;
+  return steps < 0 ? 1 : 0;
+}
+
+/// A definition of SQL without comments, with one space where there is white space, none before and
+/// after punctuation.
+std::string plain_sql(std::string_view sql) {
+  std::string plain;
+  for (std::size_t i = 0; i < sql.size(); ++i) {
+    if (sql.substr(i, 2) == "--") {
+      i = std::min(sql.find('\n', i), sql.size());
+      if (i == sql.size()) break;
+    }
+    const bool is_blank = sql[i] == ' ' || sql[i] == '\n' || sql[i] == '\t';
+    const auto is_mark = [](char c) { return c == '(' || c == ')' || c == ','; };
+    if (is_blank && (plain.empty() || plain.back() == ' ' || is_mark(plain.back()))) continue;
+    if (is_mark(sql[i]) && plain.ends_with(' ')) plain.pop_back();
+    plain += is_blank ? ' ' : sql[i];
+  }
+  while (plain.ends_with(' ')) plain.pop_back();
+  return plain;
+}
+
+/// The statements of a text that end with a semicolon.
+std::vector<std::string> statements_of(std::string_view sql) {
+  std::vector<std::string> statements;
+  const std::string plain = plain_sql(sql);
+  for (std::size_t begin = 0; begin < plain.size();) {
+    const std::size_t end = std::min(plain.find(';', begin), plain.size());
+    statements.push_back(plain_sql(std::string_view(plain).substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  std::erase(statements, "");
+  return statements;
 }
 
 /// SQLite URI of a path: absolute, so that names such as ":memory:" and "file:x" stay file names.
@@ -143,6 +200,7 @@ Database::Database(const std::filesystem::path& path, Access access) : file_(pat
   sqlite3_busy_timeout(connection, kBusyTimeout);
   // Files come from strangers: no SQL functions from their schema, and every cell checked.
   execute("PRAGMA trusted_schema=OFF; PRAGMA cell_size_check=ON; PRAGMA mmap_size=0");
+  if (access != Access::kReadWrite) guard_reading(path);
   if (access == Access::kReadOnlyUnlocked) {
     execute("PRAGMA locking_mode=EXCLUSIVE");  // keeps the index of the log in memory, not beside
                                                // the file
@@ -154,13 +212,61 @@ void Database::Close::operator()(sqlite3* connection) const {
 }
 
 void Database::execute(const std::string& sql) {
+  if (steps_left_) *steps_left_ = steps_of_statement_;
   const int code = sqlite3_exec(connection_.get(), sql.c_str(), nullptr, nullptr, nullptr);
   if (code != SQLITE_OK) {
     fail(connection_.get(), file_, code);
   }
 }
 
+void Database::guard_reading(const std::filesystem::path& path) {
+  sqlite3* const connection = connection_.get();
+  for (const auto& [option, value] :
+       {std::pair{SQLITE_DBCONFIG_DEFENSIVE, 1}, std::pair{SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
+        std::pair{SQLITE_DBCONFIG_ENABLE_TRIGGER, 0}, std::pair{SQLITE_DBCONFIG_ENABLE_VIEW, 0},
+        std::pair{SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0}}) {
+    sqlite3_db_config(connection, option, value, nullptr);
+  }
+  sqlite3_limit(connection, SQLITE_LIMIT_LENGTH, static_cast<int>(kMaxInputSize));
+  sqlite3_limit(connection, SQLITE_LIMIT_SQL_LENGTH, kMaxSqlLength);
+  sqlite3_limit(connection, SQLITE_LIMIT_ATTACHED, 0);
+  sqlite3_limit(connection, SQLITE_LIMIT_TRIGGER_DEPTH, 0);
+  std::error_code ignored;
+  std::uintmax_t size = 0;
+  for (const char* suffix : {"", "-wal"}) {
+    const std::uintmax_t part = std::filesystem::file_size(path.string() + suffix, ignored);
+    if (!ignored) size += part;
+  }
+  steps_of_statement_ = kLeastSteps + kStepsPerByte * static_cast<std::int64_t>(size);
+  steps_left_ = std::make_unique<std::int64_t>(steps_of_statement_);
+  sqlite3_progress_handler(connection, kStepsPerLook, count_down, steps_left_.get());
+}
+
+void Database::require_schema(std::string_view required, std::string_view optional) const {
+  std::vector<std::string> missing = statements_of(required);
+  std::vector<std::string> allowed = statements_of(optional);
+  Statement entries =
+      prepare("SELECT type, name, coalesce(sql, ''), rootpage FROM sqlite_master ORDER BY rowid");
+  while (entries.step()) {
+    const std::string sql = plain_sql(entries.text(2));
+    // SQLite itself makes the index of a key that is no number.
+    const bool is_own_index = entries.text(0) == "index" && sql.empty() &&
+                              entries.text(1).starts_with("sqlite_autoindex_");
+    const bool is_table = entries.text(0) == "table" && entries.integer(3) > 0;
+    if (is_own_index || (is_table && (std::erase(missing, sql) + std::erase(allowed, sql)) == 1)) {
+      continue;
+    }
+    throw Error(fmt::format("{}: holds '{}', which is not as in a recording: the file is damaged",
+                            file_, entries.text(1).substr(0, kMaxShown)));
+  }
+  if (missing.empty()) return;
+  constexpr std::string_view kStart = "CREATE TABLE ";
+  const std::string name = missing[0].substr(kStart.size(), missing[0].find('(') - kStart.size());
+  throw Error(fmt::format("{}: has no table '{}': the file is damaged", file_, name));
+}
+
 Statement Database::prepare(std::string_view sql) const {
+  if (steps_left_) *steps_left_ = steps_of_statement_;
   return {connection_.get(), sql, file_};
 }
 

@@ -60,7 +60,8 @@ class Statement {
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
 };
 
-/// A connection to a SQLite database file.
+/// A connection to a SQLite database file. A file that is only read comes from a stranger: SQLite's
+/// defensive settings are on, and a statement takes no more steps than a file of this size needs.
 class Database {
  public:
   enum class Access {
@@ -72,6 +73,10 @@ class Database {
   Database(const std::filesystem::path& path, Access access);
 
   void execute(const std::string& sql);
+  /// Throws Error unless the file has these tables and nothing else: no other column, no view, no
+  /// trigger, no index. required and optional: their CREATE TABLE statements; comments and white
+  /// space do not count.
+  void require_schema(std::string_view required, std::string_view optional) const;
   [[nodiscard]] Statement prepare(std::string_view sql) const;
   /// First column of the first row.
   [[nodiscard]] std::int64_t query_integer(std::string_view sql) const;
@@ -81,7 +86,13 @@ class Database {
   struct Close {
     void operator()(sqlite3* connection) const;
   };
+  void guard_reading(const std::filesystem::path& path);
+
   std::string file_;
+  /// Steps of SQLite's machine that the current statement may still take. Before the connection,
+  /// which holds its address.
+  std::unique_ptr<std::int64_t> steps_left_;
+  std::int64_t steps_of_statement_ = 0;
   std::unique_ptr<sqlite3, Close> connection_;
 };
 

@@ -21,6 +21,11 @@ inline constexpr std::int64_t kFormatVersion = 1;
 inline constexpr std::int64_t kTornFormatVersion = 2;
 [[nodiscard]] std::int64_t format_version(const Scene& scene);
 
+/// Largest frame and largest chunk before compression [bytes]: far above what the largest scene
+/// makes, and small enough that a forged number cannot ask for all memory.
+inline constexpr std::int64_t kMaxFrameBytes = std::int64_t{128} << 20U;
+inline constexpr std::int64_t kMaxChunkBytes = kMaxFrameBytes + (std::int64_t{2} << 20U);
+
 /// Statements that make the tables. Their comments stay in the file: ".schema" explains it.
 extern const std::string_view kTableSchema;
 extern const std::string_view kTopologySchema;  ///< version 2 only

@@ -1,15 +1,15 @@
 #include <weft/scenes/recording/open_recording.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstring>
-#include <fstream>
 #include <limits>
 
 #include <fmt/core.h>
 #include <sqlite3.h>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/custom_forces/core/input_file.hpp>
+#include <weft/scenes/recording/asset_table.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -37,46 +37,35 @@ std::filesystem::path log_path(const std::filesystem::path& path) {
 
 /// Bytes that the file must have according to its own header (SQLite file format, section 1.3), 0
 /// if unknown.
-std::uintmax_t promised_size(const std::array<char, kSqliteHeaderBytes>& header) {
+std::uintmax_t promised_size(const std::string& header) {
   const std::uint32_t page = big_endian(&header[16], 2);
   const bool size_is_valid = std::memcmp(&header[24], &header[92], 4) == 0;
   return size_is_valid ? std::uintmax_t{page == 1 ? 65536 : page} * big_endian(&header[28], 4) : 0;
 }
 
-/// Clear words for what SQLite would answer with "disk image is malformed", or not at all.
-void check_file(const std::filesystem::path& path, const std::string& file) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found) {
-    throw Error(fmt::format("{}: no such file", file));
+/// Clear words for what SQLite would answer with "disk image is malformed", or not at all. Gives the
+/// file's header.
+std::string check_file(const std::filesystem::path& path, const std::string& file) {
+  std::string header;
+  try {
+    header = read_input_start(path, kSqliteHeaderBytes);
+  } catch (const InvalidArgument& error) {
+    throw Error(fmt::format("{}: {}", file, error.what()));
   }
-  if (status.type() == std::filesystem::file_type::none) {
-    throw Error(fmt::format("{}: {}", file, error.message()));
-  }
-  if (!std::filesystem::is_regular_file(status)) {
-    throw Error(fmt::format("{}: not a file", file));
-  }
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
-    throw Error(fmt::format("{}: cannot be read", file));
-  }
-  std::array<char, kSqliteHeaderBytes> header{};
-  stream.read(header.data(), header.size());
-  const auto count = static_cast<std::size_t>(stream.gcount());
-  if (count == 0) {
-    throw Error(fmt::format("{}: is empty, not a Weft recording", file));
-  }
-  if (std::string_view(header.data(), std::min(count, kSqliteMagic.size())) != kSqliteMagic) {
+  if (header.empty()) throw Error(fmt::format("{}: is empty, not a Weft recording", file));
+  if (std::string_view(header).substr(0, kSqliteMagic.size()) != kSqliteMagic) {
     throw Error(fmt::format("{}: not a Weft recording", file));
   }
   // In this order: with a log the file may be behind its header; without, header and size agree.
   const bool has_log = size_or_zero(log_path(path)) > 0;
   const std::uintmax_t size = size_or_zero(path);
-  const std::uintmax_t promised = promised_size(header);
-  if (count < header.size() || (!has_log && size < promised)) {
+  const std::uintmax_t promised =
+      header.size() < kSqliteHeaderBytes ? kSqliteHeaderBytes : promised_size(header);
+  if (header.size() < kSqliteHeaderBytes || (!has_log && size < promised)) {
     throw Error(fmt::format("{}: truncated, {} of {} bytes", file, size,
                             std::max<std::uintmax_t>(promised, kSqliteHeaderBytes)));
   }
+  return header;
 }
 
 /// Whether the file can be had at all is known only after the first access.
@@ -87,7 +76,16 @@ Database open_and_touch(const std::filesystem::path& path, Database::Access acce
   return database;
 }
 
-Database open_database(const std::filesystem::path& path) {
+/// Whether nobody can be writing: the file keeps no log, and none is beside it. A finished recording
+/// is one in itself, whatever else lies there.
+bool is_settled(const std::filesystem::path& path, const std::string& header) {
+  const bool keeps_log = header[18] != 1 || header[19] != 1;  // write and read version: 2 for a log
+  return !keeps_log && size_or_zero(log_path(path)) == 0 &&
+         size_or_zero(path.string() + "-journal") == 0;
+}
+
+Database open_database(const std::filesystem::path& path, const std::string& header) {
+  if (is_settled(path, header)) return open_and_touch(path, Database::Access::kReadOnlyImmutable);
   try {
     return open_and_touch(path, Database::Access::kReadOnly);
   } catch (const DatabaseError& error) {
@@ -100,18 +98,6 @@ Database open_database(const std::filesystem::path& path) {
   const bool has_log = size_or_zero(log_path(path)) > 0;
   return open_and_touch(
       path, has_log ? Database::Access::kReadOnlyUnlocked : Database::Access::kReadOnlyImmutable);
-}
-
-void check_tables(const Database& database, const std::string& file, bool can_tear) {
-  std::vector<const char*> tables = {"meta", "scene", "body", "chunk", "frame", "metric", "event"};
-  if (can_tear) tables.push_back("topology");
-  for (const char* table : tables) {
-    Statement find = database.prepare("SELECT type FROM sqlite_master WHERE name = ?");
-    find.bind(1, std::string_view(table));
-    if (!find.step() || find.text(0) != "table") {  // a view could run any query
-      throw Error(fmt::format("{}: has no table '{}': the file is damaged", file, table));
-    }
-  }
 }
 
 [[noreturn]] void damaged(const std::string& file, std::string_view what) {
@@ -134,22 +120,27 @@ std::vector<RecordedBody> read_bodies(const Database& database, const std::strin
   return bodies;
 }
 
-std::optional<BlowUp> read_blow_up(const Database& database) {
+std::optional<BlowUp> read_blow_up(const Database& database, const std::string& file) {
+  const auto small = [&](std::int64_t value) {
+    if (value < 0 || value > std::numeric_limits<int>::max()) {
+      damaged(file, "table event is not consistent");
+    }
+    return static_cast<int>(value);
+  };
   Statement rows = database.prepare(
       "SELECT step, time_s, body, node, reason FROM event WHERE kind = 'blow_up' ORDER BY id");
   if (!rows.step()) {
     return std::nullopt;
   }
-  return BlowUp{static_cast<int>(rows.integer(0)), rows.real(1), rows.text(2),
-                static_cast<int>(rows.integer(3)), rows.text(4)};
+  return BlowUp{small(rows.integer(0)), rows.real(1), rows.text(2), small(rows.integer(3)),
+                rows.text(4)};
 }
 
 }  // namespace
 
 Database open_recording(const std::filesystem::path& path) {
   const std::string file = path.string();
-  check_file(path, file);
-  Database database = open_database(path);
+  Database database = open_database(path, check_file(path, file));
   if (database.query_integer("PRAGMA application_id") != kApplicationId) {
     throw Error(fmt::format("{}: not a Weft recording but another application's database", file));
   }
@@ -160,8 +151,17 @@ Database open_recording(const std::filesystem::path& path) {
                     version, kFormatVersion, kTornFormatVersion,
                     version > kTornFormatVersion ? "; a newer Weft is needed" : ""));
   }
-  check_tables(database, file, version == kTornFormatVersion);
+  std::string tables(kTableSchema);
+  if (version == kTornFormatVersion) tables += kTopologySchema;
+  database.require_schema(tables, kAssetSchema);
   return database;
+}
+
+const std::string& meta_value(const Header& header, const std::string& key,
+                              const std::string& file) {
+  const auto found = header.meta.find(key);
+  if (found == header.meta.end()) damaged(file, fmt::format("has no '{}' in table meta", key));
+  return found->second;
 }
 
 Header read_header(const Database& database, const std::string& file) {
@@ -172,7 +172,7 @@ Header read_header(const Database& database, const std::string& file) {
   }
   header.scene_text = database.query_text("SELECT text FROM scene");
   header.bodies = read_bodies(database, file);
-  header.blow_up = read_blow_up(database);
+  header.blow_up = read_blow_up(database, file);
   const auto stored = header.meta.find("meta_hash");
   if (stored == header.meta.end() || stored->second != header_hash(header)) {
     damaged(file, "tables meta, scene, body and event do not have their hash");
@@ -184,6 +184,7 @@ RecordingIndex read_index(const Database& database, const Header& header, const 
                           const std::string& file) {
   RecordingIndex index;
   StreamHash hash;
+  double last_time = -std::numeric_limits<double>::infinity();
   Statement chunks = database.prepare(
       "SELECT id, first_frame, num_frames, codec, raw_bytes, hash FROM chunk ORDER BY id");
   Statement times = database.prepare("SELECT id, time_s, chunk FROM frame ORDER BY id");
@@ -192,6 +193,10 @@ RecordingIndex read_index(const Database& database, const Header& header, const 
                      chunks.text(3),    chunks.text(5),    {}};
     const std::int64_t num_frames = chunks.integer(2);
     std::size_t raw_bytes = 0;
+    if (chunk.raw_bytes > kMaxChunkBytes) {
+      damaged(file, fmt::format("chunk {} has {} bytes, expected at most {}", chunk.id,
+                                chunk.raw_bytes, kMaxChunkBytes));
+    }
     for (std::int64_t i = 0; i < num_frames; ++i) {
       if (!times.step() || times.integer(0) != static_cast<std::int64_t>(index.times.size()) ||
           times.integer(2) != chunk.id) {
@@ -200,7 +205,11 @@ RecordingIndex read_index(const Database& database, const Header& header, const 
       index.offsets.push_back(raw_bytes);
       raw_bytes += layout.codec_at(static_cast<std::int64_t>(index.times.size())).frame_bytes();
       chunk.times.push_back(times.real(1));
-      index.times.push_back(chunk.times.back());
+      if (!(chunk.times.back() > last_time)) {
+        damaged(file, fmt::format("the times of chunk {} do not grow", chunk.id));
+      }
+      last_time = chunk.times.back();
+      index.times.push_back(last_time);
       index.chunk_of.push_back(index.chunks.size());
     }
     const auto first = static_cast<std::int64_t>(index.times.size() - chunk.times.size());
@@ -210,7 +219,7 @@ RecordingIndex read_index(const Database& database, const Header& header, const 
     add_to_index_hash(hash, chunk);
     index.chunks.push_back(std::move(chunk));
   }
-  if (times.step() || hash.hex() != header.meta.at("index_hash")) {
+  if (times.step() || hash.hex() != meta_value(header, "index_hash", file)) {
     damaged(file, "tables chunk and frame do not have their hash");
   }
   return index;

@@ -21,6 +21,9 @@ struct RecordingIndex {
   std::vector<std::size_t> offsets;   ///< of every frame in the decoded bytes of its chunk
 };
 
+/// A text of table meta. Throws Error that names the file if it is not there.
+[[nodiscard]] const std::string& meta_value(const Header& header, const std::string& key,
+                                            const std::string& file);
 /// Reads and verifies the small tables. Throws Error.
 [[nodiscard]] Header read_header(const Database& database, const std::string& file);
 /// Reads and verifies tables chunk and frame. Throws Error.

@@ -1,4 +1,5 @@
-#include <limits>
+#include <algorithm>
+#include <charconv>
 #include <optional>
 #include <set>
 
@@ -19,22 +20,36 @@ struct MetricRow {
   RecordingReader::Sample sample;
 };
 
-/// The part of the meta table that the hash vouches for; its absence is a writer's fault.
-const std::string& meta_value(const Header& header, const std::string& key,
-                              const std::string& file) {
-  const auto found = header.meta.find(key);
-  if (found == header.meta.end()) {
-    throw Error(fmt::format("{}: has no '{}' in table meta", file, key));
-  }
-  return found->second;
-}
-
 StoredPrecision read_precision(const Header& header, const std::string& file) {
   const std::string& text = meta_value(header, "precision", file);
   if (text != "float32" && text != "float64") {
     throw Error(fmt::format("{}: precision = '{}', expected float32 or float64", file, text));
   }
   return text == "float64" ? StoredPrecision::kFloat64 : StoredPrecision::kFloat32;
+}
+
+std::int64_t count_in_meta(const Header& header, const std::string& key, const std::string& file) {
+  const std::string& text = meta_value(header, key, file);
+  std::int64_t count = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, count);
+  if (error != std::errc() || stop != end || count < 0) {
+    throw Error(fmt::format("{}: '{}' in table meta is no number: the file is damaged", file, key));
+  }
+  return count;
+}
+
+/// Everything that shows or measures a recording takes the bodies of its scene for those of its
+/// frames.
+void check_bodies(const Scene& scene, const Header& header, const std::string& file) {
+  const std::vector<RecordedBody> expected = recorded_bodies(scene);
+  const auto is_same = [](const RecordedBody& a, const RecordedBody& b) {
+    return a.name == b.name && a.is_cloth == b.is_cloth && a.num_nodes == b.num_nodes;
+  };
+  if (!std::equal(expected.begin(), expected.end(), header.bodies.begin(), header.bodies.end(),
+                  is_same)) {
+    throw Error(file + ": table body has not the bodies of the scene: the file is damaged");
+  }
 }
 
 }  // namespace
@@ -77,6 +92,10 @@ RecordingReader::Impl::Impl(const std::filesystem::path& the_path)
   kept->execute("BEGIN");  // one moment of a recording that may be growing
   header = read_header(*kept, file);
   const FrameCodec codec(header.bodies, read_precision(header, file));
+  if (static_cast<std::int64_t>(codec.frame_bytes()) > kMaxFrameBytes) {
+    throw Error(fmt::format("{}: a frame has {} bytes, expected at most {}: the file is damaged",
+                            file, codec.frame_bytes(), kMaxFrameBytes));
+  }
   topologies = Topologies(*kept, header, codec, file);
   index = read_index(*kept, header, topologies, file);
   kept->execute("COMMIT");
@@ -142,7 +161,7 @@ const std::vector<MetricRow>& RecordingReader::Impl::metric_rows() const {
   with_database([&](const Database& database) {
     Statement select =
         database.prepare("SELECT name, time_s, value FROM metric WHERE id <= ? ORDER BY id");
-    select.bind(1, std::int64_t{std::stoll(meta_value(header, "num_metrics", file))});
+    select.bind(1, count_in_meta(header, "num_metrics", file));
     while (select.step()) {
       found.push_back({select.text(0), {select.real(1), select.real(2)}});
       const MetricRow& row = found.back();
@@ -180,7 +199,16 @@ Scene RecordingReader::Impl::read_scene() const {
   Scene assets;
   assets.files =
       with_database([&](const Database& database) { return read_assets(database, header, file); });
-  return read_scene_text(header.scene_text, file, files_of(assets));
+  const FileSource own = files_of(assets);
+  Scene scene = read_scene_text(header.scene_text, file, [&](const std::string& name) {
+    std::optional<std::string> bytes = own(name);
+    if (!bytes) {
+      throw InvalidArgument("is not in the recording, expected one that needs no other file");
+    }
+    return bytes;
+  });
+  check_bodies(scene, header, file);
+  return scene;
 }
 
 RecordingReader::RecordingReader(const std::filesystem::path& path)

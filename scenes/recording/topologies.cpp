@@ -11,6 +11,12 @@
 #include <weft/scenes/recording/topology_codec.hpp>
 
 namespace weft::scenes {
+namespace {
+
+/// Bodies of all layouts, each of which has a list of its own: 1,000 tears of 2,000 cloths.
+constexpr std::size_t kMaxLayoutBodies = 2'000'000;
+
+}  // namespace
 
 void Topologies::check(const Row& row, const Header& header) const {
   const bool is_next = row.id == std::ssize(rows_);
@@ -18,7 +24,8 @@ void Topologies::check(const Row& row, const Header& header) const {
   const bool is_later = row.first_frame >= layouts_.back().first_frame;
   // Nodes are only ever added.
   const bool grows = is_cloth && row.nodes > layouts_.back().codec.bodies()[row.body].num_nodes;
-  if (!is_next || !is_cloth || !is_later || !grows || row.raw_bytes < 0) {
+  if (!is_next || !is_cloth || !is_later || !grows || row.raw_bytes < 0 ||
+      row.raw_bytes > kMaxChunkBytes) {
     throw Error(fmt::format("{}: table topology is not consistent: the file is damaged", file_));
   }
 }
@@ -48,6 +55,11 @@ Topologies::Topologies(const Database& database, const Header& header, const Fra
       layouts_.push_back({row.first_frame, layouts_.back().codec});
     }
     layouts_.back().codec.set_num_nodes(row.body, row.nodes);
+    const auto frame_bytes = static_cast<std::int64_t>(layouts_.back().codec.frame_bytes());
+    if (frame_bytes > kMaxFrameBytes || layouts_.size() > kMaxLayoutBodies / header.bodies.size()) {
+      throw Error(fmt::format(
+          "{}: table topology is larger than a run makes it: the file is damaged", file_));
+    }
     for (const std::int64_t value : {row.id, row.first_frame, body, nodes, row.raw_bytes}) {
       hash.add(value);
     }

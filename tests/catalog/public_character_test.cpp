@@ -13,7 +13,7 @@ namespace {
 class PublicCharacter : public testing::TestWithParam<const char*> {};
 
 TEST_P(PublicCharacter, WearsACapeThatItsChestLeads) {
-  Scene scene = load_scene(WEFT_TEST_FOLDER "/catalog/robot_cape.toml");
+  Scene scene = load_scene(WEFT_TEST_FOLDER "/characters/robot_cape.toml");
   scene.engines = {GetParam()};
   scene.world.duration = 1.5;
   ASSERT_EQ(scene.cloths[0].name, "cape");

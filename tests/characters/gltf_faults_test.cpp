@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
               "time 3 = 0.000000 s"},
         Fault{"Sampler", "\"sampler\": 2", "\"sampler\": 3", "channels[2].sampler"},
         Fault{"Base64", ";base64,", ";base64,*", "is no base64 data"},
-        Fault{"MissingFile", "\"uri\": \"data:", "\"uri\": \"none:", "cannot be opened"}),
+        Fault{"MissingFile", "\"uri\": \"data:", "\"uri\": \"none:", "names another file"}),
     [](const testing::TestParamInfo<Fault>& info) { return info.param.name; });
 
 TEST(GltfReader, RefusesABindMatrixWithoutAnInverse) {
@@ -126,12 +126,47 @@ TEST(GltfReader, SurvivesEveryCutOfAFile) {
   for (std::size_t size = 0; size < whole.size(); size += 37) {
     EXPECT_NE(message_of(whole.substr(0, size)), "read without an error") << size;
   }
-  const std::vector<std::byte> binary =
-      characters::file_bytes(std::string(WEFT_SOURCE_DIR) + "/scenes/models/caped_figure.glb");
+  const std::string file =
+      read_input_file(std::string(WEFT_SOURCE_DIR) + "/scenes/models/caped_figure.glb");
+  const auto binary = std::as_bytes(std::span(file));
   for (std::size_t size = 0; size < binary.size(); size += 1009) {
-    EXPECT_THROW((void)characters::read_gltf(std::span(binary).first(size), "cut.glb"),
-                 InvalidArgument)
+    EXPECT_THROW((void)characters::read_gltf(binary.first(size), "cut.glb"), InvalidArgument)
         << size;
+  }
+}
+
+TEST(GltfReader, ReadsNoOtherFileWithoutASource) {
+  const std::string model = small_model();
+  const std::size_t uri = model.find("data:application");
+  const std::size_t size = model.find('"', uri) - uri;
+  // Files that are there: one by an absolute path, one in the working directory.
+  for (const char* name : {"/proc/self/status", "CTestTestfile.cmake", "../secret_config"}) {
+    const std::string message = message_of(std::string(model).replace(uri, size, name));
+    EXPECT_NE(message.find("names another file, expected a .glb"), std::string::npos) << message;
+  }
+}
+
+TEST(GltfReader, BoundsTheNumbersOfPartsThatShareTheirBytes) {
+  // A million vertices take a buffer of 12 MB, and each further part only a few letters.
+  constexpr std::size_t kVertices = 999'999;
+  std::string parts;
+  for (int p = 0; p < 100; ++p) {
+    parts += std::string(p == 0 ? "" : ", ") + R"({"attributes": {"POSITION": 0}})";
+  }
+  const std::string size = std::to_string(12 * kVertices);
+  const std::string text =
+      R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+ "nodes": [{"mesh": 0}], "meshes": [{"primitives": [)" +
+      parts + R"(]}], "buffers": [{"uri": "zeros.bin", "byteLength": )" + size +
+      R"(}], "bufferViews": [{"buffer": 0, "byteLength": )" + size +
+      R"(}], "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": )" +
+      std::to_string(kVertices) + "}]}";
+  const auto zeros = [&](const std::string&) { return std::string(12 * kVertices, '\0'); };
+  try {
+    (void)characters::read_gltf(std::as_bytes(std::span(text)), "bad.gltf", zeros);
+    FAIL() << "read";
+  } catch (const InvalidArgument& error) {
+    EXPECT_NE(std::string(error.what()).find("numbers"), std::string::npos) << error.what();
   }
 }
 

@@ -1,4 +1,5 @@
 #include <sqlite3.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <iterator>
@@ -7,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <weft/scenes/recording/database.hpp>
+#include <weft/scenes/recording/format.hpp>
 #include <weft/scenes/recording/recording.hpp>
 
 #include "tests/recording/recording_samples.hpp"
@@ -73,7 +76,7 @@ std::string error_of(const std::filesystem::path& path) {
 TEST(Damage, EveryKindHasAnErrorOfItsOwn) {
   const TemporaryFolder folder;
   EXPECT_THAT(error_of(folder / "missing"), HasSubstr("missing: no such file"));
-  EXPECT_THAT(error_of(folder.path()), HasSubstr("not a file"));
+  EXPECT_THAT(error_of(folder.path()), HasSubstr("is a directory"));
   write_bytes(folder / "empty", {});
   EXPECT_THAT(error_of(folder / "empty"), HasSubstr("empty: is empty"));
   write_bytes(folder / "text", {'h', 'i', '\n'});
@@ -85,7 +88,133 @@ TEST(Damage, EveryKindHasAnErrorOfItsOwn) {
   EXPECT_THAT(error_of(folder / "newer"), HasSubstr("newer: recording format version 3"));
   write_sample(folder / "table", make_scene(), StoredPrecision::kFloat32, 3);
   run_sql(folder / "table", "DROP TABLE metric; CREATE VIEW metric AS SELECT * FROM frame");
-  EXPECT_THAT(error_of(folder / "table"), HasSubstr("table: has no table 'metric'"));
+  EXPECT_THAT(error_of(folder / "table"), HasSubstr("table: holds 'metric', which is not as in a"));
+  write_sample(folder / "less", make_scene(), StoredPrecision::kFloat32, 3);
+  run_sql(folder / "less", "DROP TABLE metric");
+  EXPECT_THAT(error_of(folder / "less"), HasSubstr("less: has no table 'metric'"));
+}
+
+// SQL of a stranger would run while the tables are read.
+TEST(Damage, AForeignSchemaIsRefusedWhateverItDoes) {
+  const TemporaryFolder folder;
+  int number = 0;
+  for (const char* sql : {
+           "CREATE VIEW v AS SELECT * FROM meta",
+           "CREATE TRIGGER t AFTER INSERT ON frame BEGIN DELETE FROM chunk; END",
+           "CREATE INDEX i ON frame (abs(time_s))",
+           "CREATE TABLE other (x)",
+           "ALTER TABLE frame ADD COLUMN x AS (length(hex(zeroblob(100000000))))",
+           "CREATE VIRTUAL TABLE v USING fts5(x)",
+       }) {
+    const auto path = folder / std::to_string(number++);
+    write_sample(path, make_scene(), StoredPrecision::kFloat32, 3);
+    run_sql(path, sql);
+    EXPECT_THAT(error_of(path), HasSubstr("which is not as in a recording")) << sql;
+  }
+}
+
+/// Changes a recording as a forger does, who computes the hashes of the header too.
+void forge(const std::filesystem::path& path, const char* sql) {
+  run_sql(path, sql);
+  Database database(path, Database::Access::kReadWrite);
+  Header header;
+  Statement meta = database.prepare("SELECT key, value FROM meta ORDER BY key");
+  while (meta.step()) header.meta[meta.text(0)] = meta.text(1);
+  header.scene_text = database.query_text("SELECT text FROM scene");
+  Statement bodies = database.prepare("SELECT name, kind, nodes FROM body ORDER BY id");
+  while (bodies.step()) {
+    header.bodies.push_back(
+        {bodies.text(0), bodies.text(1) == "cloth", static_cast<int>(bodies.integer(2))});
+  }
+  Statement events =
+      database.prepare("SELECT step, time_s, body, node, reason FROM event ORDER BY id");
+  if (events.step()) {
+    header.blow_up = BlowUp{static_cast<int>(events.integer(0)), events.real(1), events.text(2),
+                            static_cast<int>(events.integer(3)), events.text(4)};
+  }
+  const std::string hash = header_hash(header);
+  database.prepare("UPDATE meta SET value = ? WHERE key = 'meta_hash'")
+      .bind(1, std::string_view(hash))
+      .run();
+}
+
+/// The error of opening a forged recording and of read(reader).
+template <class Read>
+std::string error_after(const std::filesystem::path& path, const std::string& sql,
+                        const Read& read) {
+  write_sample(path, make_scene(), StoredPrecision::kFloat32, 3);
+  forge(path, sql.c_str());
+  try {
+    const RecordingReader reader(path);
+    read(reader);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Damage, AForgedRecordingReadsNoFileOfItsReader) {
+  const TemporaryFolder folder;
+  write_bytes(folder / "secret.obj", {'v', ' ', '0', '\n'});
+  const std::string absolute = (folder / "secret.obj").string();
+  const std::string grid = "grid = { nodes = [3, 3], size = [\"1 m\", \"1 m\"] }\n";
+  int number = 0;
+  for (const std::string& cloth : {
+           std::string("mesh = { file = \"secret.obj\" }"),
+           "mesh = { file = \"" + absolute + "\" }",
+           grid + "texture = \"secret.png\"",
+           grid + "pin = [{ texture = \"secret.png\" }]",
+           grid + "[[character]]\nname = \"c\"\nfile = \"secret.glb\"",
+       }) {
+    const std::string text =
+        "schema = \"weft-scene/1\"\nname = \"forged\"\n[world]\ntime_step = \"1/100 s\"\n"
+        "duration = \"1 s\"\n[[cloth]]\nname = \"towel\"\nmass = \"1 kg\"\n" +
+        cloth + "\n";
+    const std::string error =
+        error_after(folder / std::to_string(number++), "UPDATE scene SET text = '" + text + "'",
+                    [](const RecordingReader& reader) { (void)reader.scene(); });
+    EXPECT_THAT(error, HasSubstr("is not in the recording, expected one that needs no other file"))
+        << cloth;
+  }
+}
+
+TEST(Damage, AForgedSizeAsksForNoMemory) {
+  const TemporaryFolder folder;
+  const auto read_metrics = [](const RecordingReader& reader) { (void)reader.metric_names(); };
+  const auto error = [&](const char* name, const char* sql) {
+    return error_after(folder / name, sql, read_metrics);
+  };
+  EXPECT_THAT(error("nodes", "UPDATE body SET nodes = 2147483647 WHERE id = 0"),
+              HasSubstr("bytes, expected at most"));
+  EXPECT_THAT(error("chunk", "UPDATE chunk SET raw_bytes = 2900000000"),
+              HasSubstr("bytes, expected at most"));
+  EXPECT_THAT(error("metrics", "UPDATE meta SET value = 'many' WHERE key = 'num_metrics'"),
+              HasSubstr("'num_metrics' in table meta is no number"));
+  EXPECT_THAT(error("index", "DELETE FROM meta WHERE key = 'index_hash'"),
+              HasSubstr("has no 'index_hash' in table meta"));
+}
+
+TEST(Damage, AForgedBodyIsNotThatOfTheScene) {
+  const TemporaryFolder folder;
+  const auto path = folder / "a";
+  write_sample(path, make_scene(), StoredPrecision::kFloat32, 3);
+  // The frames have the same size as before.
+  forge(path,
+        "UPDATE body SET nodes = nodes - 1 WHERE id = 0; "
+        "UPDATE body SET nodes = nodes + 1 WHERE id = 1");
+  const RecordingReader reader(path);
+  try {
+    (void)reader.scene();
+    FAIL() << "read";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("table body has not the bodies of the scene"));
+  }
+}
+
+TEST(Damage, APipeIsRefusedAtOnce) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_THAT(error_of(folder / "pipe"), HasSubstr("expected a regular file"));
 }
 
 TEST(Damage, ChangedRowsAreErrors) {

@@ -1,7 +1,9 @@
 #include <weft/scenes/appearance.hpp>
 
 #include <png.h>
+#include <turbojpeg.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -10,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <weft/custom_forces/core/error.hpp>
 #include <weft/scenes/image_file.hpp>
 #include <weft/scenes/scene_file.hpp>
 
@@ -153,6 +156,51 @@ TEST(Appearance, PicturesThatCannotBeReadAreRefused) {
   }
   EXPECT_THAT(error_of(text, source_of("a.png", "\xff\xd8\xff\xe0 no more")),
               HasSubstr("no readable JPEG"));
+}
+
+std::string decoding_error(const std::string& bytes) {
+  try {
+    (void)decode_image(bytes);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+// A few bytes may say that a picture has 200 MB, or that its pixels are to be gone over for an hour.
+TEST(Appearance, ThePixelsOfAPictureAreCountedBeforeTheyAreDecoded) {
+  std::string png = png_row({1, 2, 3});
+  const auto set_size = [&](char high_width, char high_height) {  // in units of 256 pixels
+    png[18] = high_width;
+    png[22] = high_height;
+    png[19] = png[23] = 0;
+    // The checksum of the header's 17 bytes.
+    const uLong sum = crc32(0, reinterpret_cast<const Bytef*>(png.data()) + 12, 17);
+    for (int i = 0; i < 4; ++i) png[29 + i] = static_cast<char>(sum >> (24 - 8 * i) & 255U);
+  };
+  set_size(32, 32);
+  EXPECT_THAT(decoding_error(png), HasSubstr("pixels, expected at most 33554432 in all"));
+  set_size(33, 1);
+  EXPECT_THAT(decoding_error(png), HasSubstr("expected at most 8192 x 8192"));
+}
+
+TEST(Appearance, AJpegOfTooManyScansIsRefused) {
+  const std::vector<unsigned char> pixels(3 * 16 * 16, 100);
+  tjhandle handle = tjInitCompress();
+  unsigned char* made = nullptr;
+  unsigned long size = 0;
+  ASSERT_EQ(tjCompress2(handle, pixels.data(), 16, 0, 16, TJPF_RGB, &made, &size, TJSAMP_444, 90,
+                        TJFLAG_PROGRESSIVE),
+            0);
+  const std::string whole(reinterpret_cast<const char*>(made), size);
+  tjFree(made);
+  tjDestroy(handle);
+  EXPECT_EQ(decoding_error(whole), "no error");
+  const std::size_t scan = whole.rfind("\xff\xda");
+  const std::string last = whole.substr(scan, whole.size() - 2 - scan);
+  std::string many = whole.substr(0, whole.size() - 2);
+  for (int i = 0; i < 100; ++i) many += last;
+  EXPECT_THAT(decoding_error(many + "\xff\xd9"), HasSubstr("has over 64 scans"));
 }
 
 TEST(Appearance, PixelsOfAPictureComeInTheirOrder) {

@@ -60,7 +60,7 @@ TEST(Characters, WhatTheModelDoesNotHaveIsAnErrorThatListsWhatItHas) {
 
 TEST(Characters, MistakesOfTheSceneAreErrorsWithTheirPlace) {
   EXPECT_THAT(message_of(kStart + "file = \"no.glb\"\n"),
-              StartsWith("figure.toml:10:8: character.file = \"no.glb\": no.glb: no such file"));
+              StartsWith("figure.toml:10:8: character.file = \"no.glb\": no such file"));
   EXPECT_THAT(message_of(kStart + "file = \"data:model/gltf-binary;base64,???\"\n"),
               HasSubstr("is no base64 text"));
   EXPECT_THAT(message_of(kStart + "file = \"data:model/gltf-binary;base64,AAAA\"\n"),

@@ -23,6 +23,7 @@ inline constexpr auto kMalformedCases = std::to_array<MalformedCase>({
     {"unknown_level", 14, 35, "expected one of full, simplified, skin"},
     {"axis_of_a_rope", 11, 1, "cloth.u_axis: unknown key"},
     {"backward_torque", 15, 10, ">= 0"},
+    {"bulge_out_of_region", 37, 45, "holds no node, expected a box with at least one node"},
     {"bulge_of_a_sphere", 11, 9, "expected a grid to raise"},
     {"center_has_it_all", 9, 88, "expected a number > 0 and < 1"},
     {"column_of_a_sphere", 11, 39, "expected a whole number from 0 to 41"},

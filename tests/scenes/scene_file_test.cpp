@@ -1,7 +1,11 @@
 #include <weft/scenes/scene_file.hpp>
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <string>
 
@@ -178,6 +182,53 @@ TEST(SceneFile, MissingFileAndDirectoryAreOneClearError) {
   EXPECT_EQ(std::string(missing.what()),
             "/nowhere/scene.toml:1:1: no such file, expected a scene file or a catalog name");
   EXPECT_THAT(file_error_of(kMalformed).what(), HasSubstr("is a directory"));
+}
+
+/// The error for a scene in a folder of its own with a table of a cloth, whose folder above it holds
+/// what its name says.
+std::string error_beside(const std::string& name, const std::string& cloth) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("weft_beside_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder / "scene");
+  std::ofstream(folder / name) << "secret";
+  std::filesystem::create_symlink(folder / name, folder / "scene" / name);
+  const std::string start(kSmallScene.substr(0, kSmallScene.find("grid")));
+  std::ofstream(folder / "scene/s.toml") << start << cloth;
+  const std::string message = file_error_of(folder / "scene/s.toml").what();
+  std::filesystem::remove_all(folder);
+  return message;
+}
+
+TEST(SceneFile, NamesNoFileOutsideOfItsFolder) {
+  struct Case {
+    std::string file;
+    std::string before;  ///< the name in the scene
+    std::string after;
+  };
+  const std::string grid =
+      "grid = { nodes = [3, 3], size = [\"1 m\", \"1 m\"] }\nmass = \"1 kg\"\n";
+  const std::vector<Case> cases = {
+      {"a.obj", "mesh = { file = \"", "\" }\nmass = \"1 kg\"\n"},
+      {"a.png", grid + "texture = \"", "\"\n"},
+      {"a.png", grid + "pin = [{ texture = \"", "\" }]\n"},
+      {"a.glb", grid + "[[character]]\nname = \"c\"\nfile = \"", "\"\n"},
+  };
+  for (const Case& c : cases) {
+    const auto error = [&](const std::string& name) {
+      return error_beside(c.file, c.before + name + c.after);
+    };
+    EXPECT_THAT(error("../" + c.file), HasSubstr("leads out of the folder")) << c.before;
+    EXPECT_THAT(error("/etc/" + c.file), HasSubstr("is an absolute path")) << c.before;
+    EXPECT_THAT(error(c.file), HasSubstr("is a link out of the folder")) << c.before;
+  }
+}
+
+TEST(SceneFile, APipeIsRefusedAtOnce) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("weft_pipe_" + std::to_string(getpid()));
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  EXPECT_THAT(file_error_of(path).what(), HasSubstr("expected a regular file"));
+  std::filesystem::remove(path);
 }
 
 TEST(SceneFile, MessagesStayOnOneLine) {

@@ -12,7 +12,7 @@ struct BrokenCase {
 };
 
 // clang-format off
-inline constexpr std::array<BrokenCase, 26> kBrokenCases = {{
+inline constexpr std::array<BrokenCase, 33> kBrokenCases = {{
     {"not_there.obj", "no such file"},
     {"empty.obj", "is empty"},
     {"no_faces.obj", "has no triangle"},
@@ -33,12 +33,19 @@ inline constexpr std::array<BrokenCase, 26> kBrokenCases = {{
     {"huge_accessor.gltf", "cannot be read"},
     {"huge_count.ply", "cannot be read"},
     {"flipped.obj", "neighbours turn opposite ways at the edge at"},
-    {"missing_buffer.gltf", "could not open referenced file"},
+    {"missing_buffer.gltf", "the file 'not_there.bin' that it names does not exist"},
     {"circle.gltf", "recursive reference"},
     {"no_such_mesh.gltf", "Array index 7 is out of bounds"},
     {"text.fbx", "cannot be read"},
     {"binary.obj", "has no triangle"},
-    {"unknown.xyz", "cannot be read"},
+    {"unknown.xyz", "expected a name that ends with .obj"},
+    {"header_without_format.ply", "its header has no line 'end_header'"},
+    {"header_with_strange_bytes.ply", "line 2 of its header is 'format ascii 1?0'"},
+    {"header_without_end.ply", "its header has no line 'end_header'"},
+    {"header_cut_off.ply", "its header has no line 'end_header'"},
+    {"buffer_above.gltf", "is no buffer, expected a file that ends with .bin"},
+    {"buffer_elsewhere.gltf", "is no buffer, expected a file that ends with .bin"},
+    {"buffer_of_no_buffer.gltf", "is no buffer, expected a file that ends with .bin"},
 }};
 // clang-format on
 

@@ -1,6 +1,8 @@
 #include <weft/scenes/import/import_mesh.hpp>
 
+#include <sys/stat.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -81,6 +83,84 @@ TEST(Import, WeightsOfBonesBecomeGroupsFromEveryFormatThatHasThem) {
     }
     EXPECT_EQ(found, 2) << name;
   }
+}
+
+/// A folder with a mesh in a folder of its own, removed at the end.
+class MeshFolder {
+ public:
+  MeshFolder()
+      : path_(std::filesystem::temp_directory_path() / ("weft_mesh_" + std::to_string(getpid()))) {
+    std::filesystem::create_directories(path_ / "models");
+  }
+  ~MeshFolder() { std::filesystem::remove_all(path_); }
+  MeshFolder(const MeshFolder&) = delete;
+  MeshFolder& operator=(const MeshFolder&) = delete;
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+  }
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(Import, ReadsTheBuffersOfGltfInItsFolderAndBelowOnly) {
+  const MeshFolder folder;
+  const std::string text = content_of(kHere / "broken/missing_buffer.gltf");
+  const std::string tetrahedron = content_of(kHere / "good/tetrahedron.glb");
+  const std::string buffer = tetrahedron.substr(tetrahedron.size() - 72);  // its binary chunk
+  folder.write("secret.bin", buffer);
+  folder.write("models/own.bin", buffer);
+  std::filesystem::create_directory(folder / "models/below");
+  folder.write("models/below/own.bin", buffer);
+  std::filesystem::create_symlink(folder / "secret.bin", folder / "models/link.bin");
+  const auto error_with = [&](const std::string& uri) {
+    std::string changed = text;
+    changed.replace(changed.find("not_there.bin"), 13, uri);
+    folder.write("models/m.gltf", changed);
+    return error_of(folder / "models/m.gltf");
+  };
+  EXPECT_EQ(error_with("own.bin"), "no error");
+  EXPECT_EQ(error_with("below/own.bin"), "no error");
+  EXPECT_THAT(error_with("../secret.bin"), HasSubstr("leads out of the folder"));
+  EXPECT_THAT(error_with((folder / "secret.bin").string()), HasSubstr("is an absolute path"));
+  EXPECT_THAT(error_with("link.bin"), HasSubstr("is a link out of the folder"));
+}
+
+TEST(Import, ReadsNoMaterialLibraryOfAnObj) {
+  const MeshFolder folder;
+  // Lines that assimp quotes in its messages, once for each that it does not know.
+  folder.write("secret.txt", "newmtl out of range\nKd dropped the password is 1234\n");
+  for (const std::string name : {"../secret.txt", "m.mtl"}) {
+    folder.write("models/m.mtl", "mtllib out of range\nnewmtl dropped\n");
+    folder.write("models/m.obj", "mtllib " + name + "\nmtllib ../../" + name +
+                                     "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
+    const std::string error = error_of(folder / "models/m.obj");
+    EXPECT_EQ(error.find("password"), std::string::npos) << error;
+    EXPECT_EQ(error, "no error");
+  }
+  // Names of materials select a part all the same.
+  EXPECT_EQ(error_of(folder / "models/m.obj", {.part = "red"}), "no error");
+}
+
+TEST(Import, APipeIsRefusedAtOnce) {
+  const MeshFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe.obj").c_str(), 0600), 0);
+  EXPECT_THAT(error_of(folder / "pipe.obj"), HasSubstr("expected a regular file"));
+}
+
+TEST(Import, ALargeFileIsRefusedBeforeItIsRead) {
+  const MeshFolder folder;
+  folder.write("large.stl", "solid");
+  std::filesystem::resize_file(folder / "large.stl", 20'000'000'000);  // no block on the disk
+  EXPECT_THAT(error_of(folder / "large.stl"), HasSubstr("has 20000000000 bytes, expected at most"));
 }
 
 TEST(Import, LeavesOutWhatIsNoSurfaceAndSaysSo) {

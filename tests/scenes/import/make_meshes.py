@@ -20,6 +20,13 @@ FACES = "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n"
 CORNERS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
 SIDES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
 
+# A PLY file with bytes changed here and there.
+STRANGE_HEADER = (
+    b'ply\nformat ascii 1\x000\nelement vertex 4\nproperty flo\x7ft x\nprop\xf6rty\x83'
+    b'float y\nproperty float`z*element face 4\nprop\x80rtyYlist uchar int '
+    b'verte\xff_indices\nend_h\x80ader\n0 0 \x80\x081 0 0\xda0 1\xff0\n\x80 0 1\n3 0 2 -1\n3 0 1'
+    b' 3\n3 0 3\xff2\n3 1 2 3\n')
+
 
 def gltf(indices=SIDES, nodes=None, bin_uri=None, **changes):
     """A glTF file of the tetrahedron with its data inside."""
@@ -108,6 +115,14 @@ def main():
     write("broken/huge_count.ply", ply(CORNERS, SIDES, count=4000000000))
     write("broken/flipped.obj", "o flip\n" + SQUARE + "f 1 2 5\nf 2 3 5\nf 3 5 4\nf 4 1 5\n")
     write("broken/missing_buffer.gltf", json.dumps(gltf(bin_uri="not_there.bin")[0]))
+    for name, uri in (("above", "../broken_cases.hpp"), ("elsewhere", "/etc/hostname"), ("of_no_buffer", "text.fbx")):
+        write(f"broken/buffer_{name}.gltf", json.dumps(gltf(bin_uri=uri)[0]))
+    # Headers of which assimp never finds the end.
+    write("broken/header_cut_off.ply", "ply\nformat ascii ")
+    write("broken/header_without_format.ply", b"ply\nformat ascii \x01\0\0\x008.")
+    write("broken/header_without_end.ply",
+          b"ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\npro\xff\xff\xff\x7fy floa")
+    write("broken/header_with_strange_bytes.ply", STRANGE_HEADER)
     circle = [{"name": "a", "children": [1], "mesh": 0}, {"name": "b", "children": [0]}]
     write("broken/circle.gltf", json.dumps(gltf(nodes=circle)[0]))
     write("broken/no_such_mesh.gltf", json.dumps(gltf(nodes=[{"mesh": 7}])[0]))

@@ -1,0 +1,1 @@
+UPDATE chunk SET raw_bytes=1000000000000;

@@ -1,0 +1,1 @@
+UPDATE body SET nodes=2147483647;

@@ -1,0 +1,1 @@
+UPDATE scene SET text = replace(text, 'grid = {', 'mesh = { file = "/etc/hostname", ');

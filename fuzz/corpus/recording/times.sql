@@ -1,0 +1,1 @@
+UPDATE frame SET time_s = 0.1;
