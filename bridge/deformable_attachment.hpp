@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <weft/bridge/body_life.hpp>
 #include <weft/bridge/law_attachment.hpp>
 
 namespace weft::bridge {
@@ -16,8 +18,9 @@ struct DeformableAttachment {
   using NodeVector = btVector3 btSoftBody::Node::*;
 
   btSoftBody* body;
+  std::shared_ptr<BodyLife> life;
   forces::LawSet<btScalar> laws;
-  VectorX<btScalar> masses;
+  FollowedMasses followed;
   Matrix3X<btScalar> positions;
   Matrix3X<btScalar> velocities;
   Matrix3X<btScalar> forces;
@@ -31,7 +34,7 @@ struct DeformableAttachment {
   double still_time = 0.0;  ///< when still_forces were evaluated [s]
 
   [[nodiscard]] forces::State<btScalar> state() const {
-    return {positions, velocities, masses, time};
+    return {positions, velocities, followed.values(), time};
   }
   [[nodiscard]] bool is_movable(int node) const { return body->m_nodes[node].m_im > 0; }
   /// Reads m_v and either m_x or m_q.

@@ -37,7 +37,8 @@ struct DeformableAttachment;
 /// on bodies with laws for one step. A state that is not finite or too fast freezes the body
 /// (DISABLE_SIMULATION) and is reported: Bullet would replace NaN by zero and clamp speeds.
 /// In explicit mode too fast is a body diagonal per step, where Bullet clamps.
-/// Lifetime: a body that leaves its world is forgotten. The object must outlive the solver's steps.
+/// Masses are the body's own: setMass(), setTotalMass() and m_im act from the next step on.
+/// Lifetime: a body that leaves its world, as Bullet tells, or is deleted, is forgotten. The object must outlive the solver's steps.
 class DeformableForces : public btDeformableLagrangianForce {
  public:
   /// Throws Error if the calling program was compiled for another Bullet than the bridge.
@@ -59,7 +60,7 @@ class DeformableForces : public btDeformableLagrangianForce {
   /// masses: n [kg], > 0, those of pinned nodes too. Throws InvalidArgument if masses or laws do not
   /// fit the body's nodes, for a law of inertia level, if laws are attached already, for a timescale other than 1, and for a
   /// body that asks for what this world ignores: anchors of the classic world, wind, lift, drag,
-  /// pressure, volume or pose forces, kDP. The body must not gain or lose nodes afterwards.
+  /// pressure, volume or pose forces, kDP; and for a body in a world that has another solver. The body must not gain or lose nodes afterwards.
   void attach(btSoftBody& body, forces::LawSet<btScalar> laws, VectorX<btScalar> masses);
   /// Does nothing if no laws are attached.
   void detach(btSoftBody& body);
@@ -96,6 +97,7 @@ class DeformableForces : public btDeformableLagrangianForce {
 
  private:
   explicit DeformableForces(const BulletLayout& caller);
+  void forget_deleted();
   [[nodiscard]] DeformableAttachment* find(const btSoftBody& body) const;
   [[nodiscard]] bool takes_part(const DeformableAttachment& attachment) const;
   void add_differential(btScalar scale, bool elastic, const TVStack& direction, TVStack& product);
