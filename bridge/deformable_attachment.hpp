@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,8 +31,9 @@ struct DeformableAttachment {
   Matrix3X<btScalar> no_velocities;
   std::vector<std::vector<int>> colors;  ///< see node_colors(); empty if the mesh is not known
   std::optional<BodyBlowUp> blow_up;
-  double time = 0.0;        ///< [s] of the steps since the body was attached
-  double still_time = 0.0;  ///< when still_forces were evaluated [s]
+  bool is_reported = false;  ///< to DeformableForces::set_on_blow_up()
+  double time = 0.0;         ///< [s] of the steps since the body was attached
+  double still_time = 0.0;   ///< when still_forces were evaluated [s]
 
   [[nodiscard]] forces::State<btScalar> state() const {
     return {positions, velocities, followed.values(), time};
@@ -56,6 +58,19 @@ struct DeformableAttachment {
   [[nodiscard]] double clamp_speed(btScalar time_step) const;
   /// Reports, stops the body and takes it out of the simulation.
   void explode(int node, std::string reason);
+  /// work(), whose exceptions explode the body and leave no step half-way. False if there was one.
+  template <class Work>
+  bool guard(const Work& work) {
+    try {
+      work();
+      return true;
+    } catch (const std::exception& error) {
+      explode(-1, error.what());
+    } catch (...) {
+      explode(-1, "an exception that is no std::exception");
+    }
+    return false;
+  }
 
  private:
   bool evaluate_at(const Matrix3X<btScalar>& at_velocities, Matrix3X<btScalar>& result);

@@ -128,6 +128,25 @@ std::optional<BodyBlowUp> DeformableForces::blow_up(const btSoftBody& body) cons
 
 void DeformableForces::advance_time(double time_step) {
   for (const auto& attachment : attachments_) attachment->time += time_step;
+  tell_of_blow_ups();
+}
+
+void DeformableForces::set_on_blow_up(
+    std::function<void(btSoftBody&, const BodyBlowUp&)> callback) {
+  on_blow_up_ = std::move(callback);
+}
+
+// A step is no place for an exception: one that the callback lets go ends the program.
+void DeformableForces::tell_of_blow_ups() noexcept {
+  if (!on_blow_up_) return;
+  std::vector<std::pair<btSoftBody*, BodyBlowUp>> news;  // the callback may attach and detach
+  for (const auto& attachment : attachments_) {
+    if (!attachment->blow_up || attachment->is_reported) continue;
+    attachment->is_reported = true;
+    news.emplace_back(attachment->body, *attachment->blow_up);
+  }
+  const auto callback = on_blow_up_;  // which may set another one
+  for (const auto& [body, blow_up] : news) callback(*body, blow_up);
 }
 
 // A body takes part once the solver has numbered its nodes.
@@ -142,6 +161,7 @@ bool DeformableForces::takes_part(const DeformableAttachment& attachment) const 
 void DeformableForces::reinitialize(bool /*nodes_updated*/) {
   solve_has_failed_ = false;
   forget_deleted();
+  tell_of_blow_ups();  // of the step before, where nobody calls advance_time()
   for (const auto& attachment : attachments_) {
     const int node = attachment->followed.follow(*attachment->body);
     if (node < 0 || attachment->blow_up) continue;
@@ -209,7 +229,7 @@ void DeformableForces::addScaledHessian(btScalar scale) {
   for (const auto& attachment : attachments_) {
     if (!takes_part(*attachment)) continue;
     attachment->read(&btSoftBody::Node::m_q);
-    attachment->add_effective_mass(scale);
+    attachment->guard([&] { attachment->add_effective_mass(scale); });
   }
 }
 
@@ -226,11 +246,14 @@ void DeformableForces::add_differential(btScalar scale, bool elastic, const Stac
       a.direction.col(i) << d.x(), d.y(), d.z();
     }
     a.forces.setZero(3, a.positions.cols());
-    if (elastic) {
-      a.laws.add_stiffness_product(a.state(), a.direction, a.forces);
-    } else {
-      a.laws.add_damping_product(a.state(), a.direction, a.forces);
-    }
+    const bool is_done = a.guard([&] {
+      if (elastic) {
+        a.laws.add_stiffness_product(a.state(), a.direction, a.forces);
+      } else {
+        a.laws.add_damping_product(a.state(), a.direction, a.forces);
+      }
+    });
+    if (!is_done) continue;
     if (a.forces.allFinite()) {
       a.write(scale, product);
       continue;
@@ -261,7 +284,9 @@ double DeformableForces::totalElasticEnergy(btScalar /*time_step*/) {
   for (const auto& attachment : attachments_) {
     if (!takes_part(*attachment)) continue;
     attachment->read(&btSoftBody::Node::m_q);
-    energy += static_cast<double>(attachment->laws.potential_energy(attachment->state()));
+    attachment->guard([&] {
+      energy += static_cast<double>(attachment->laws.potential_energy(attachment->state()));
+    });
   }
   return energy;
 }

@@ -260,6 +260,24 @@ TEST(SolverChecks, AnExceptionOfALawStopsItsBodyAndNoStep) {
   }
 }
 
+TEST(SolverChecks, AnExceptionOfALawStopsItsBodyOfTheDeformableWorldToo) {
+  DeformableWorld world({});
+  btSoftBody& faulty = world.add(make_cloth_body(world.info(), cloth(), {}));
+  btSoftBody& good = world.add(make_cloth_body(world.info(), cloth(5), {}));
+  world.forces().attach(faulty, faulty_laws(-0.01), cloth().masses.cast<btScalar>());
+  world.forces().attach(good, cloth(5), {kGravity});
+  int num_told = 0;
+  world.forces().set_on_blow_up([&](btSoftBody& body, const BodyBlowUp& blow_up) {
+    ++num_told;
+    EXPECT_EQ(&body, &faulty);
+    EXPECT_EQ(blow_up.reason, "the law has a fault");
+  });
+  for (int step = 0; step < 20; ++step) ASSERT_NO_THROW(world.step(kTimeStep));
+  EXPECT_EQ(num_told, 1);
+  EXPECT_LT(static_cast<double>(good.m_nodes[0].m_x.y()), 5 - 0.1);
+  EXPECT_NEAR(static_cast<double>(faulty.m_nodes[0].m_x.y()), -0.01, 0.01);
+}
+
 // A patch of an existing program with VF_SS, as in every demo of Bullet, falls on another one.
 TEST(SolverChecks, FastBodiesWithBulletsFaceContactMeetGently) {
   for (const bool both_fast : {true, false}) {
