@@ -15,7 +15,8 @@ endforeach()
 
 # configure(<source> <expected result: well|ill> <pattern> <options>...): what CMake says has to match.
 function(configure source result pattern)
-  execute_process(COMMAND "${CMAKE_COMMAND}" -S "${source}" -B "${FOLDER}/build" "-DCMAKE_CXX_COMPILER=${COMPILER}"
+  execute_process(COMMAND "${CMAKE_COMMAND}" -S "${source}" -B "${FOLDER}/build" -G "${GENERATOR}" "-DCMAKE_MAKE_PROGRAM=${MAKE}"
+    "-DCMAKE_CXX_COMPILER=${COMPILER}"
     "-DCMAKE_PREFIX_PATH=${FOLDER}/machine" -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF
     -DCMAKE_FIND_USE_SYSTEM_ENVIRONMENT_PATH=OFF "-DEigen3_DIR=${Eigen3_DIR}" "-DTBB_DIR=${TBB_DIR}" ${ARGN}
     OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE code)
