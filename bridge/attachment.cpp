@@ -76,6 +76,11 @@ void SoftBodySolver::Attachment::sum_laws() {
 void SoftBodySolver::Attachment::predict(btScalar time_step) {
   follow_masses();
   if (blow_up) return;
+  if (fast) {
+    // What attach_fast() refuses, and the program has done since.
+    if (auto reason = FastBody::obstacle(*body))
+      return stop("it cannot be fast any more: " + *reason);
+  }
   const auto predict_fast = [&] { fast->predict(*body, time_step, positions, velocities); };
   const bool fits = masses().size() == body->m_nodes.size();  // if not, the laws say so
   if (fast && fits && !deferred.is_in_flight() && laws.is_node_by_node()) {

@@ -173,6 +173,18 @@ TEST(SolverChecks, WhatCannotBeFastIsRefusedAndLeftAsItWas) {
   }
 }
 
+TEST(SolverChecks, WhatCannotBeFastAnyMoreIsReported) {
+  SoftWorld world({});
+  btSoftBody& body = world.add(make_cloth_body(world.info(), cloth(), {}));
+  ASSERT_FALSE(world.solver().attach_fast(body, cloth(), {kSpring}));
+  world.step(kTimeStep);
+  EXPECT_FALSE(world.solver().blow_up(body));
+  body.m_cfg.timescale = btScalar(0.5);
+  world.step(kTimeStep);
+  ASSERT_TRUE(world.solver().blow_up(body));
+  EXPECT_THAT(world.solver().blow_up(body)->reason, HasSubstr("timescale"));
+}
+
 TEST(SolverChecks, LinksThatATensionLawStandsInForAreNoObstacle) {
   SoftWorld world({});
   btSoftBody& body = world.add(make_cloth_body(world.info(), cloth(), {.links = {{{}, 100.0}}}));
