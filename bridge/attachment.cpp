@@ -1,6 +1,8 @@
 #include <weft/bridge/attachment.hpp>
 
 #include <atomic>
+#include <cmath>
+#include <utility>
 
 #include <weft/bridge/node_state.hpp>
 #include <weft/custom_forces/core/trace.hpp>
@@ -12,6 +14,45 @@ using LawSet = forces::LawSet<btScalar>;
 using Level = forces::LawTraits::Level;
 using State = forces::State<btScalar>;
 
+// Laws made for another mesh throw here, at attach, and not in Bullet's step.
+SoftBodySolver::Attachment::Attachment(btSoftBody& of, LawSet own_laws,
+                                       VectorX<btScalar> own_masses, DampingPlace place)
+    : body(&of), laws(std::move(own_laws)), damping(place) {
+  check_attachment("soft body solver", of, own_masses);
+  followed = FollowedMasses(of, std::move(own_masses));
+  read_nodes(of, positions, velocities);
+  forces.setZero(3, positions.cols());
+  const State state{positions, velocities, masses(), time};
+  (void)laws.add_forces(state, LawSet::VelocityLaws::kAsForces, forces);
+  laws.redistribute_forces(state, forces);
+  life = follow_life(of);
+}
+
+void SoftBodySolver::Attachment::follow_masses() {
+  const int node = followed.follow(*body);
+  if (node < 0) return;
+  const Eigen::Index num_nodes = masses().size();
+  for (Eigen::Index i = 0; i < num_nodes; ++i) {
+    if (masses()[i] > 0 && std::isfinite(masses()[i])) continue;
+    blow_up =
+        BodyBlowUp{static_cast<int>(i),
+                   "its m_im is not a number, negative or infinite, expected 1 / mass [1/kg]"};
+    return;
+  }
+  if (!fast) return;
+  // No spring is another one.
+  fast->tear({}, std::vector<char>(static_cast<std::size_t>(num_nodes), 0), masses().cast<double>(),
+             {});
+}
+
+void SoftBodySolver::Attachment::stop(std::string reason) {
+  blow_up = BodyBlowUp{-1, std::move(reason)};
+  deferred.drop();
+  if (!is_moving) return;
+  is_moving = false;
+  for (int i = 0; i < body->m_nodes.size(); ++i) body->m_nodes[i].m_x = body->m_nodes[i].m_q;
+}
+
 bool SoftBodySolver::Attachment::acts_after_projection(Level level) const {
   if (!laws.has_level(level)) return false;
   if (damping != DampingPlace::kAutomatic) return damping == DampingPlace::kAfterProjection;
@@ -20,7 +61,7 @@ bool SoftBodySolver::Attachment::acts_after_projection(Level level) const {
 
 // Velocity-level laws state how fast velocities decay: inertia does not slow them down.
 void SoftBodySolver::Attachment::sum_laws() {
-  const State state{positions, velocities, masses, time};
+  const State state{positions, velocities, masses(), time};
   const forces::ForceReport report = deferred.finish(state, forces);
   if (!report.ok()) {
     blow_up = BodyBlowUp{*report.first_non_finite_node, "position or velocity is not finite"};
@@ -33,11 +74,18 @@ void SoftBodySolver::Attachment::sum_laws() {
 }
 
 void SoftBodySolver::Attachment::predict(btScalar time_step) {
-  const auto predict_fast = [&] { fast->predict(*body, time_step, positions, velocities); };
-  const bool fits = masses.size() == body->m_nodes.size();  // if not, the laws say so
+  follow_masses();
+  if (blow_up) return;
   if (fast) {
+    // What attach_fast() refuses, and the program has done since.
+    if (auto reason = FastBody::obstacle(*body))
+      return stop("it cannot be fast any more: " + *reason);
+  }
+  const auto predict_fast = [&] { fast->predict(*body, time_step, positions, velocities); };
+  const bool fits = masses().size() == body->m_nodes.size();  // if not, the laws say so
+  if (fast && fits) {
     FastBody::take_impulses(*body, time_step);
-    fast->set_laws(laws, masses);
+    fast->set_laws(laws, masses());
   }
   if (fast && fits && !deferred.is_in_flight() && laws.is_node_by_node()) {
     const auto threads = fast->hold_threads();
@@ -59,12 +107,17 @@ bool SoftBodySolver::Attachment::add_forces_node_by_node(btScalar time_step) {
     const fast::NodeRange nodes{begin, begin + count};
     read_nodes(*body, nodes, positions, velocities);
     const State state{positions.middleCols(begin, count), velocities.middleCols(begin, count),
-                      masses.segment(begin, count), time};
+                      masses().segment(begin, count), time};
     auto sum = forces.middleCols(begin, count);
     sum.setZero();
-    const bool is_finite = laws.add_forces(state, LawSet::VelocityLaws::kSeparate, sum).ok();
-    if (!acts_after_projection(Level::kVelocity)) {
-      (void)laws.add_forces(state, LawSet::VelocityLaws::kAlone, sum);
+    bool is_finite = false;
+    try {
+      is_finite = laws.add_forces(state, LawSet::VelocityLaws::kSeparate, sum).ok();
+      if (!acts_after_projection(Level::kVelocity)) {
+        (void)laws.add_forces(state, LawSet::VelocityLaws::kAlone, sum);
+      }
+    } catch (...) {  // it must not leave another thread; add_forces() meets it again
+      is_finite = false;
     }
     if (!is_finite ||
         predicted_blow_up(*body, velocities, forces, time_step, SoftBodySolver::kMaxSpeed, nodes)) {
@@ -93,23 +146,14 @@ void SoftBodySolver::Attachment::add_forces(btScalar time_step) {
 // On other threads, from a copy of the state: the body may leave or be deleted meanwhile.
 void SoftBodySolver::Attachment::begin_forces() {
   read_nodes(*body, positions, velocities);
-  deferred.begin({positions, velocities, masses, time});
-}
-
-// Laws made for another mesh throw here, at attach, and not out of Bullet's step.
-void SoftBodySolver::Attachment::check_laws() {
-  read_nodes(*body, positions, velocities);
-  forces.setZero(3, positions.cols());
-  const State state{positions, velocities, masses, time};
-  (void)laws.add_forces(state, LawSet::VelocityLaws::kAsForces, forces);
-  laws.redistribute_forces(state, forces);
+  deferred.begin({positions, velocities, masses(), time});
 }
 
 // The change of momentum over the step stands for the sum of all forces on the body.
 void SoftBodySolver::Attachment::slow_down_changes() {
-  forces = (velocities - start_velocities) * masses.asDiagonal();
-  laws.redistribute_forces(State{positions, velocities, masses, time}, forces);
-  velocities = start_velocities + forces * masses.cwiseInverse().asDiagonal();
+  forces = (velocities - start_velocities) * masses().asDiagonal();
+  laws.redistribute_forces(State{positions, velocities, masses(), time}, forces);
+  velocities = start_velocities + forces * masses().cwiseInverse().asDiagonal();
 }
 
 void SoftBodySolver::Attachment::damp_velocities(btScalar time_step) {
@@ -121,7 +165,7 @@ void SoftBodySolver::Attachment::damp_velocities(btScalar time_step) {
   if (slows_down) slow_down_changes();
   if (advances) {
     forces = velocities;  // the laws see the state as it is and change a copy
-    laws.advance_velocities(State{positions, velocities, masses, time}, time_step, forces);
+    laws.advance_velocities(State{positions, velocities, masses(), time}, time_step, forces);
     velocities.swap(forces);
   }
   write_node_velocities(velocities, *body);

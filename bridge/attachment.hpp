@@ -1,11 +1,16 @@
 #pragma once
 
+#include <exception>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <BulletSoftBody/btSoftBody.h>
 
+#include <weft/bridge/body_life.hpp>
 #include <weft/bridge/fast_body.hpp>
 #include <weft/bridge/rigid_response.hpp>
 #include <weft/bridge/solver.hpp>
@@ -16,17 +21,24 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
 struct SoftBodySolver::Attachment {
+  /// Throws InvalidArgument as SoftBodySolver::attach().
+  Attachment(btSoftBody& of, forces::LawSet<btScalar> own_laws, VectorX<btScalar> own_masses,
+             DampingPlace place);
+
   btSoftBody* body;
+  std::shared_ptr<BodyLife> life;
   forces::LawSet<btScalar> laws;
   forces::DeferredForces<btScalar> deferred{laws,
                                             forces::LawSet<btScalar>::VelocityLaws::kSeparate};
-  VectorX<btScalar> masses;
+  FollowedMasses followed;
   DampingPlace damping = DampingPlace::kAutomatic;
   Matrix3X<btScalar> start_velocities;  // of the step, only for inertia after the projection
   Matrix3X<btScalar> positions;
   Matrix3X<btScalar> velocities;
   Matrix3X<btScalar> forces;
   std::optional<BodyBlowUp> blow_up;
+  bool is_reported = false;  // the blow-up, to SoftBodySolver::set_on_blow_up()
+  bool is_moving = false;    // predicted, and the step has not ended yet
   PositionLimits limits;
   std::unique_ptr<FastBody> fast;  // none: Bullet's own constraints
   ContactResponse contact_response = ContactResponse::kCoulomb;
@@ -38,6 +50,26 @@ struct SoftBodySolver::Attachment {
   [[nodiscard]] bool has_coulomb_contacts() const {
     return !fast && contact_response == ContactResponse::kCoulomb && RigidResponse::fits(*body);
   }
+  [[nodiscard]] bool is_of(const btSoftBody& other) const {
+    return body == &other && life->is_alive;
+  }
+  [[nodiscard]] const VectorX<btScalar>& masses() const { return followed.values(); }
+  /// What the program has done to the body's masses since the last step.
+  void follow_masses();
+  /// The body stays where the step began.
+  void stop(std::string reason);
+  /// work(), whose exceptions stop the body: one that left Bullet's step in its middle would leave bodies that have been
+  /// moved and others that have not.
+  template <class Work>
+  void guard(const Work& work) {
+    try {
+      work();
+    } catch (const std::exception& error) {
+      stop(error.what());
+    } catch (...) {
+      stop("an exception that is no std::exception");
+    }
+  }
   [[nodiscard]] bool acts_after_projection(forces::LawTraits::Level level) const;
   /// Forces, and what FastBody does with them.
   void predict(btScalar time_step);
@@ -47,15 +79,19 @@ struct SoftBodySolver::Attachment {
   void sum_laws();
   void damp_velocities(btScalar time_step);
   void slow_down_changes();
-  void check_laws();
 };
 
 struct ContactEntry {
   btSoftBody* body;
+  std::shared_ptr<BodyLife> life;
   ClothContact contact;
   bool was_in_world = false;
+  bool is_by_flag = false;        ///< with others only where Bullet's VF_SS asks a fast body for it
   std::vector<btVector3> solved;  ///< [m] places of the nodes when the body itself was solved
 
+  [[nodiscard]] bool is_of(const btSoftBody& other) const {
+    return body == &other && life->is_alive;
+  }
   void remember_solution();
   /// What moved nodes afterwards, the contacts of other bodies, becomes part of their velocities.
   void add_later_motion();
@@ -69,6 +105,7 @@ struct SoftBodySolver::Attachments {
   std::vector<Attachment*> asked;          ///< of those, that contacts are still looked for
   std::vector<const btRigidBody*> pushed;  ///< once for each of those that may push it, in order
   std::vector<std::unique_ptr<ContactEntry>> contacts;
+  std::function<void(btSoftBody&, const BodyBlowUp&)> on_blow_up;
   HullTable hulls;  ///< of rigid objects that bodies have met
 };
 

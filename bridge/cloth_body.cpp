@@ -28,39 +28,6 @@ void check(const ClothSettings& settings) {
       "contact_hardness = " + std::to_string(settings.contact_hardness) + " [1], expected 0 to 1");
 }
 
-void check(const ClothMesh& mesh) {
-  const int num_nodes = mesh.num_nodes();
-  const auto is_node = [&](int node) { return node >= 0 && node < num_nodes; };
-  const std::string range = ", expected 0 to " + std::to_string(num_nodes - 1);
-  require(num_nodes > 0, "the mesh has no node, expected at least one");
-  require(mesh.masses.size() == num_nodes, std::to_string(mesh.masses.size()) +
-                                               " masses, expected one for each of the " +
-                                               std::to_string(num_nodes) + " nodes");
-  require(mesh.rest_positions.allFinite(), "a rest position is not finite");
-  for (int i = 0; i < num_nodes; ++i) {
-    require(std::isfinite(mesh.masses[i]) && mesh.masses[i] > 0,
-            "mass of node " + std::to_string(i) + " = " + std::to_string(mesh.masses[i]) +
-                " [kg], expected > 0 and finite");
-  }
-  for (const int node : mesh.pinned) {
-    require(is_node(node), "pinned node " + std::to_string(node) + range);
-  }
-  const Eigen::Index num_velocities = mesh.pinned_velocities.cols();
-  require(num_velocities == 0 || num_velocities == static_cast<Eigen::Index>(mesh.pinned.size()),
-          std::to_string(num_velocities) + " velocities of pinned nodes, expected none or " +
-              std::to_string(mesh.pinned.size()));
-  require(mesh.pinned_velocities.allFinite(), "a velocity of a pinned node is not finite");
-  for (const int node : mesh.triangles.reshaped()) {
-    require(is_node(node), "a triangle names node " + std::to_string(node) + range);
-  }
-  for (const EdgeSet& set : mesh.edge_sets) {
-    for (const int node : set.edges.reshaped()) {
-      require(is_node(node),
-              "edge set '" + set.name + "' names node " + std::to_string(node) + range);
-    }
-  }
-}
-
 // All of btSoftBody::Config, in its order, so that no default of Bullet's can change a result
 // unseen.
 void configure(const ClothSettings& settings, btSoftBody& body) {
@@ -110,7 +77,7 @@ void set_pinned_velocities(const ClothMesh& mesh, btSoftBody& body) {
 std::unique_ptr<btSoftBody> make_cloth_body(btSoftBodyWorldInfo& world_info, const ClothMesh& mesh,
                                             const ClothSettings& settings) {
   check(settings);
-  check(mesh);
+  check_mesh(mesh);
   const int num_nodes = mesh.num_nodes();
   std::vector<btVector3> positions(static_cast<std::size_t>(num_nodes));
   std::vector<btScalar> masses(static_cast<std::size_t>(num_nodes));

@@ -36,7 +36,7 @@ struct ClothSettings {
 
 /// Builds a soft body from a mesh: nodes, faces, masses, pins (mass 0 in Bullet), links for
 /// settings.links, whose kLST comes from link_stiffness.hpp for each link's own masses. The caller
-/// adds it to a world and owns it. Throws InvalidArgument for settings out of their domain.
+/// adds it to a world and owns it. Throws InvalidArgument as check_mesh() and for settings out of their domain.
 [[nodiscard]] std::unique_ptr<btSoftBody> make_cloth_body(btSoftBodyWorldInfo& world_info,
                                                           const ClothMesh& mesh,
                                                           const ClothSettings& settings);

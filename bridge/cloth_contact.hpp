@@ -37,6 +37,12 @@ class ClothContact {
   ClothContact(const btSoftBody& body, const ClothContactSettings& settings);
 
   [[nodiscard]] const ClothContactSettings& settings() const { return settings_; }
+  /// From now on with others too. margin [m] > 0, friction [-] >= 0.
+  void meet_others(double margin, double friction) {
+    settings_.with_others = true;
+    settings_.margin = margin;
+    settings_.friction = friction;
+  }
   /// Nodes of the body were split (tearing.hpp): origins are the nodes that those appended were.
   void add_copies(const std::vector<int>& origins);
   /// Before btSoftBody::predictMotion: the body will be elsewhere.

@@ -28,8 +28,12 @@ void DeformableAttachment::read(NodeVector position) {
 bool DeformableAttachment::evaluate_at(const Matrix3X<btScalar>& at_velocities,
                                        Matrix3X<btScalar>& result) {
   result.setZero(3, positions.cols());
-  const forces::ForceReport report = laws.add_forces(State{positions, at_velocities, masses, time},
-                                                     LawSet::VelocityLaws::kAsForces, result);
+  forces::ForceReport report;
+  const bool is_done = guard([&] {
+    report = laws.add_forces(State{positions, at_velocities, followed.values(), time},
+                             LawSet::VelocityLaws::kAsForces, result);
+  });
+  if (!is_done) return false;
   if (!report.ok()) {
     explode(*report.first_non_finite_node, "position or velocity is not finite");
     return false;

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <exception>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <weft/bridge/body_life.hpp>
 #include <weft/bridge/law_attachment.hpp>
 
 namespace weft::bridge {
@@ -16,8 +19,9 @@ struct DeformableAttachment {
   using NodeVector = btVector3 btSoftBody::Node::*;
 
   btSoftBody* body;
+  std::shared_ptr<BodyLife> life;
   forces::LawSet<btScalar> laws;
-  VectorX<btScalar> masses;
+  FollowedMasses followed;
   Matrix3X<btScalar> positions;
   Matrix3X<btScalar> velocities;
   Matrix3X<btScalar> forces;
@@ -27,11 +31,12 @@ struct DeformableAttachment {
   Matrix3X<btScalar> no_velocities;
   std::vector<std::vector<int>> colors;  ///< see node_colors(); empty if the mesh is not known
   std::optional<BodyBlowUp> blow_up;
-  double time = 0.0;        ///< [s] of the steps since the body was attached
-  double still_time = 0.0;  ///< when still_forces were evaluated [s]
+  bool is_reported = false;  ///< to DeformableForces::set_on_blow_up()
+  double time = 0.0;         ///< [s] of the steps since the body was attached
+  double still_time = 0.0;   ///< when still_forces were evaluated [s]
 
   [[nodiscard]] forces::State<btScalar> state() const {
-    return {positions, velocities, masses, time};
+    return {positions, velocities, followed.values(), time};
   }
   [[nodiscard]] bool is_movable(int node) const { return body->m_nodes[node].m_im > 0; }
   /// Reads m_v and either m_x or m_q.
@@ -56,6 +61,19 @@ struct DeformableAttachment {
   [[nodiscard]] std::optional<BodyBlowUp> beyond_distance_field(btScalar time_step) const;
   /// Reports, stops the body and takes it out of the simulation.
   void explode(int node, std::string reason);
+  /// work(), whose exceptions explode the body and leave no step half-way. False if there was one.
+  template <class Work>
+  bool guard(const Work& work) {
+    try {
+      work();
+      return true;
+    } catch (const std::exception& error) {
+      explode(-1, error.what());
+    } catch (...) {
+      explode(-1, "an exception that is no std::exception");
+    }
+    return false;
+  }
 
  private:
   bool evaluate_at(const Matrix3X<btScalar>& at_velocities, Matrix3X<btScalar>& result);

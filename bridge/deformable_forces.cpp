@@ -1,6 +1,7 @@
 #include <weft/bridge/deformable_forces.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <weft/bridge/deformable_attachment.hpp>
@@ -37,14 +38,16 @@ void DeformableForces::remove_from(btDeformableBodySolver& solver) {
 
 DeformableAttachment* DeformableForces::find(const btSoftBody& body) const {
   for (const auto& attachment : attachments_) {
-    if (attachment->body == &body) return attachment.get();
+    if (attachment->body == &body && attachment->life->is_alive) return attachment.get();
   }
   return nullptr;
 }
 
 void DeformableForces::attach(btSoftBody& body, const ClothMesh& mesh,
                               const std::vector<forces::LawSpecification>& laws) {
-  attach(body, make_laws(mesh, laws), mesh.masses.cast<btScalar>());
+  check_topology("deformable forces", body, mesh);
+  LawSet set = make_laws(mesh, laws);
+  attach(body, std::move(set), mesh.masses.cast<btScalar>());
   attachments_.back()->colors = node_colors(mesh);
 }
 
@@ -70,6 +73,7 @@ void DeformableForces::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> m
   if (has_laws(body)) {
     throw InvalidArgument("deformable forces: the body has laws already, expected detach() first");
   }
+  if (solver_) check_solver("deformable forces", body, *solver_);
   check_attachment("deformable forces", body, masses);
   check_ignored_features(body);
   if (laws.has_level(forces::LawTraits::Level::kInertia)) {
@@ -80,12 +84,14 @@ void DeformableForces::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> m
   auto attachment = std::make_unique<DeformableAttachment>();
   attachment->body = &body;
   attachment->laws = std::move(laws);
-  attachment->masses = std::move(masses);
+  attachment->followed = FollowedMasses(body, std::move(masses));
   // Laws made for another mesh throw here, and not out of Bullet's step.
   attachment->read(&btSoftBody::Node::m_x);
   attachment->forces.setZero(3, attachment->positions.cols());
   (void)attachment->laws.add_forces(attachment->state(), LawSet::VelocityLaws::kAsForces,
                                     attachment->forces);
+  forget_deleted();
+  attachment->life = follow_life(body);
   attachments_.push_back(std::move(attachment));
   m_softBodies.push_back(&body);  // for testDerivative() and testHessian()
 }
@@ -96,6 +102,15 @@ void DeformableForces::detach(btSoftBody& body) {
       std::remove_if(attachments_.begin(), attachments_.end(),
                      [&](const auto& attachment) { return attachment->body == &body; }),
       attachments_.end());
+}
+
+// Those that were deleted without having been in a world, which tells of all that leave it.
+void DeformableForces::forget_deleted() {
+  std::erase_if(attachments_, [&](const auto& attachment) {
+    if (attachment->life->is_alive) return false;
+    m_softBodies.remove(attachment->body);
+    return true;
+  });
 }
 
 void DeformableForces::removeSoftBody(btSoftBody* body) {
@@ -113,19 +128,49 @@ std::optional<BodyBlowUp> DeformableForces::blow_up(const btSoftBody& body) cons
 
 void DeformableForces::advance_time(double time_step) {
   for (const auto& attachment : attachments_) attachment->time += time_step;
+  tell_of_blow_ups();
+}
+
+void DeformableForces::set_on_blow_up(
+    std::function<void(btSoftBody&, const BodyBlowUp&)> callback) {
+  on_blow_up_ = std::move(callback);
+}
+
+// A step is no place for an exception: one that the callback lets go ends the program.
+void DeformableForces::tell_of_blow_ups() noexcept {
+  if (!on_blow_up_) return;
+  std::vector<std::pair<btSoftBody*, BodyBlowUp>> news;  // the callback may attach and detach
+  for (const auto& attachment : attachments_) {
+    if (!attachment->blow_up || attachment->is_reported) continue;
+    attachment->is_reported = true;
+    news.emplace_back(attachment->body, *attachment->blow_up);
+  }
+  const auto callback = on_blow_up_;  // which may set another one
+  for (const auto& [body, blow_up] : news) callback(*body, blow_up);
 }
 
 // A body takes part once the solver has numbered its nodes.
 bool DeformableForces::takes_part(const DeformableAttachment& attachment) const {
   const auto& nodes = attachment.body->m_nodes;
   if (!m_nodes || attachment.blow_up || !attachment.body->isActive()) return false;
-  if (nodes.size() != attachment.masses.size()) return false;
+  if (nodes.size() != attachment.followed.values().size()) return false;
   const int index = nodes[0].index;
   return index >= 0 && index + nodes.size() <= m_nodes->size() && (*m_nodes)[index] == &nodes[0];
 }
 
 void DeformableForces::reinitialize(bool /*nodes_updated*/) {
   solve_has_failed_ = false;
+  forget_deleted();
+  tell_of_blow_ups();  // of the step before, where nobody calls advance_time()
+  for (const auto& attachment : attachments_) {
+    const int node = attachment->followed.follow(*attachment->body);
+    if (node < 0 || attachment->blow_up) continue;
+    const btScalar mass = attachment->followed.values()[node];
+    attachment->still_positions.resize(3, 0);  // forces there were with other masses
+    if (mass > 0 && std::isfinite(mass)) continue;
+    attachment->explode(node,
+                        "its m_im is not a number, negative or infinite, expected 1 / mass [1/kg]");
+  }
   if (solver_ && solver_->m_objective->m_implicit && !repairs_implicit_) {
     throw Error(
         "deformable forces: an implicit step with Bullet's btDeformableBodySolver, which mixes up "
@@ -196,7 +241,7 @@ void DeformableForces::addScaledHessian(btScalar scale) {
   for (const auto& attachment : attachments_) {
     if (!takes_part(*attachment)) continue;
     attachment->read(&btSoftBody::Node::m_q);
-    attachment->add_effective_mass(scale);
+    attachment->guard([&] { attachment->add_effective_mass(scale); });
   }
 }
 
@@ -213,11 +258,14 @@ void DeformableForces::add_differential(btScalar scale, bool elastic, const Stac
       a.direction.col(i) << d.x(), d.y(), d.z();
     }
     a.forces.setZero(3, a.positions.cols());
-    if (elastic) {
-      a.laws.add_stiffness_product(a.state(), a.direction, a.forces);
-    } else {
-      a.laws.add_damping_product(a.state(), a.direction, a.forces);
-    }
+    const bool is_done = a.guard([&] {
+      if (elastic) {
+        a.laws.add_stiffness_product(a.state(), a.direction, a.forces);
+      } else {
+        a.laws.add_damping_product(a.state(), a.direction, a.forces);
+      }
+    });
+    if (!is_done) continue;
     if (a.forces.allFinite()) {
       a.write(scale, product);
       continue;
@@ -248,7 +296,9 @@ double DeformableForces::totalElasticEnergy(btScalar /*time_step*/) {
   for (const auto& attachment : attachments_) {
     if (!takes_part(*attachment)) continue;
     attachment->read(&btSoftBody::Node::m_q);
-    energy += static_cast<double>(attachment->laws.potential_energy(attachment->state()));
+    attachment->guard([&] {
+      energy += static_cast<double>(attachment->laws.potential_energy(attachment->state()));
+    });
   }
   return energy;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -35,9 +36,10 @@ struct DeformableAttachment;
 /// Forces on pinned nodes are not written: they move nothing, and Bullet's solver can leave its
 /// constraints where they are. Bullet's m_f (btSoftBody::addForce), which this world ignores, acts
 /// on bodies with laws for one step. A state that is not finite or too fast freezes the body
-/// (DISABLE_SIMULATION) and is reported: Bullet would replace NaN by zero and clamp speeds.
+/// (DISABLE_SIMULATION) and is reported, as what a law throws does and is: Bullet would replace NaN by zero and clamp speeds.
 /// In explicit mode too fast is a body diagonal per step, where Bullet clamps.
-/// Lifetime: a body that leaves its world is forgotten. The object must outlive the solver's steps.
+/// Masses are the body's own: setMass(), setTotalMass() and m_im act from the next step on.
+/// Lifetime: a body that leaves its world, as Bullet tells, or is deleted, is forgotten. The object must outlive the solver's steps.
 class DeformableForces : public btDeformableLagrangianForce {
  public:
   /// Throws Error if the calling program was compiled for another Bullet than the bridge.
@@ -59,13 +61,17 @@ class DeformableForces : public btDeformableLagrangianForce {
   /// masses: n [kg], > 0, those of pinned nodes too. Throws InvalidArgument if masses or laws do not
   /// fit the body's nodes, for a law of inertia level, if laws are attached already, for a timescale other than 1, and for a
   /// body that asks for what this world ignores: anchors of the classic world, wind, lift, drag,
-  /// pressure, volume or pose forces, kDP. The body must not gain or lose nodes afterwards.
+  /// pressure, volume or pose forces, kDP; and for a body in a world that has another solver. The body must not gain or lose nodes afterwards.
   void attach(btSoftBody& body, forces::LawSet<btScalar> laws, VectorX<btScalar> masses);
   /// Does nothing if no laws are attached.
   void detach(btSoftBody& body);
   [[nodiscard]] bool has_laws(const btSoftBody& body) const;
   /// Set once the body has exploded; it does not move any more.
   [[nodiscard]] std::optional<BodyBlowUp> blow_up(const btSoftBody& body) const;
+  /// Called once for each body that explodes, by the thread that steps the world: at the end of a step with
+  /// DeformableSolver, at the start of the next one with Bullet's own solver. It must not throw: that ends the
+  /// program (std::terminate). Empty: nobody is told.
+  void set_on_blow_up(std::function<void(btSoftBody&, const BodyBlowUp&)> callback);
 
   /// Moves the laws' time on by time_step [s]; DeformableSolver does it after every step. With
   /// Bullet's own solver the time of laws with moving targets (drive) stands still otherwise.
@@ -101,11 +107,14 @@ class DeformableForces : public btDeformableLagrangianForce {
 
  private:
   explicit DeformableForces(const BulletLayout& caller);
+  void forget_deleted();
+  void tell_of_blow_ups() noexcept;
   [[nodiscard]] DeformableAttachment* find(const btSoftBody& body) const;
   [[nodiscard]] bool takes_part(const DeformableAttachment& attachment) const;
   void add_differential(btScalar scale, bool elastic, const TVStack& direction, TVStack& product);
 
   std::vector<std::unique_ptr<DeformableAttachment>> attachments_;
+  std::function<void(btSoftBody&, const BodyBlowUp&)> on_blow_up_;
   const btDeformableBodySolver* solver_ = nullptr;
   bool repairs_implicit_ = false;
   bool solve_has_failed_ = false;  ///< in this step, and the body that made it fail is known

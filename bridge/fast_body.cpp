@@ -12,7 +12,6 @@
 #include <weft/bridge/energy_limit.hpp>
 #include <weft/bridge/node_prediction.hpp>
 #include <weft/bridge/node_state.hpp>
-#include <weft/custom_forces/core/error.hpp>
 #include <weft/custom_forces/core/trace.hpp>
 
 namespace weft::bridge {
@@ -28,16 +27,6 @@ constexpr btScalar kFarFromOrigin = 2;  // [m] from which on another one is chos
 /// Of the margin: an object that is farther from where a contact took it to come has met something since. Gravity alone is left
 /// to the next step: to follow it would be a little more exact, and give a box on anchors some energy in each of its swings.
 constexpr btScalar kSurpriseShare = btScalar(0.1);
-
-void check(const FastSettings& settings) {
-  const auto require = [](int value, const char* name) {
-    if (value >= 1) return;
-    throw InvalidArgument(std::string("fast body: ") + name + " = " + std::to_string(value) +
-                          ", expected >= 1");
-  };
-  require(settings.effort.rounds, "rounds");
-  require(settings.effort.iterations, "iterations");
-}
 
 /// Bullet tells of one obstacle after the other. What does not move before the solution can be looked at then, when
 /// several bodies can at the same time.

@@ -13,8 +13,11 @@ struct FastSettings {
   /// A body of which no node has been faster than sleep_speed [m/s] for sleep_time [s] is not stepped any
   /// more, until something disturbs it (BodySleep).
   bool may_sleep = true;
-  double sleep_speed = 0.005;
-  double sleep_time = 1.0;
+  double sleep_speed = 0.005;  ///< [m/s] >= 0
+  double sleep_time = 1.0;     ///< [s] >= 0
 };
+
+/// Throws InvalidArgument for an effort below 1 and for a speed or time that is negative or not finite.
+void check(const FastSettings& settings);
 
 }  // namespace weft::bridge

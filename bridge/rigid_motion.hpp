@@ -2,12 +2,11 @@
 
 #include <vector>
 
-#include <Eigen/Core>
-
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <weft/bridge/precision.hpp>
+#include <weft/custom_forces/core/eigen_alignment.hpp>
 #include <weft/custom_forces/core/types.hpp>
 
 namespace weft::bridge {

@@ -1,6 +1,7 @@
 #include <weft/bridge/solver.hpp>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -29,18 +30,26 @@ LawSet explicit_laws(const ClothMesh& mesh, const std::vector<forces::LawSpecifi
   return make_laws(mesh, rest);
 }
 
-/// Forgets bodies that were in the world and are no more: they may be deleted, and another may stand
-/// at the same address tomorrow.
+/// A body may leave its world and come back; only one that does not exist any more is forgotten.
 template <class Entry>
-void forget_departed(const btAlignedObjectArray<btSoftBody*>& present,
-                     std::vector<std::unique_ptr<Entry>>& list) {
-  const auto has_left = [&](const std::unique_ptr<Entry>& entry) {
-    const bool is_in_world = present.findLinearSearch(entry->body) != present.size();
-    const bool left = entry->was_in_world && !is_in_world;
-    entry->was_in_world = is_in_world;
-    return left;
-  };
-  list.erase(std::remove_if(list.begin(), list.end(), has_left), list.end());
+void forget_deleted(std::vector<std::unique_ptr<Entry>>& list) {
+  std::erase_if(list, [](const std::unique_ptr<Entry>& entry) { return !entry->life->is_alive; });
+}
+
+bool is_among(const btAlignedObjectArray<btSoftBody*>& present, btSoftBody* body) {
+  return present.findLinearSearch(body) != present.size();
+}
+
+/// Why implicit springs cannot stand in for what the body has; nothing if they can.
+std::optional<std::string> obstacle_to_fast(const btSoftBody& body,
+                                            const std::vector<forces::LawSpecification>& laws) {
+  if (auto reason = FastBody::obstacle(body)) return reason;
+  const auto is_tension = [](const forces::LawSpecification& law) { return law.law == "tension"; };
+  if (body.m_links.size() > 0 && std::none_of(laws.begin(), laws.end(), is_tension)) {
+    return "it has " + std::to_string(body.m_links.size()) +
+           " links, which implicit springs replace, and no tension law is among the laws";
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -50,11 +59,14 @@ SoftBodySolver::SoftBodySolver(const BulletLayout& caller)
   require_matching_bullet(caller);
 }
 
-SoftBodySolver::~SoftBodySolver() = default;
+SoftBodySolver::~SoftBodySolver() {
+  for (const auto& attachment : attachments_->list) attachment->life->solver = nullptr;
+  for (const auto& entry : attachments_->contacts) entry->life->solver = nullptr;
+}
 
 SoftBodySolver::Attachment* SoftBodySolver::find(const btSoftBody& body) const {
   for (const auto& attachment : attachments_->list) {
-    if (attachment->body == &body) return attachment.get();
+    if (attachment->is_of(body)) return attachment.get();
   }
   return nullptr;
 }
@@ -62,7 +74,9 @@ SoftBodySolver::Attachment* SoftBodySolver::find(const btSoftBody& body) const {
 void SoftBodySolver::attach(btSoftBody& body, const ClothMesh& mesh,
                             const std::vector<forces::LawSpecification>& laws,
                             DampingPlace damping) {
-  attach(body, make_laws(mesh, laws), mesh.masses.cast<btScalar>(), damping);
+  check_topology("soft body solver", body, mesh);
+  LawSet set = make_laws(mesh, laws);
+  attach(body, std::move(set), mesh.masses.cast<btScalar>(), damping);
 }
 
 void SoftBodySolver::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> masses,
@@ -70,13 +84,9 @@ void SoftBodySolver::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> mas
   if (has_laws(body)) {
     throw InvalidArgument("soft body solver: the body has laws already, expected detach() first");
   }
-  check_attachment("soft body solver", body, masses);
-  auto attachment = std::make_unique<Attachment>();
-  attachment->body = &body;
-  attachment->laws = std::move(laws);
-  attachment->masses = std::move(masses);
-  attachment->damping = damping;
-  attachment->check_laws();
+  check_solver("soft body solver", body, *this);
+  auto attachment = std::make_unique<Attachment>(body, std::move(laws), std::move(masses), damping);
+  attachment->life->solver = this;
   attachments_->list.push_back(std::move(attachment));
 }
 
@@ -86,18 +96,14 @@ void SoftBodySolver::replace_laws(btSoftBody& body, LawSet laws, VectorX<btScala
   if (!old) {
     throw InvalidArgument("soft body solver: the body has no laws, expected attach() first");
   }
-  check_attachment("soft body solver", body, masses);
-  auto attachment = std::make_unique<Attachment>();
-  attachment->body = &body;
-  attachment->laws = std::move(laws);
-  attachment->masses = std::move(masses);
-  attachment->damping = old->damping;
+  auto attachment =
+      std::make_unique<Attachment>(body, std::move(laws), std::move(masses), old->damping);
   attachment->contact_response = old->contact_response;
   attachment->blow_up = old->blow_up;
+  attachment->is_reported = old->is_reported;
   attachment->was_in_world = old->was_in_world;
   attachment->is_suspended = old->is_suspended;
   attachment->time = old->time;
-  attachment->check_laws();
   const bool was_begun = old->deferred.is_in_flight();
   for (auto& entry : attachments_->list) {
     if (entry.get() == old) entry = std::move(attachment);
@@ -108,12 +114,11 @@ void SoftBodySolver::replace_laws(btSoftBody& body, LawSet laws, VectorX<btScala
 std::optional<std::string> SoftBodySolver::attach_fast(
     btSoftBody& body, const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
     const FastSettings& settings) {
-  if (auto reason = FastBody::obstacle(body)) {
-    attach(body, mesh, laws);
-    return reason;
-  }
+  if (auto reason = obstacle_to_fast(body, laws)) return reason;
+  check_topology("soft body solver", body, mesh);
+  LawSet set = explicit_laws(mesh, laws);
   auto fast = std::make_unique<FastBody>(mesh, laws, mesh.masses, settings);
-  attach(body, explicit_laws(mesh, laws), mesh.masses.cast<btScalar>());
+  attach(body, std::move(set), mesh.masses.cast<btScalar>());
   find(body)->fast = std::move(fast);
   return std::nullopt;
 }
@@ -123,6 +128,7 @@ void SoftBodySolver::set_fast_settings(btSoftBody& body, const FastSettings& set
   if (!attachment || !attachment->fast) {
     throw InvalidArgument("soft body solver: the body is not fast, expected attach_fast() first");
   }
+  check(settings);
   attachment->fast->set_settings(settings);
 }
 
@@ -152,12 +158,15 @@ int SoftBodySolver::num_contacts(const btSoftBody& body) const {
 void SoftBodySolver::replace_laws(btSoftBody& body, const ClothMesh& mesh,
                                   const std::vector<forces::LawSpecification>& laws) {
   const Attachment* const old = find(body);
-  if (!old || !old->fast) {
-    replace_laws(body, make_laws(mesh, laws), mesh.masses.cast<btScalar>());
+  const bool is_fast = old && old->fast;
+  check_topology("soft body solver", body, mesh);
+  LawSet set = is_fast ? explicit_laws(mesh, laws) : make_laws(mesh, laws);
+  if (!is_fast) {
+    replace_laws(body, std::move(set), mesh.masses.cast<btScalar>());
     return;
   }
   auto fast = std::make_unique<FastBody>(mesh, laws, mesh.masses, old->fast->settings());
-  replace_laws(body, explicit_laws(mesh, laws), mesh.masses.cast<btScalar>());
+  replace_laws(body, std::move(set), mesh.masses.cast<btScalar>());
   find(body)->fast = std::move(fast);
 }
 
@@ -186,10 +195,11 @@ void SoftBodySolver::replace_laws(btSoftBody& body, const Tear& tear, TornLaws l
 }
 
 void SoftBodySolver::detach(btSoftBody& body) {
-  auto& list = attachments_->list;
-  list.erase(std::remove_if(list.begin(), list.end(),
-                            [&](const auto& attachment) { return attachment->body == &body; }),
-             list.end());
+  std::erase_if(attachments_->list, [&](const auto& attachment) {
+    if (!attachment->is_of(body)) return false;
+    if (!find_contact_entry(body)) attachment->life->solver = nullptr;
+    return true;
+  });
 }
 
 void SoftBodySolver::set_position_limits(btSoftBody& body, PositionLimits limits) {
@@ -226,10 +236,13 @@ bool SoftBodySolver::is_suspended(const btSoftBody& body) const {
 }
 
 void SoftBodySolver::set_cloth_contact(btSoftBody& body, const ClothContactSettings& settings) {
-  auto entry =
-      std::make_unique<ContactEntry>(ContactEntry{&body, ClothContact(body, settings), false, {}});
+  check_solver("soft body solver", body, *this);
+  ClothContact contact(body, settings);
+  auto entry = std::make_unique<ContactEntry>(
+      ContactEntry{&body, follow_life(body), std::move(contact), false, false, {}});
+  entry->life->solver = this;
   auto& list = attachments_->contacts;
-  std::erase_if(list, [&](const auto& known) { return known->body == &body; });
+  std::erase_if(list, [&](const auto& known) { return known->is_of(body); });
   list.push_back(std::move(entry));
   // Last in every iteration: links that are solved after a contact pull layers into each other.
   body.m_cfg.m_psequence.remove(btSoftBody::ePSolver::SContacts);
@@ -238,7 +251,7 @@ void SoftBodySolver::set_cloth_contact(btSoftBody& body, const ClothContactSetti
 
 ContactEntry* SoftBodySolver::find_contact_entry(const btSoftBody& body) const {
   for (const auto& entry : attachments_->contacts) {
-    if (entry->body == &body) return entry.get();
+    if (entry->is_of(body)) return entry.get();
   }
   return nullptr;
 }
@@ -293,23 +306,38 @@ bool SoftBodySolver::is_still(const btSoftBody& body) const {
 // The world hands over its bodies at the start of every step.
 void SoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool force_update) {
   btDefaultSoftBodySolver::optimize(bodies, force_update);
-  forget_departed(m_softBodySet, attachments_->list);
-  forget_departed(m_softBodySet, attachments_->contacts);
+  forget_deleted(attachments_->list);
+  forget_deleted(attachments_->contacts);
+  for (const auto& attachment : attachments_->list) {
+    const bool was_in_world = attachment->was_in_world;
+    attachment->was_in_world = is_among(m_softBodySet, attachment->body);
+    // One that comes back may come to another place.
+    if (attachment->was_in_world && !was_in_world && attachment->fast) attachment->fast->wake();
+  }
+  for (const auto& entry : attachments_->contacts) {
+    entry->was_in_world = is_among(m_softBodySet, entry->body);
+  }
+}
+
+void SoftBodySolver::set_on_blow_up(std::function<void(btSoftBody&, const BodyBlowUp&)> callback) {
+  attachments_->on_blow_up = std::move(callback);
 }
 
 void SoftBodySolver::processCollision(btSoftBody* body, const btCollisionObjectWrapper* object) {
   Attachment* attachment = find(*body);
-  if (attachment && attachment->fast) {
-    attachment->fast->meet(*object->getCollisionObject(), object->getWorldTransform());
-  }
-  if (is_still(*body)) return;
-  if (attachment && attachment->fast) {
-    attachment->fast->collide(*body, *object, attachments_->hulls, time_step_);
-  } else if (attachment && attachment->has_coulomb_contacts() &&
-             RigidResponse::knows(*object->getCollisionObject())) {
-    attachment->rigid_response.collide(*body, *object, attachments_->hulls, time_step_);
+  if (!attachment) return btDefaultSoftBodySolver::processCollision(body, object);
+  attachment->guard([&] { collide(*attachment, *object); });
+}
+
+void SoftBodySolver::collide(Attachment& one, const btCollisionObjectWrapper& object) {
+  if (one.fast) one.fast->meet(*object.getCollisionObject(), object.getWorldTransform());
+  if (is_still(*one.body)) return;
+  if (one.fast) {
+    one.fast->collide(*one.body, object, attachments_->hulls, time_step_);
+  } else if (one.has_coulomb_contacts() && RigidResponse::knows(*object.getCollisionObject())) {
+    one.rigid_response.collide(*one.body, object, attachments_->hulls, time_step_);
   } else {
-    btDefaultSoftBodySolver::processCollision(body, object);
+    btDefaultSoftBodySolver::processCollision(one.body, &object);
   }
 }
 
@@ -324,18 +352,51 @@ void SoftBodySolver::tell_of_each_other(btSoftBody& body, btSoftBody& other) {
   if (b && b->fast) b->fast->meet_cloth(is_at_rest(a));
 }
 
-void SoftBodySolver::processCollision(btSoftBody* body, btSoftBody* other) {
-  tell_of_each_other(*body, *other);
-  if (is_still(*body) || is_still(*other)) return;
-  ClothContact* const contact = find_contact(*body);
-  ClothContact* const other_contact = find_contact(*other);
-  if (contact && other_contact && contact->settings().with_others &&
-      other_contact->settings().with_others) {
-    contact->add_contacts(*body, *other, *other_contact, time_step_);
-    other_contact->add_contacts(*other, *body, *contact, time_step_);
-    return;
+// Bullet's margin of a contact grows with the speed of the node, and so does the speed with which the contact throws it
+// out. Links that hold nothing exactly eat that up; springs that are solved for do not.
+ContactEntry& SoftBodySolver::contact_by_flag(btSoftBody& body) {
+  constexpr double kLeastMargin = 1e-3;  // [m] a shape may have none, layers cannot
+  const double margin =
+      std::max(kLeastMargin, static_cast<double>(body.getCollisionShape()->getMargin()));
+  const double friction = static_cast<double>(body.m_cfg.kDF);
+  const ClothContactSettings settings{.with_others = true, .margin = margin, .friction = friction};
+  ContactEntry* entry = find_contact_entry(body);
+  if (!entry) {
+    attachments_->contacts.push_back(std::make_unique<ContactEntry>(
+        ContactEntry{&body, follow_life(body), ClothContact(body, settings), true, true, {}}));
+    return *attachments_->contacts.back();
   }
-  btDefaultSoftBodySolver::processCollision(body, other);
+  if (!entry->contact.settings().with_others) {
+    entry->contact.meet_others(margin, friction);
+    entry->is_by_flag = true;
+  }
+  return *entry;
+}
+
+void SoftBodySolver::processCollision(btSoftBody* body, btSoftBody* other) {
+  Attachment* const attachment = find(*body);
+  if (!attachment) return meet_cloth(*body, *other);
+  attachment->guard([&] { meet_cloth(*body, *other); });
+}
+
+void SoftBodySolver::meet_cloth(btSoftBody& body, btSoftBody& other) {
+  tell_of_each_other(body, other);
+  if (is_still(body) || is_still(other)) return;
+  const auto is_asked_for = [&](const btSoftBody& one) {
+    const ContactEntry* const entry = find_contact_entry(one);
+    return entry && entry->contact.settings().with_others && !entry->is_by_flag;
+  };
+  const auto has_flag = [](const btSoftBody& one) {
+    return (one.m_cfg.collisions & btSoftBody::fCollision::VF_SS) != 0;
+  };
+  const bool by_flag = (is_fast(body) || is_fast(other)) && has_flag(body) && has_flag(other);
+  if (!by_flag && !(is_asked_for(body) && is_asked_for(other))) {
+    return btDefaultSoftBodySolver::processCollision(&body, &other);
+  }
+  ClothContact& contact = by_flag ? contact_by_flag(body).contact : *find_contact(body);
+  ClothContact& other_contact = by_flag ? contact_by_flag(other).contact : *find_contact(other);
+  contact.add_contacts(body, other, other_contact, time_step_);
+  other_contact.add_contacts(other, body, contact, time_step_);
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -65,15 +65,19 @@ enum class ContactResponse {
 ///   laws act on m_v after btSoftBody::solveConstraints, for Bullet derives velocities from
 ///   positions there and would lose one that was written before,
 /// * contacts with rigid objects are ContactResponse::kCoulomb, unless the body has links or clusters,
-/// * a state that is not finite, or faster than kMaxSpeed, freezes the body and is reported; Bullet
-///   would go on to look up contacts at that place and crash.
+/// * a state that is not finite, or faster than kMaxSpeed, freezes the body and is reported (blow_up(),
+///   set_on_blow_up()); Bullet would go on to look up contacts at that place and crash. So does an exception
+///   of a law or a contact: none leaves stepSimulation() in the middle of a step.
 ///
 /// Laws that move with time (drive) count it from the body's first step with laws, in the world's
 /// steps.
 /// The world's gravity (btSoftBodyWorldInfo::m_gravity) still acts: set it to zero for a body with
 /// a gravity law.
 /// Threads: laws run on oneTBB; results do not depend on the number of threads.
-/// Lifetime: a body may leave its world with laws attached; the next step forgets it.
+/// Masses are the body's own: setMass(), setTotalMass() and m_im act from the next step on.
+/// Lifetime: laws belong to a body, not to its address. One that leaves its world keeps them until it comes
+/// back; they end with detach() or with the body, which may be deleted at any time outside of a step.
+/// For that the body's collision shape is one that follows its life from the first attach on (BodyLife).
 class SoftBodySolver : public btDefaultSoftBodySolver {
  public:
   /// Throws Error if the calling program was compiled for another Bullet than the bridge.
@@ -85,25 +89,29 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   /// Speed [m/s] beyond which a node counts as exploded.
   static constexpr double kMaxSpeed = kBlowUpSpeed;
 
-  /// Makes the laws for the body's mesh and attaches them.
-  /// Throws InvalidArgument as forces::make_law() and as the other attach().
+  /// Makes the laws for the body's mesh and attaches them. Throws InvalidArgument as check_mesh(),
+  /// forces::make_law() and the other attach(), and for triangles that are not the body's faces.
   void attach(btSoftBody& body, const ClothMesh& mesh,
               const std::vector<forces::LawSpecification>& laws,
               DampingPlace damping = DampingPlace::kAutomatic);
   /// masses: n [kg], > 0, those of pinned nodes too (Bullet itself only knows that they do not move).
-  /// Throws InvalidArgument if masses or laws do not fit the body's nodes, if laws are attached
-  /// already, and for a body whose m_cfg.timescale is not 1: laws and Bullet would live in two times.
+  /// Throws InvalidArgument if masses (to 1e-4) or laws do not fit the body's nodes, if laws are attached
+  /// already, for a body in a world that has another solver, and for a body whose m_cfg.timescale is not
+  /// 1: laws and Bullet would live in two times. Nothing has changed then.
   /// The body must not gain or lose nodes while laws are attached, but as replace_laws() says.
   void attach(btSoftBody& body, forces::LawSet<btScalar> laws, VectorX<btScalar> masses,
               DampingPlace damping = DampingPlace::kAutomatic);
   /// As attach(), with springs and their dampers solved implicitly in place of btSoftBody's own
   /// constraints (FastBody): stable at any time step, stiffness in N/m whatever the step. Damping laws
-  /// act after the projection. A body with clusters or a pose to match cannot be stepped so: it gets
-  /// attach(), and the reason is returned; nothing otherwise. Throws InvalidArgument as attach().
-  std::optional<std::string> attach_fast(btSoftBody& body, const ClothMesh& mesh,
-                                         const std::vector<forces::LawSpecification>& laws,
-                                         const FastSettings& settings = {});
-  /// Other settings for a body with attach_fast(). Throws InvalidArgument for a body without.
+  /// act after the projection. Returns nothing if that was done, and else why the body cannot be stepped
+  /// so: clusters, a pose to match, a timescale other than 1, links that no tension law stands in for.
+  /// Nothing has changed then; attach(), with a step that it can take, is the program's own decision.
+  /// Throws InvalidArgument as attach(), and for settings out of their domain.
+  [[nodiscard]] std::optional<std::string> attach_fast(
+      btSoftBody& body, const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
+      const FastSettings& settings = {});
+  /// Other settings for a body with attach_fast(). Throws InvalidArgument for a body without, and for settings
+  /// out of their domain.
   void set_fast_settings(btSoftBody& body, const FastSettings& settings);
   [[nodiscard]] bool is_fast(const btSoftBody& body) const;
   /// Whether a fast body has come to rest and is not stepped (FastSettings::may_sleep).
@@ -112,8 +120,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   void wake(btSoftBody& body);
   /// Contacts with rigid bodies and with cloth that the last step looked at.
   [[nodiscard]] int num_contacts(const btSoftBody& body) const;
-  /// Back to plain Bullet. Call before deleting a body that never was in a stepped world. Does
-  /// nothing if no laws are attached.
+  /// Back to plain Bullet. Does nothing if no laws are attached.
   void detach(btSoftBody& body);
   /// Nodes were appended to a body, copies of these: its contact with cloth knows them from now on.
   void add_copies(const btSoftBody& body, const std::vector<int>& origins);
@@ -133,6 +140,10 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   [[nodiscard]] bool has_laws(const btSoftBody& body) const;
   /// Set once the body has exploded; it does not move any more.
   [[nodiscard]] std::optional<BodyBlowUp> blow_up(const btSoftBody& body) const;
+  /// Called once for each body that explodes, by the thread that steps the world, when the step's soft bodies
+  /// are done. It may use this solver and the world, and must not throw: that ends the program (std::terminate),
+  /// for the step is not over. Empty: nobody is told.
+  void set_on_blow_up(std::function<void(btSoftBody&, const BodyBlowUp&)> callback);
 
   /// Limits on the places of a body's nodes at the end of each of the following steps, until others
   /// are set; empty limits end them. They act after btSoftBody::solveConstraints, and so after links
@@ -151,7 +162,8 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
 
   /// Contact of the body with itself and with the others that have it too, see ClothContact. Made
   /// from the body's present shape as its rest shape; replaces what was set before. Bodies without
-  /// it meet as Bullet's flags say. Throws InvalidArgument for settings out of their domain.
+  /// it meet as Bullet's flags say; of two with VF_SS, one of them fast, in this way too, with the margins of
+  /// their shapes and the product of their kDF. Throws InvalidArgument for settings out of their domain.
   void set_cloth_contact(btSoftBody& body, const ClothContactSettings& settings);
 
   /// Deferred: the forces of the next step are started when a step ends, on other threads, and
@@ -177,10 +189,15 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   [[nodiscard]] ClothContact* find_contact(const btSoftBody& body) const;
   void settle_contact_velocities();
   void tell_of_each_other(btSoftBody& body, btSoftBody& other);
+  [[nodiscard]] ContactEntry& contact_by_flag(btSoftBody& body);
+  void meet_cloth(btSoftBody& body, btSoftBody& other);
   void for_bodies(const std::function<void(btSoftBody&, Attachment*)>& work);
   void solve_fast_bodies();
   void solve_listed_bodies();
   void solve_single_body(Attachment& one);
+  void solve_other_body(btSoftBody& body, Attachment* attachment);
+  void collide(Attachment& one, const btCollisionObjectWrapper& object);
+  void tell_of_blow_ups() noexcept;
   [[nodiscard]] bool may_meet_cloth() const;
   void place_listed_bodies(bool may_meet);
   /// Has exploded or is suspended.

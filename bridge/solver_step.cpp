@@ -33,12 +33,13 @@ void SoftBodySolver::predictMotion(btScalar time_step) {
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
     if (!body.isActive() || is_still(body)) continue;  // the forces may have exploded
-    const Attachment* const attachment = find(body);
+    Attachment* const attachment = find(body);
     if (attachment && attachment->fast) {
       FastBody::publish_bounds(body);
     } else {
       body.predictMotion(time_step);
     }
+    if (attachment) attachment->is_moving = true;
   }
 }
 
@@ -46,7 +47,10 @@ void SoftBodySolver::predictMotion(btScalar time_step) {
 void SoftBodySolver::for_bodies(const std::function<void(btSoftBody&, Attachment*)>& work) {
   const auto work_on = [&](int i) {
     btSoftBody& body = *m_softBodySet[i];
-    if (body.isActive() && !is_still(body)) work(body, find(body));
+    if (!body.isActive() || is_still(body)) return;
+    Attachment* const attachment = find(body);
+    if (!attachment) return work(body, nullptr);
+    attachment->guard([&] { work(body, attachment); });
   };
   if (m_softBodySet.size() == 1) return work_on(0);
   tbb::parallel_for(0, m_softBodySet.size(), work_on);
@@ -54,11 +58,29 @@ void SoftBodySolver::for_bodies(const std::function<void(btSoftBody&, Attachment
 
 namespace {
 
-/// A single one by the calling thread: its team may be open, which must not wait for tasks.
+template <class Entry>
+void drop_stopped(std::vector<Entry*>& list) {
+  std::erase_if(list, [](const Entry* one) { return one->blow_up.has_value(); });
+}
+
+/// work(one) for each that it does not stop; those that it stops leave the list. A single one by the calling thread: its
+/// team may be open, which must not wait for tasks.
 template <class Entry, class Work>
-void in_parallel(const std::vector<Entry*>& list, const Work& work) {
-  if (list.size() == 1) return work(*list[0]);
-  tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) { work(*list[i]); });
+void in_parallel(std::vector<Entry*>& list, const Work& work) {
+  const auto work_on = [&](Entry& one) { one.guard([&] { work(one); }); };
+  if (list.size() == 1) {
+    work_on(*list[0]);
+  } else {
+    tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) { work_on(*list[i]); });
+  }
+  drop_stopped(list);
+}
+
+/// The same for those that must not work at the same time.
+template <class Entry, class Work>
+void in_turn(std::vector<Entry*>& list, const Work& work) {
+  for (Entry* one : list) one->guard([&] { work(*one); });
+  drop_stopped(list);
 }
 
 }  // namespace
@@ -77,7 +99,7 @@ void SoftBodySolver::solve_fast_bodies() {
       1, tbb::this_task_arena::max_concurrency() / std::max(1, static_cast<int>(bodies.size())));
   for (Attachment* one : bodies) one->fast->set_num_threads(num_each);
   if (bodies.size() == 1) return solve_single_body(*bodies[0]);
-  in_parallel(bodies, [&](Attachment& one) { one.fast->prepare(*one.body); });
+  in_parallel(bodies, [](Attachment& one) { one.fast->prepare(*one.body); });
   solve_listed_bodies();
   place_listed_bodies(may_meet_cloth());
 }
@@ -86,11 +108,11 @@ void SoftBodySolver::solve_single_body(Attachment& one) {
   const bool may_meet = may_meet_cloth();
   {
     const auto threads = one.fast->hold_threads();  // to call for them takes longer than most loops
-    one.fast->prepare(*one.body);
+    in_parallel(attachments_->stepped, [](Attachment& it) { it.fast->prepare(*it.body); });
     solve_listed_bodies();
     if (!may_meet) {
       place_listed_bodies(false);
-      const bool is_final = one.limits.is_empty() && m_softBodySet.size() == 1;
+      const bool is_final = one.limits.is_empty() && m_softBodySet.size() == 1 && !one.blow_up;
       if (is_final) one.fast->update_normals(*one.body);
     }
   }
@@ -121,19 +143,21 @@ void SoftBodySolver::solve_listed_bodies() {
     in_parallel(asked, [&](Attachment& one) {
       if (one.fast->looks_alone()) one.fast->look_again(*one.body, time_step_);
     });
-    for (Attachment* one : asked) {
-      if (!one->fast->looks_alone()) one->fast->look_again(*one->body, time_step_);
-    }
+    in_turn(asked, [&](Attachment& one) {
+      if (!one.fast->looks_alone()) one.fast->look_again(*one.body, time_step_);
+    });
     std::erase_if(asked, [](const Attachment* one) { return !one->fast->is_unfinished(); });
+    drop_stopped(bodies);
     list_pushed();
     in_parallel(asked,
                 [&](Attachment& one) { one.fast->solve_again(*one.body, time_step_, pushed); });
   }
+  drop_stopped(bodies);
 }
 
 void SoftBodySolver::place_listed_bodies(bool may_meet) {
-  const std::vector<Attachment*>& bodies = attachments_->stepped;
-  for (Attachment* one : bodies) one->fast->place(*one->body, time_step_, may_meet);
+  std::vector<Attachment*>& bodies = attachments_->stepped;
+  in_turn(bodies, [&](Attachment& one) { one.fast->place(*one.body, time_step_, may_meet); });
   // Where springs have led the nodes, not where they would fly without them: in steps of 1/100 s layers that were found there
   // threw each other about.
   in_parallel(bodies, [&](Attachment& one) {
@@ -145,7 +169,7 @@ void SoftBodySolver::place_listed_bodies(bool may_meet) {
     return one->body->m_scontacts.size() > 0;
   });
   for (int sweep = 0; meet && sweep < FastBody::kClothContactSweeps; ++sweep) {
-    for (Attachment* one : bodies) one->fast->project_cloth_contacts(*one->body);
+    in_turn(bodies, [](Attachment& one) { one.fast->project_cloth_contacts(*one.body); });
   }
   in_parallel(bodies, [&](Attachment& one) { one.fast->end_solve(*one.body, time_step_); });
 }
@@ -162,15 +186,12 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
   for (int i = 0; i < m_softBodySet.size(); ++i) {
     btSoftBody& body = *m_softBodySet[i];
     if (!body.isActive() || is_still(body) || is_fast(body)) continue;
-    ContactEntry* const entry = find_contact_entry(body);
-    if (entry) entry->contact.add_self_contacts(body, time_step_);
     Attachment* const attachment = find(body);
-    if (attachment && attachment->has_coulomb_contacts()) {
-      attachment->rigid_response.solve(body);
+    if (attachment) {
+      attachment->guard([&] { solve_other_body(body, attachment); });
     } else {
-      body.solveConstraints();
+      solve_other_body(body, nullptr);
     }
-    if (entry && entry->contact.settings().with_others && attachment) entry->remember_solution();
   }
   settle_contact_velocities();
   for_bodies([&](btSoftBody& body, Attachment* attachment) {
@@ -181,6 +202,18 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
   for (const auto& attachment : attachments_->list) {
     if (attachment->was_in_world) attachment->time += static_cast<double>(time_step_);
   }
+}
+
+// One that is not fast.
+void SoftBodySolver::solve_other_body(btSoftBody& body, Attachment* attachment) {
+  ContactEntry* const entry = find_contact_entry(body);
+  if (entry) entry->contact.add_self_contacts(body, time_step_);
+  if (attachment && attachment->has_coulomb_contacts()) {
+    attachment->rigid_response.solve(body);
+  } else {
+    body.solveConstraints();
+  }
+  if (entry && entry->contact.settings().with_others && attachment) entry->remember_solution();
 }
 
 // A contact of a later body moves the nodes of an earlier one, whose velocities Bullet has derived by
@@ -209,10 +242,30 @@ void SoftBodySolver::updateSoftBodies() {
     if (attachment->limits.is_empty()) attachment->fast->end_step(body, time_step_);
     attachment->fast->note_velocities(body);
   });
-  if (!is_deferred_) return;
-  for_bodies([&](btSoftBody&, Attachment* attachment) {
-    if (attachment) attachment->begin_forces();
-  });
+  for (const auto& attachment : attachments_->list) attachment->is_moving = false;
+  if (is_deferred_) {
+    for_bodies([&](btSoftBody&, Attachment* attachment) {
+      if (attachment) attachment->begin_forces();
+    });
+  }
+  tell_of_blow_ups();
+}
+
+// The step that is about to end is no place for an exception: one that the callback lets go ends the program.
+void SoftBodySolver::tell_of_blow_ups() noexcept {
+  if (!attachments_->on_blow_up) return;
+  struct News {
+    btSoftBody* body;
+    BodyBlowUp blow_up;
+  };
+  std::vector<News> news;  // the callback may attach and detach
+  for (const auto& attachment : attachments_->list) {
+    if (!attachment->blow_up || attachment->is_reported) continue;
+    attachment->is_reported = true;
+    news.push_back({attachment->body, *attachment->blow_up});
+  }
+  const auto callback = attachments_->on_blow_up;  // which may set another one
+  for (const News& one : news) callback(*one.body, one.blow_up);
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -4,6 +4,8 @@
 #include <type_traits>
 #include <vector>
 
+#include <weft/custom_forces/core/eigen_alignment.hpp>
+
 #include <Eigen/Geometry>
 
 #include <weft/custom_forces/core/tangent.hpp>

@@ -4,8 +4,7 @@
 #include <type_traits>
 #include <utility>
 
-#include <Eigen/Core>
-
+#include <weft/custom_forces/core/eigen_alignment.hpp>
 #include <weft/custom_forces/plain_vector.hpp>
 
 namespace weft::forces {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <Eigen/Core>
+#include <weft/custom_forces/core/eigen_alignment.hpp>
 
 namespace weft::forces {
 

@@ -10,7 +10,7 @@ SKIPPED_FOLDERS = {".git", "build", "node_modules", "dist", "out", "third_party"
 START_PAGES = ("README.md", "docs/README.md")
 MAX_LINES = 150
 # Page -> why it may be longer.
-LONG_PAGES = {"CHANGELOG.md": "grows with every version"}
+LONG_PAGES = {"CHANGELOG.md": "grows with every version", "README.md": "has a whole program"}
 
 FENCE = re.compile(r"^(```|~~~).*?^\1[ \t]*$", re.DOTALL | re.MULTILINE)
 CODE = re.compile(r"`[^`\n]*`")

@@ -1,6 +1,7 @@
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -18,6 +19,84 @@ int ClothMesh::num_edges() const {
 bool ClothMesh::has_edge_set(std::string_view name) const {
   return std::any_of(edge_sets.begin(), edge_sets.end(),
                      [&](const EdgeSet& set) { return set.name == name; });
+}
+
+namespace {
+
+void require(bool ok, const std::string& message) {
+  if (!ok) throw InvalidArgument("cloth mesh: " + message);
+}
+
+class NodeCheck {
+ public:
+  explicit NodeCheck(int num_nodes) : num_nodes_(num_nodes) {}
+
+  /// elements: one column each. what: "triangle", "edge of the set 'shear'".
+  template <class Elements>
+  void operator()(const Elements& elements, const std::string& what) const {
+    for (Eigen::Index e = 0; e < elements.cols(); ++e) {
+      for (const int node : elements.col(e)) {
+        if (is_node(node)) continue;
+        refuse(what + " " + std::to_string(e), node);
+      }
+    }
+  }
+  void operator()(const std::vector<int>& nodes, const std::string& what) const {
+    for (const int node : nodes) {
+      if (!is_node(node)) refuse(what, node);
+    }
+  }
+
+ private:
+  [[nodiscard]] bool is_node(int node) const { return node >= 0 && node < num_nodes_; }
+  void refuse(const std::string& what, int node) const {
+    require(false, what + " names node " + std::to_string(node) + ", expected 0 to " +
+                       std::to_string(num_nodes_ - 1));
+  }
+  int num_nodes_;
+};
+
+void check_nodes(const ClothMesh& mesh) {
+  const int num_nodes = mesh.num_nodes();
+  require(num_nodes > 0, "it has no node, expected at least one");
+  require(mesh.masses.size() == num_nodes, std::to_string(mesh.masses.size()) +
+                                               " masses, expected one for each of the " +
+                                               std::to_string(num_nodes) + " nodes");
+  for (int i = 0; i < num_nodes; ++i) {
+    const double mass = mesh.masses[i];
+    if (std::isfinite(mass) && mass > 0) continue;
+    require(false, "mass of node " + std::to_string(i) + " = " + std::to_string(mass) +
+                       " [kg], expected > 0 and finite");
+  }
+  for (int i = 0; i < num_nodes; ++i) {
+    if (mesh.rest_positions.col(i).allFinite()) continue;
+    require(false, "rest position of node " + std::to_string(i) + " is not finite [m]");
+  }
+}
+
+}  // namespace
+
+void check_mesh(const ClothMesh& mesh) {
+  check_nodes(mesh);
+  const Eigen::Index num_velocities = mesh.pinned_velocities.cols();
+  require(num_velocities == 0 || num_velocities == static_cast<Eigen::Index>(mesh.pinned.size()),
+          std::to_string(num_velocities) + " velocities of pinned nodes, expected none or " +
+              std::to_string(mesh.pinned.size()));
+  require(mesh.pinned_velocities.allFinite(), "a velocity of a pinned node is not finite [m/s]");
+  const NodeCheck check_indices(mesh.num_nodes());
+  check_indices(mesh.pinned, "the list of pinned nodes");
+  check_indices(mesh.triangles, "triangle");
+  check_indices(mesh.crossed_triangles, "crossed triangle");
+  for (const EdgeSet& set : mesh.edge_sets) {
+    check_indices(set.edges, "edge set '" + set.name + "', edge");
+  }
+  for (const LineSet& set : mesh.line_sets) {
+    check_indices(set.triples, "line set '" + set.name + "', triple");
+  }
+  for (const ConnectionSet& set : mesh.connection_sets) {
+    check_indices(set.connections, "connection set '" + set.name + "', connection");
+  }
+  for (const NodeSet& set : mesh.node_sets) check_indices(set.nodes, "node set '" + set.name + "'");
 }
 
 Vector3<double> ClothMesh::pinned_velocity(std::size_t i) const {

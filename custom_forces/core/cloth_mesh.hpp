@@ -72,6 +72,11 @@ struct ClothMesh {
   [[nodiscard]] Edges edges_of(const std::vector<std::string>& set_names) const;
 };
 
+/// Throws InvalidArgument, which names the place and what was expected there, for a mesh that does not fit
+/// together: no node, masses, velocities or places that are too many, too few or not finite, a mass that is
+/// not > 0, and indices of nodes out of range (triangles, edges, lines, connections, regions, pins).
+void check_mesh(const ClothMesh& mesh);
+
 /// Adds connections from one node to each of the far nodes, as a connection set of this name. Throws
 /// InvalidArgument for a node outside the mesh, a far node that is the node itself, and a name that
 /// is taken.

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <weft/custom_forces/core/eigen_alignment.hpp>
+
 #include <unsupported/Eigen/AutoDiff>
 
 namespace weft {

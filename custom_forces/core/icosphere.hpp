@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include <weft/custom_forces/core/eigen_alignment.hpp>
+
 #include <Eigen/Geometry>
 
 #include <weft/custom_forces/core/surface_body.hpp>

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <Eigen/Core>
+#include <weft/custom_forces/core/eigen_alignment.hpp>
 
 namespace weft {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <weft/custom_forces/core/eigen_alignment.hpp>
 
 namespace weft {
 

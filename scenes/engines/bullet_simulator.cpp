@@ -99,8 +99,10 @@ void BulletSimulator::add_cloth(const Cloth& cloth, const Scene& scene) {
   const auto* skin = std::get_if<SkinSource>(&cloth.source);
   if (skin != nullptr && !skin->is_cloth) body.m_cfg.collisions = 0;
   if (tension_ == Tension::kImplicit) {
-    // Never refused: no clusters, no pose. A scene's numbers are those of the solver, so that nothing sleeps.
-    (void)world_->solver().attach_fast(body, mesh, laws, {.may_sleep = false});
+    // A scene's numbers are those of the solver, so that nothing sleeps.
+    if (const auto reason = world_->solver().attach_fast(body, mesh, laws, {.may_sleep = false})) {
+      throw Error("bullet_weft: cloth '" + cloth.name + "' cannot be stepped: " + *reason);
+    }
   } else {
     world_->solver().attach(body, mesh, laws);
   }

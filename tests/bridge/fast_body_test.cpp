@@ -437,18 +437,6 @@ TEST(FastBody, DoesNotSleepWhileItSwings) {
   }
 }
 
-TEST(FastBody, SaysWhyABodyIsNotFast) {
-  SoftWorld world(SoftWorldSettings{});
-  const ClothMesh mesh = cloth(4, 1, 0);
-  btSoftBody& body = world.add(make_cloth_body(world.info(), mesh, {}));
-  body.generateClusters(1);
-  const auto reason = world.solver().attach_fast(body, mesh, {law("tension", "stiffness", 10)});
-  ASSERT_TRUE(reason);
-  EXPECT_EQ(*reason, "it has clusters");
-  EXPECT_TRUE(world.solver().has_laws(body));
-  EXPECT_FALSE(world.solver().is_fast(body));
-}
-
 TEST(FastBody, RefusesAnEffortOfNothing) {
   SoftWorld world(SoftWorldSettings{});
   const ClothMesh mesh = cloth(4, 1, 0);

@@ -150,19 +150,6 @@ TEST(SoftBodySolver, LawsOfAnotherMeshAreRefusedAtOnce) {
   EXPECT_THROW(world.solver().attach(body, {}, masses), InvalidArgument);
 }
 
-TEST(SoftBodySolver, BodyThatLeftTheWorldIsForgotten) {
-  const ClothMesh mesh = free_cloth();
-  SoftWorld world({});
-  const auto body = make_cloth_body(world.info(), mesh, {});
-  world.world().addSoftBody(body.get());
-  world.solver().attach(*body, mesh, {law("gravity", "acceleration", {0, -9.81, 0})});
-  world.step(kTimeStep);
-  EXPECT_TRUE(world.solver().has_laws(*body));
-  world.world().removeSoftBody(body.get());
-  world.step(kTimeStep);
-  EXPECT_FALSE(world.solver().has_laws(*body));
-}
-
 TEST(SoftBodySolver, ExplosionIsReportedAndFrozen) {
   const ClothMesh mesh = free_cloth();
   SoftWorld world({});

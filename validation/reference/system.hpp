@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include <weft/custom_forces/core/eigen_alignment.hpp>
+
 #include <Eigen/Geometry>
 
 #include <weft/custom_forces/core/cloth_mesh.hpp>

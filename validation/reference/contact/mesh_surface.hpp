@@ -3,6 +3,8 @@
 #include <array>
 #include <vector>
 
+#include <weft/custom_forces/core/eigen_alignment.hpp>
+
 #include <Eigen/Geometry>
 
 #include <weft/custom_forces/core/types.hpp>

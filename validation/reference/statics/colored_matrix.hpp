@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include <weft/custom_forces/core/eigen_alignment.hpp>
+
 #include <Eigen/SparseCore>
 
 #include <weft/custom_forces/core/types.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <weft/custom_forces/core/eigen_alignment.hpp>
+
 #include <Eigen/SparseCholesky>
 
 namespace weft::reference {
