@@ -173,10 +173,8 @@ std::string keep_frames(std::unique_ptr<scenes::RecordingWriter> writer,
                         const scenes::RecordingOutput& output, std::string why) {
   try {
     writer->commit();
-  } catch (const Error& error) {
-    // After a failed write that is the same again, and what was committed before stays.
-    const std::string more = error.what();
-    if (more.find("after a failed write") == std::string::npos) why += "; " + more;
+  } catch (const Error&) {
+    why += "; what came after the last commit cannot be stored";
   }
   const scenes::RecordingWriter::Committed kept = writer->committed();
   writer.reset();

@@ -92,7 +92,13 @@ void RecordingOutput::publish() const {
   remove_companions(partial_);
   // SQLite would take the log of the recording that goes for one of that which comes.
   if (file_.replaces()) remove_companions(path());
-  file_.publish(partial_);
+  try {
+    file_.publish(partial_);
+  } catch (const Error& error) {
+    if (!is_there(partial_)) throw;  // it has got another name, and the message says which
+    throw Error(
+        fmt::format("{}; the recording is complete in {}", error.what(), partial_.string()));
+  }
 }
 
 void RecordingOutput::discard() const {

@@ -155,11 +155,15 @@ check "a file that appeared: exit code" test $? -eq 2
 check "the file is as it was" test "$(cat late.weftrec)" = appeared
 check "the recording is beside it" exits 0 info late-2.weftrec
 check "whole" grep -q "finished recording of scene 'hang'" out
-mkdir full && chmod 555 full
-if [ "$(id -u)" -ne 0 ]; then
-  check "no right to write" exits 2 "${short[@]}" -o full/a.weftrec
-fi
-chmod 755 full && rmdir full
+mkdir traces
+"$weft" run hang -o traced.weftrec --duration "4 s" --trace traces/t.json >out 2>err &
+run=$!
+while [ ! -e traced.partial.weftrec ] && kill -0 $run; do sleep 0.01; done
+rmdir traces
+wait $run
+check "a trace that fails after the run: exit code" test $? -eq 2
+check "says that the recording is complete" grep -q "traces/t.json.*the recording is complete in traced.weftrec" err
+check "which it is" exits 0 info traced.weftrec
 
 # A partial recording: readers say what it is, and no later command removes it
 "$weft" run hang -o stopped.weftrec --duration "1000 s" >out 2>err &
