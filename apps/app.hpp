@@ -15,6 +15,7 @@ namespace weft::app {
 inline constexpr int kOk = 0;
 inline constexpr int kCaseFailed = 1;  ///< a validation case failed, or a simulation blew up
 inline constexpr int kBadInput = 2;    ///< command line, scene file, recording or output place
+inline constexpr int kSignal = 128;    ///< plus the number of the signal that stopped it
 
 /// Each command adds its options to the parser and returns what to do once they are parsed.
 using Action = std::function<int()>;
@@ -29,6 +30,7 @@ struct CommandLine {
 [[nodiscard]] Action add_run_command(CLI::App& parser, const CommandLine& command_line);
 [[nodiscard]] Action add_validate_command(CLI::App& parser, const CommandLine& command_line);
 [[nodiscard]] Action add_reference_command(CLI::App& parser);
+[[nodiscard]] Action add_info_command(CLI::App& parser);
 [[nodiscard]] Action add_render_command(CLI::App& parser);
 [[nodiscard]] Action add_contact_sheet_command(CLI::App& parser);
 [[nodiscard]] Action add_stability_command(CLI::App& parser);

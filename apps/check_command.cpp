@@ -8,6 +8,7 @@
 #include <weft/scenes/scene_file.hpp>
 
 #include "apps/app.hpp"
+#include "apps/terminal.hpp"
 
 namespace weft::app {
 namespace {
@@ -24,12 +25,12 @@ int check(const CheckOptions& options) {
       const scenes::Scene scene = scenes::read_scene_file(file);
       for (const scenes::Cloth& cloth : scene.cloths) (void)scenes::make_mesh(cloth);
       if (options.resolved) {
-        fmt::print("{}", scenes::write_scene(scene));
+        write_data(stdout, scenes::write_scene(scene));
       } else {
-        fmt::print("{}: ok, {}\n", file, scene.summary);
+        print("{}: ok, {}\n", file, scene.summary);
       }
     } catch (const InvalidArgument& error) {
-      fmt::print(stderr, "weft: {}\n", error.what());
+      print(stderr, "weft: {}\n", error.what());
       exit_code = kBadInput;
     }
   }

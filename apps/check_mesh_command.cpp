@@ -8,6 +8,7 @@
 #include <weft/scenes/import/import_mesh.hpp>
 
 #include "apps/app.hpp"
+#include "apps/terminal.hpp"
 
 namespace weft::app {
 namespace {
@@ -26,13 +27,13 @@ int check_meshes(CheckMeshOptions options) {
   for (const std::string& file : options.files) {
     try {
       const import::MeshReport report = import::check_mesh(file, options.import);
-      fmt::print("{}:\n{}", file, report.text());
+      print("{}:\n{}", file, report.text());
       if (const std::optional<std::string> fault = report.fault()) {
         throw import::ImportError(file, *fault);
       }
-      fmt::print("ok, a body can be made of it\n");
+      print("ok, a body can be made of it\n");
     } catch (const InvalidArgument& error) {
-      fmt::print(stderr, "weft: {}\n", error.what());
+      print(stderr, "weft: {}\n", error.what());
       exit_code = kBadInput;
     }
   }

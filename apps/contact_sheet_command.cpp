@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,12 +14,15 @@
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/scenes/catalog.hpp>
 #include <weft/scenes/engines/engine_table.hpp>
+#include <weft/scenes/playback/image.hpp>
 #include <weft/scenes/playback/montage.hpp>
 #include <weft/scenes/playback/renderer.hpp>
 #include <weft/scenes/recording/recording.hpp>
 
 #include "apps/app.hpp"
+#include "apps/partial_note.hpp"
 #include "apps/progress_bar.hpp"
+#include "apps/terminal.hpp"
 
 namespace weft::app {
 namespace {
@@ -80,6 +83,7 @@ Exhibit simulate(const scenes::Scene& for_all, const std::string& name) {
 
 Exhibit from_recording(const std::string& path) {
   const scenes::RecordingReader reader(path);
+  note_if_partial(reader, path);
   if (reader.num_frames() == 0) throw Error(path + ": has no frame to render");
   const double time = poster_time(reader.scene());
   int frame = 0;
@@ -152,18 +156,39 @@ std::string command_text(const SheetOptions& options) {
   return text;
 }
 
-void write_page(const std::filesystem::path& path, const std::vector<Exhibit>& exhibits,
-                const std::string& command) {
-  const std::filesystem::path pictures = path.parent_path() / "img" / "scenes";
-  std::filesystem::create_directories(pictures);
-  for (const Exhibit& exhibit : exhibits) {
-    scenes::write_png(pictures / (exhibit.scene.name + ".png"), exhibit.picture);
-  }
-  std::ofstream file(path);
-  file << scene_page(exhibits, command);
-  file.close();
-  if (!file) throw Error(path.string() + ": cannot be written");
+bool begins_as_page(std::string_view beginning) {
+  return beginning.starts_with(
+      "# What scenes are there, and what do they look like?\n\nMade by `weft");
 }
+
+/// What the command writes, all looked at before the first scene is simulated.
+class SheetOutputs {
+ public:
+  explicit SheetOutputs(const SheetOptions& options)
+      : sheet_(options.output, scenes::kPictureKind) {
+    if (options.page.empty()) return;
+    const std::filesystem::path folder = std::filesystem::path(options.page).parent_path();
+    if (!folder.empty()) std::filesystem::create_directories(folder);
+    page_.emplace(options.page, output::FileKind{"a page of scenes", begins_as_page});
+    pictures_ = folder / "img" / "scenes";
+  }
+
+  void write_sheet(const scenes::Image& sheet) const { sheet_.write(scenes::encode_png(sheet)); }
+
+  void write_page(const std::vector<Exhibit>& exhibits, const std::string& command) const {
+    if (!page_) return;
+    std::filesystem::create_directories(pictures_);
+    for (const Exhibit& exhibit : exhibits) {
+      scenes::write_png(pictures_ / (exhibit.scene.name + ".png"), exhibit.picture);
+    }
+    page_->write(scene_page(exhibits, command));
+  }
+
+ private:
+  output::OutputFile sheet_;
+  std::optional<output::OutputFile> page_;
+  std::filesystem::path pictures_;
+};
 
 /// The same scene on several engines, as neighbours; white where it is not made for one.
 std::vector<scenes::SheetEntry> compare_engines(const SheetOptions& options) {
@@ -192,11 +217,12 @@ int make_sheet(SheetOptions options) {
       options.names.emplace_back(entry.name);
     }
   }
+  const SheetOutputs outputs(options);
   if (!options.engines.empty()) {
     const std::vector<scenes::SheetEntry> entries = compare_engines(options);
-    scenes::write_png(options.output, scenes::contact_sheet(entries, options.columns));
-    fmt::print("{}: {} scenes on {} engines\n", options.output, options.names.size(),
-               options.engines.size());
+    outputs.write_sheet(scenes::contact_sheet(entries, options.columns));
+    print("{}: {} scenes on {} engines\n", options.output, options.names.size(),
+          options.engines.size());
     return kOk;
   }
   std::vector<Exhibit> exhibits;
@@ -205,11 +231,9 @@ int make_sheet(SheetOptions options) {
     const Exhibit& exhibit = exhibits.emplace_back(make_exhibit(name, options.width));
     entries.push_back({exhibit.picture, exhibit.scene.name, what_it_shows(exhibit.scene.summary)});
   }
-  scenes::write_png(options.output, scenes::contact_sheet(entries, options.columns));
-  if (!options.page.empty()) {
-    write_page(options.page, exhibits, command_text(options));
-  }
-  fmt::print("{}: {} scenes\n", options.output, exhibits.size());
+  outputs.write_sheet(scenes::contact_sheet(entries, options.columns));
+  outputs.write_page(exhibits, command_text(options));
+  print("{}: {} scenes\n", options.output, exhibits.size());
   return kOk;
 }
 

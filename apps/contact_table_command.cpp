@@ -1,6 +1,5 @@
-#include <filesystem>
-#include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,10 +8,12 @@
 
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/scenes/engines/engine_table.hpp>
+#include <weft/scenes/output/output_file.hpp>
 #include <weft/validation/contact_table/contact_table.hpp>
 
 #include "apps/app.hpp"
 #include "apps/progress_bar.hpp"
+#include "apps/terminal.hpp"
 
 namespace weft::app {
 namespace {
@@ -23,12 +24,10 @@ struct TableOptions {
   std::string csv;
 };
 
-void write_file(const std::string& path, const std::string& text) {
-  if (path.empty()) return;
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file) throw Error(path + ": cannot be written");
+/// Looked at before the work is done; none if no path is given.
+std::optional<output::OutputFile> output_at(const std::string& path, const output::FileKind& kind) {
+  if (path.empty()) return std::nullopt;
+  return output::OutputFile(path, kind);
 }
 
 int make_table(const TableOptions& options) {
@@ -41,6 +40,8 @@ int make_table(const TableOptions& options) {
     throw InvalidArgument("contact-table: engine = '" + options.engine +
                           "': this program was built without Bullet");
   }
+  const auto markdown = output_at(options.markdown, validation::kContactMarkdownKind);
+  const auto csv = output_at(options.csv, validation::kContactCsvKind);
   const std::unique_ptr<scenes::Simulator> simulator = engine->make();
   const std::vector<validation::ContactTarget> targets = validation::contact_targets();
   std::vector<validation::ContactRow> rows;
@@ -58,9 +59,9 @@ int make_table(const TableOptions& options) {
   const std::string name =
       fmt::format("`{}`, {}", engine->name, scenes::to_string(engine->precision));
   const std::string table = validation::contact_markdown(rows, name);
-  write_file(options.markdown, table);
-  write_file(options.csv, validation::contact_csv(rows));
-  if (options.markdown.empty()) fmt::print("\n{}", table);
+  if (markdown) markdown->write(table);
+  if (csv) csv->write(validation::contact_csv(rows));
+  if (options.markdown.empty()) print("\n{}", table);
   return kOk;
 }
 

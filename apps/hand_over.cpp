@@ -4,11 +4,18 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 #include <weft/custom_forces/core/error.hpp>
 
 namespace weft::app {
+namespace {
+
+/// Environment variable: the number of the process that has become another executable.
+constexpr const char* kHandedOver = "WEFT_HANDED_OVER";
+
+}  // namespace
 
 std::filesystem::path executable_for(const CommandLine& command_line,
                                      scenes::StoredPrecision precision) {
@@ -21,6 +28,16 @@ void hand_over(const CommandLine& command_line, scenes::StoredPrecision precisio
   if (other == command_line.executable) {
     throw Error("run: this program was built without Bullet, expected --engine reference");
   }
+  // The process keeps its number: what has this one was started by the lines below, and must not do
+  // the same again.
+  const std::string self = std::to_string(getpid());
+  const char* before = std::getenv(kHandedOver);
+  if (before != nullptr && before == self) {
+    throw Error(other.string() +
+                ": is the same program under another name, expected that for Bullet's "
+                "other precision");
+  }
+  setenv(kHandedOver, self.c_str(), 1);
   std::vector<std::string> words = command_line.words;
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());

@@ -9,6 +9,7 @@
 #include <weft/scenes/engines/engine_table.hpp>
 
 #include "apps/app.hpp"
+#include "apps/terminal.hpp"
 
 namespace weft::app {
 namespace {
@@ -25,53 +26,51 @@ int springs_of_inner_node(const ClothMesh& mesh) {
 
 void print_cloth(const scenes::Cloth& cloth) {
   const ClothMesh mesh = scenes::make_mesh(cloth);
-  fmt::print(
-      "    {}: {} nodes, {} springs ({} per interior node), {} triangles, {} pinned, {:.6g} kg\n",
-      cloth.name, mesh.num_nodes(), mesh.num_edges(), springs_of_inner_node(mesh),
-      mesh.triangles.cols(), mesh.pinned.size(), mesh.masses.sum());
+  print("    {}: {} nodes, {} springs ({} per interior node), {} triangles, {} pinned, {:.6g} kg\n",
+        cloth.name, mesh.num_nodes(), mesh.num_edges(), springs_of_inner_node(mesh),
+        mesh.triangles.cols(), mesh.pinned.size(), mesh.masses.sum());
   for (const EdgeSet& set : mesh.edge_sets) {
-    fmt::print("      springs \"{}\": {}\n", set.name, set.edges.cols());
+    print("      springs \"{}\": {}\n", set.name, set.edges.cols());
   }
   for (const forces::LawSpecification& law : cloth.laws) {
-    fmt::print("      law {}:", law.law);
+    print("      law {}:", law.law);
     for (const forces::ParameterInfo& parameter : forces::find_law(law.law)->parameters) {
       const auto found = law.parameters.find(parameter.name);
       if (found == law.parameters.end()) continue;
-      fmt::print(" {} =", parameter.name);
-      for (const double value : found->second) fmt::print(" {:.6g}", value);
-      if (parameter.unit != "1") fmt::print(" {}", parameter.unit);
-      fmt::print(";");
+      print(" {} =", parameter.name);
+      for (const double value : found->second) print(" {:.6g}", value);
+      if (parameter.unit != "1") print(" {}", parameter.unit);
+      print(";");
     }
-    fmt::print("\n");
+    print("\n");
   }
 }
 
 void print_scene(const scenes::CatalogEntry& entry, bool verbose) {
   const scenes::Scene scene = scenes::load_scene(std::string(entry.name));
-  fmt::print("  {:<16} {}\n", scene.name, scene.summary);
+  print("  {:<16} {}\n", scene.name, scene.summary);
   if (!verbose) return;
-  fmt::print("    {:.6g} s in steps of {:.6g} s\n", scene.world.duration, scene.world.time_step);
+  print("    {:.6g} s in steps of {:.6g} s\n", scene.world.duration, scene.world.time_step);
   for (const scenes::Cloth& cloth : scene.cloths) print_cloth(cloth);
   for (const scenes::Collider& collider : scene.colliders) {
-    fmt::print("    {}: {}\n", collider.name,
-               collider.mass ? fmt::format("dynamic rigid body, {:.6g} kg", *collider.mass)
-                             : std::string("fixed obstacle"));
+    print("    {}: {}\n", collider.name,
+          collider.mass ? fmt::format("dynamic rigid body, {:.6g} kg", *collider.mass)
+                        : std::string("fixed obstacle"));
   }
 }
 
 int list(bool verbose) {
-  fmt::print("Scenes:\n");
+  print("Scenes:\n");
   for (const scenes::CatalogEntry& entry : scenes::scene_catalog()) print_scene(entry, verbose);
-  fmt::print("\nEngines:\n");
+  print("\nEngines:\n");
   for (const scenes::EngineInfo& engine : scenes::engine_table()) {
     const bool both = engine.name != "reference";
-    fmt::print("  {:<26} {}{}\n", engine.name, engine.summary,
-               both ? " (float32 and float64)" : "");
+    print("  {:<26} {}{}\n", engine.name, engine.summary, both ? " (float32 and float64)" : "");
   }
-  fmt::print("\nForce laws:\n");
+  print("\nForce laws:\n");
   for (const forces::LawInfo* law : forces::all_laws()) {
-    fmt::print("  {:<16} {}{}\n", law->id, law->summary,
-               verbose ? fmt::format(": {}", law->formula) : "");
+    print("  {:<16} {}{}\n", law->id, law->summary,
+          verbose ? fmt::format(": {}", law->formula) : "");
   }
   return kOk;
 }

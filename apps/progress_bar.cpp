@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include <fmt/core.h>
+#include "apps/terminal.hpp"
 
 namespace weft::app {
 namespace {
@@ -15,8 +14,8 @@ constexpr int kWidth = 30;  ///< characters
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::string label)
-    : label_(std::move(label)), is_terminal_(isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar(const std::string& label)
+    : label_(printable(label)), is_terminal_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressBar::~ProgressBar() {
   if (is_terminal_) fmt::print(stderr, "\r\x1b[K");

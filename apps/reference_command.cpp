@@ -1,6 +1,5 @@
-#include <filesystem>
-#include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <fmt/core.h>
@@ -8,12 +7,14 @@
 
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/scenes/catalog.hpp>
+#include <weft/scenes/output/output_file.hpp>
 #include <weft/scenes/quantity.hpp>
 #include <weft/scenes/scene_words.hpp>
 #include <weft/validation/converged/converged_reference.hpp>
 
 #include "apps/app.hpp"
 #include "apps/provenance.hpp"
+#include "apps/terminal.hpp"
 
 namespace weft::app {
 namespace {
@@ -39,44 +40,30 @@ std::string shown(const std::optional<double>& value) {
   return value ? fmt::format("{:.3g}", *value) : "-";
 }
 
-void print(const validation::ConvergedReference& reference) {
-  fmt::print("{} at {:g} s; differences as a part of {:g} m\n", reference.scene, reference.time,
-             reference.size);
+void print_study(const validation::ConvergedReference& reference) {
+  print("{} at {:g} s; differences as a part of {:g} m\n", reference.scene, reference.time,
+        reference.size);
   for (const validation::ConvergenceStudy& study : reference.studies) {
     const auto word = static_cast<std::size_t>(study.integrator);
-    fmt::print("{}\n{:>12} {:>10} {:>12}\n", scenes::kIntegratorWords[word], "step [s]", "steps",
-               "difference");
+    print("{}\n{:>12} {:>10} {:>12}\n", scenes::kIntegratorWords[word], "step [s]", "steps",
+          "difference");
     for (const validation::ConvergenceLevel& level : study.levels) {
-      fmt::print("{:>12.6g} {:>10} {:>12} {}\n", level.time_step, level.num_steps,
-                 shown(level.difference), level.blow_up.value_or(""));
+      print("{:>12.6g} {:>10} {:>12} {}\n", level.time_step, level.num_steps,
+            shown(level.difference), level.blow_up.value_or(""));
     }
-    fmt::print("  observed order {}, of {}; GCI {}, a tenth of the gate is {:g}\n",
-               shown(study.order), study.formal_order, shown(study.gci), reference.gate / 10);
+    print("  observed order {}, of {}; GCI {}, a tenth of the gate is {:g}\n", shown(study.order),
+          study.formal_order, shown(study.gci), reference.gate / 10);
   }
-  fmt::print("The integrators are {} apart, a third of the gate is {:.3g}.\n{}\n",
-             shown(reference.agreement), reference.gate / 3,
-             reference.is_converged() ? "Converged." : "NOT converged.");
-}
-
-/// A file of this name appears whole or not at all.
-void write_file(const std::filesystem::path& path, const std::string& text) {
-  const std::filesystem::path partial = path.string() + ".partial";
-  std::ofstream file(partial, std::ios::binary);
-  file << text;
-  file.close();
-  std::error_code failed;
-  if (file) std::filesystem::rename(partial, path, failed);
-  if (file && !failed) return;
-  std::filesystem::remove(partial, failed);
-  throw InvalidArgument(path.string() + ": cannot be written");
+  print("The integrators are {} apart, a third of the gate is {:.3g}.\n{}\n",
+        shown(reference.agreement), reference.gate / 3,
+        reference.is_converged() ? "Converged." : "NOT converged.");
 }
 
 int make_reference_data(const ReferenceOptions& options) {
   const scenes::Scene scene = scenes::load_scene(options.scene);
-  const std::filesystem::path folder = std::filesystem::path(options.output).parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-    throw InvalidArgument(options.output + ": no such folder");  // before minutes of work
-  }
+  // Before minutes of work.
+  std::optional<output::OutputFile> file;
+  if (!options.output.empty()) file.emplace(options.output, validation::kReferenceKind);
   validation::ConvergedReference reference =
       validation::converge(scene, {.time = parsed_time(options.time),
                                    .num_levels = options.levels,
@@ -85,8 +72,8 @@ int make_reference_data(const ReferenceOptions& options) {
   const scenes::Provenance made = build_provenance();
   reference.program =
       fmt::format("weft {} {}, {}", made.at("weft"), made.at("revision"), made.at("compiler"));
-  print(reference);
-  if (!options.output.empty()) write_file(options.output, validation::to_json(reference));
+  print_study(reference);
+  if (file) file->write(validation::to_json(reference));
   return reference.is_converged() ? kOk : kCaseFailed;
 }
 

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/scenes/playback/image.hpp>
 #include <weft/scenes/playback/montage.hpp>
 #include <weft/scenes/playback/renderer.hpp>
 #include <weft/scenes/quantity.hpp>
@@ -19,7 +20,9 @@
 #include <weft/scenes/torn_cloth.hpp>
 
 #include "apps/app.hpp"
+#include "apps/partial_note.hpp"
 #include "apps/progress_bar.hpp"
+#include "apps/terminal.hpp"
 
 namespace weft::app {
 namespace {
@@ -117,10 +120,6 @@ void read_size(const std::string& text, scenes::RenderOptions& options) {
 }
 
 void check_options(const RenderCommandOptions& options, const scenes::RecordingReader& reader) {
-  std::error_code none;
-  if (std::filesystem::equivalent(options.recording, options.output, none)) {
-    throw InvalidArgument(options.output + ": is the recording itself, expected another --output");
-  }
   const int choices = int{options.all} + int{!options.time.empty()} + int{!options.times.empty()};
   if (choices > 1) {
     throw InvalidArgument("--time, --times, --all: expected at most one of them");
@@ -133,6 +132,7 @@ void check_options(const RenderCommandOptions& options, const scenes::RecordingR
 
 /// One picture for every time and style, side by side; columns = 0: a row for each style.
 int render_strip(const RenderCommandOptions& options, const scenes::RecordingReader& reader) {
+  const output::OutputFile output(options.output, scenes::kPictureKind);
   std::vector<int> frames;
   for (const std::string& time : options.times) frames.push_back(frame_at(reader, "--times", time));
   if (!options.time.empty()) frames.push_back(frame_at(reader, "--time", options.time));
@@ -148,35 +148,49 @@ int render_strip(const RenderCommandOptions& options, const scenes::RecordingRea
   }
   const int row = static_cast<int>(frames.size() == 1 ? options.styles.size() : frames.size());
   const bool is_single = pictures.size() == 1;
-  scenes::write_png(options.output,
-                    is_single
-                        ? pictures.front()
-                        : scenes::filmstrip(pictures, options.columns ? options.columns : row));
+  output.write(scenes::encode_png(
+      is_single ? pictures.front()
+                : scenes::filmstrip(pictures, options.columns ? options.columns : row)));
   std::string times;
   for (const int frame : frames) {
     times += fmt::format("{}{:.4g} s", times.empty() ? "" : ", ", reader.frame_time(frame));
   }
-  fmt::print("{}: t = {}\n", options.output, times);
+  print("{}: t = {}\n", options.output, times);
   return kOk;
+}
+
+/// A file for every frame, all looked at before the first is drawn.
+std::vector<output::OutputFile> frame_files(const std::filesystem::path& folder, int num_frames) {
+  if (std::filesystem::is_symlink(folder)) {
+    throw InvalidArgument(folder.string() + ": is a symbolic link, expected a folder");
+  }
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Error(folder.string() + ": cannot be made (" + error.message() + ")");
+  std::vector<output::OutputFile> files;
+  for (int frame = 0; frame < num_frames; ++frame) {
+    files.emplace_back(folder / fmt::format("frame_{:05}.png", frame), scenes::kPictureKind);
+  }
+  return files;
 }
 
 int render(RenderCommandOptions options) {
   const scenes::RecordingReader reader(options.recording);
   read_size(options.size, options.render);
   check_options(options, reader);
+  note_if_partial(reader, options.recording);
   if (!options.all) return render_strip(options, reader);
   Film film(reader, options.render);
-  std::filesystem::create_directories(options.output);
+  const std::vector<output::OutputFile> outputs = frame_files(options.output, reader.num_frames());
   {
     ProgressBar progress("render");
     for (int frame = 0; frame < reader.num_frames(); ++frame) {
       progress.update(static_cast<double>(frame) / reader.num_frames());
-      scenes::write_png(
-          std::filesystem::path(options.output) / fmt::format("frame_{:05}.png", frame),
-          film.draw(frame, options.styles.front()));
+      outputs[static_cast<std::size_t>(frame)].write(
+          scenes::encode_png(film.draw(frame, options.styles.front())));
     }
   }
-  fmt::print("{}: {} pictures\n", options.output, reader.num_frames());
+  print("{}: {} pictures\n", options.output, reader.num_frames());
   return kOk;
 }
 

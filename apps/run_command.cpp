@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,14 +17,17 @@
 #include <weft/scenes/engines/engine_table.hpp>
 #include <weft/scenes/quantity.hpp>
 #include <weft/scenes/recording/recording.hpp>
+#include <weft/scenes/recording/recording_output.hpp>
 #include <weft/scenes/recording/run.hpp>
 #include <weft/scenes/scene_file.hpp>
 #include <weft/scenes/scene_words.hpp>
 
 #include "apps/app.hpp"
 #include "apps/hand_over.hpp"
+#include "apps/interruption.hpp"
 #include "apps/progress_bar.hpp"
 #include "apps/provenance.hpp"
+#include "apps/terminal.hpp"
 
 namespace weft::app {
 namespace {
@@ -95,50 +97,38 @@ scenes::Scene requested_scene(const RunOptions& options) {
   return scene;
 }
 
-void remove_recording(const std::filesystem::path& path) {
-  for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
-    std::error_code ignored;
-    std::filesystem::remove(path.string() + suffix, ignored);
-  }
+bool begins_as_trace(std::string_view beginning) {
+  return beginning.starts_with("{\"displayTimeUnit\": \"ms\", \"traceEvents\": [");
 }
 
-/// --force replaces a recording, and nothing else: a slip of the finger must not cost a scene file.
-void check_replaceable(const std::filesystem::path& path) {
-  if (!std::filesystem::exists(path)) return;
-  try {
-    const scenes::RecordingReader reader(path);
-  } catch (const Error& error) {
-    throw InvalidArgument(path.string() +
-                          ": exists and is not a recording, expected another --output (" +
-                          error.what() + ")");
-  }
-}
+constexpr output::FileKind kTraceKind{"a trace", begins_as_trace};
 
 void report_stable_step(const scenes::StepReport& step) {
   if (!step.stable_time_step) return;
   const double taken = step.time_step / step.substeps;
-  fmt::print("time step {:.4g} s, stable up to {:.4g} s{}{}\n", step.time_step,
-             *step.stable_time_step,
-             step.substeps > 1 ? fmt::format(", taken in {} substeps", step.substeps) : "",
-             taken > *step.stable_time_step ? ": too large, modes of the springs grow" : "");
+  print("time step {:.4g} s, stable up to {:.4g} s{}{}\n", step.time_step, *step.stable_time_step,
+        step.substeps > 1 ? fmt::format(", taken in {} substeps", step.substeps) : "",
+        taken > *step.stable_time_step ? ": too large, modes of the springs grow" : "");
 }
 
-/// Opened before the run, so that a bad path costs no simulation; a run without --trace has none.
-std::ofstream open_trace(const std::string& path) {
-  std::ofstream file;
-  if (path.empty()) return file;
-  file.open(path);
-  if (!file) throw InvalidArgument("--trace " + path + ": cannot be written");
+/// Looked at before the run, so that a bad path costs no simulation; a run without --trace has none.
+std::optional<output::OutputFile> begin_trace(const std::string& path) {
+  if (path.empty()) return std::nullopt;
+  output::OutputFile file(path, kTraceKind);
   name_trace_thread("main");
   start_trace();
   return file;
 }
 
-void close_trace(const std::string& path, std::ofstream& file) {
-  if (path.empty()) return;
-  write_chrome_trace(stop_trace(), file);
-  file.close();
-  if (!file) throw Error("--trace " + path + ": writing failed");
+void end_trace(const output::OutputFile& file, const std::string& recording) {
+  std::ostringstream text;
+  write_chrome_trace(stop_trace(), text);
+  try {
+    file.write(text.str());
+  } catch (const Error& error) {
+    throw Error(
+        fmt::format("--trace {}; the recording is complete in {}", error.what(), recording));
+  }
 }
 
 struct Recorded {
@@ -149,16 +139,17 @@ struct Recorded {
 };
 
 Recorded record(const scenes::Scene& scene, const scenes::EngineInfo& engine, int threads,
-                const scenes::Provenance& provenance, const std::string& path) {
-  scenes::RecordingWriter writer(path, scene, provenance, engine.precision);
+                scenes::RecordingWriter& writer) {
   const std::unique_ptr<scenes::Simulator> simulator = engine.make();
   ProgressBar progress(scene.name);
+  const Interruption interruption;
   Recorded recorded;
   const auto run = [&] {
     recorded.summary =
         scenes::record_run(*simulator, scene, writer, [&](const scenes::StepReport& step) {
           progress.update(step.time / scene.world.duration);
           recorded.last = step;
+          Interruption::check();
         });
   };
   if (threads > 0) {
@@ -177,15 +168,48 @@ Recorded record(const scenes::Scene& scene, const scenes::EngineInfo& engine, in
   return recorded;
 }
 
+/// What to say of a run that did not reach its end: why, and where its frames are.
+std::string keep_frames(std::unique_ptr<scenes::RecordingWriter> writer,
+                        const scenes::RecordingOutput& output, std::string why) {
+  try {
+    writer->commit();
+  } catch (const Error&) {
+    why += "; what came after the last commit cannot be stored";
+  }
+  const scenes::RecordingWriter::Committed kept = writer->committed();
+  writer.reset();
+  if (kept.frames == 0) {
+    output.discard();
+    return why;
+  }
+  return fmt::format("{}; {} frames up to t = {:.6g} s are kept in {}", why, kept.frames, kept.time,
+                     output.partial().string());
+}
+
+/// Records into the partial recording; whatever ends the run early, its frames stay there.
+Recorded record(const scenes::Scene& scene, const scenes::EngineInfo& engine, int threads,
+                const scenes::Provenance& provenance, const scenes::RecordingOutput& output) {
+  auto writer = std::make_unique<scenes::RecordingWriter>(output.partial(), scene, provenance,
+                                                          engine.precision);
+  try {
+    return record(scene, engine, threads, *writer);
+  } catch (const Interrupted& stop) {
+    throw Interrupted(stop.signal(), keep_frames(std::move(writer), output, stop.what()));
+  } catch (const InvalidArgument& error) {
+    throw InvalidArgument(keep_frames(std::move(writer), output, error.what()));
+  } catch (const std::exception& error) {
+    throw Error(keep_frames(std::move(writer), output, error.what()));
+  }
+}
+
 int report(const Recorded& recorded, const std::string& output) {
   const scenes::RunSummary& summary = recorded.summary;
-  fmt::print("{}: {} steps, {} frames, {:.2f} s simulated in {:.4g} s\ncontent hash {}\n", output,
-             summary.steps, summary.frames, recorded.simulated, summary.engine_seconds,
-             recorded.hash);
+  print("{}: {} steps, {} frames, {:.2f} s simulated in {:.4g} s\ncontent hash {}\n", output,
+        summary.steps, summary.frames, recorded.simulated, summary.engine_seconds, recorded.hash);
   if (!summary.blow_up) return kOk;
-  fmt::print("blew up at step {}, t = {:.6g} s, body '{}', node {}: {}\n", summary.blow_up->step,
-             summary.blow_up->time, summary.blow_up->body, summary.blow_up->node,
-             summary.blow_up->reason);
+  print("blew up at step {}, t = {:.6g} s, body '{}', node {}: {}\n", summary.blow_up->step,
+        summary.blow_up->time, summary.blow_up->body, summary.blow_up->node,
+        summary.blow_up->reason);
   return kCaseFailed;
 }
 
@@ -202,35 +226,26 @@ int run(RunOptions options, const CommandLine& command_line) {
   const scenes::EngineInfo* engine = scenes::find_engine(options.engine, precision);
   if (!engine) hand_over(command_line, precision);
 
-  const std::string output = options.output.empty()
-                                 ? fmt::format("{}_{}_{}.weftrec", scene.name, options.engine,
-                                               scenes::to_string(precision))
-                                 : options.output;
-  if (options.force) {
-    check_replaceable(output);
-  } else if (std::filesystem::exists(output)) {
-    throw InvalidArgument(output + ": exists already, expected a new name or --force");
+  const std::string path = options.output.empty()
+                               ? fmt::format("{}_{}_{}.weftrec", scene.name, options.engine,
+                                             scenes::to_string(precision))
+                               : options.output;
+  const scenes::RecordingOutput output(path, options.force);
+  for (const std::filesystem::path& earlier : output.earlier()) {
+    print(stderr, "weft: {}: left by an earlier run that did not end, is kept\n", earlier.string());
   }
   scenes::Provenance provenance = build_provenance();
   provenance["engine"] = options.engine;
   provenance["precision"] = scenes::to_string(precision);
   provenance["threads"] = options.threads > 0 ? std::to_string(options.threads) : "all";
 
-  // Under another name until it is whole: a run that fails leaves an older recording as it was.
-  const std::string unfinished = output + ".part";
-  remove_recording(unfinished);
-  try {
-    std::ofstream trace = open_trace(options.trace);
-    const Recorded recorded = record(scene, *engine, options.threads, provenance, unfinished);
-    close_trace(options.trace, trace);
-    remove_recording(output);
-    std::filesystem::rename(unfinished, output);
-    report_stable_step(recorded.last);
-    return report(recorded, output);
-  } catch (...) {
-    remove_recording(unfinished);
-    throw;
-  }
+  const std::optional<output::OutputFile> trace = begin_trace(options.trace);
+  const Recorded recorded = record(scene, *engine, options.threads, provenance, output);
+  output.publish();
+  report_stable_step(recorded.last);
+  const int exit_code = report(recorded, path);
+  if (trace) end_trace(*trace, path);
+  return exit_code;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <weft/validation/stability/stability_map.hpp>
 
 #include "apps/app.hpp"
+#include "apps/terminal.hpp"
 
 namespace weft::app {
 namespace {
@@ -21,6 +22,7 @@ struct StabilityOptions {
 
 int map_scene(const StabilityOptions& options) {
   const scenes::Scene scene = scenes::load_scene(options.scene);
+  const output::OutputFolder folder = validation::report_folder(options.output);
   validation::Report report;
   report.title = "Stable time steps of " + scene.name;
   report.limits = {
@@ -28,18 +30,18 @@ int map_scene(const StabilityOptions& options) {
       "less."};
   report.provenance = {{"scene", scene.name}, {"program", "weft stability"}};
   for (const validation::StabilityMap& map : validation::map_stability(scene)) {
-    fmt::print("cloth '{}'\n{:>10} {:>6} {:>14} {:>14} {:>8}\n", map.cloth, "stiffness", "beta",
-               "predicted [s]", "measured [s]", "ratio");
+    print("cloth '{}'\n{:>10} {:>6} {:>14} {:>14} {:>8}\n", map.cloth, "stiffness", "beta",
+          "predicted [s]", "measured [s]", "ratio");
     for (const validation::StabilityPoint& point : map.points) {
-      fmt::print("{:>10} {:>6g} {:>14.5g} {:>14.5g} {:>8.4f}\n",
-                 fmt::format("x {:g}", point.stiffness_factor), point.beta, point.predicted,
-                 point.measured, point.measured / point.predicted);
+      print("{:>10} {:>6g} {:>14.5g} {:>14.5g} {:>8.4f}\n",
+            fmt::format("x {:g}", point.stiffness_factor), point.beta, point.predicted,
+            point.measured, point.measured / point.predicted);
     }
     report.checks.push_back(validation::stability_check(map));
     report.sections.push_back(validation::stability_section(map));
   }
-  validation::write_report(report, options.output);
-  fmt::print("Map: {}\n", (std::filesystem::path(options.output) / "index.html").string());
+  validation::write_report(report, folder);
+  print("Map: {}\n", (std::filesystem::path(options.output) / "index.html").string());
   return report.passed() ? kOk : kCaseFailed;
 }
 

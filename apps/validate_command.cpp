@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -19,7 +20,9 @@
 #include "apps/app.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/progress_bar.hpp"
+#include "apps/progress_lines.hpp"
 #include "apps/provenance.hpp"
+#include "apps/terminal.hpp"
 
 namespace weft::app {
 namespace {
@@ -38,8 +41,8 @@ struct ValidateOptions {
 };
 
 void print_table(const validation::Report& report) {
-  fmt::print("{:<20} {:<25} {:<52} {:>11} {:>11} {:>9}  {}\n", "case", "engine", "metric",
-             "measured", "allowed", "ratio", "verdict");
+  print("{:<20} {:<25} {:<52} {:>11} {:>11} {:>9}  {}\n", "case", "engine", "metric", "measured",
+        "allowed", "ratio", "verdict");
   for (const validation::CheckResult& check : report.checks) {
     const bool caught = std::all_of(check.sabotages.begin(), check.sabotages.end(),
                                     [](const auto& sabotage) { return sabotage.detected; });
@@ -49,11 +52,11 @@ void print_table(const validation::Report& report) {
     const std::string metric =
         check.unit == "1" ? check.metric : fmt::format("{} [{}]", check.metric, check.unit);
     const std::optional<double> part = validation::ratio(check);
-    fmt::print("{:<20} {:<25} {:<52} {:>11.3g} {:>11} {:>9}  {}{}\n", check.case_id, check.engine,
-               metric, check.measured,
-               check.tolerance ? fmt::format("{:.3g}", check.tolerance->value) : std::string("-"),
-               part ? fmt::format("{:.2g}", *part) : std::string("-"), verdict,
-               caught ? "" : " (a sabotage went unnoticed)");
+    print("{:<20} {:<25} {:<52} {:>11.3g} {:>11} {:>9}  {}{}\n", check.case_id, check.engine,
+          metric, check.measured,
+          check.tolerance ? fmt::format("{:.3g}", check.tolerance->value) : std::string("-"),
+          part ? fmt::format("{:.2g}", *part) : std::string("-"), verdict,
+          caught ? "" : " (a sabotage went unnoticed)");
   }
 }
 
@@ -64,9 +67,9 @@ void print_verdict(const validation::Report& report) {
     if (check.verdict != validation::Verdict::kInfo) ++num_gated;
     num_sabotages += check.sabotages.size();
   }
-  fmt::print("\n{}: {} checks, {} more measured without a bound, {} sabotages\n",
-             report.passed() ? "PASS" : "FAIL", num_gated, report.checks.size() - num_gated,
-             num_sabotages);
+  print("\n{}: {} checks, {} more measured without a bound, {} sabotages\n",
+        report.passed() ? "PASS" : "FAIL", num_gated, report.checks.size() - num_gated,
+        num_sabotages);
 }
 
 std::string page_path(const ValidateOptions& options) {
@@ -75,16 +78,56 @@ std::string page_path(const ValidateOptions& options) {
 
 int list_cases(const validation::SuiteOptions& suite) {
   for (const validation::CaseInfo* info : validation::chosen_cases(suite)) {
-    fmt::print("{}", validation::describe(*info));
+    print("{}", validation::describe(*info));
   }
   return kOk;
 }
+
+/// What run_suite() tells, as a bar for a terminal and as lines for a log.
+class SuiteProgress {
+ public:
+  explicit SuiteProgress(int num_cases) : num_cases_(num_cases) {}
+  ~SuiteProgress() { end_case(); }
+  SuiteProgress(const SuiteProgress&) = delete;
+  SuiteProgress& operator=(const SuiteProgress&) = delete;
+
+  /// what: "run LABEL" after a simulation, "judge CASE" before a case.
+  void update(const std::string& what, double fraction) {
+    const std::size_t blank = what.find(' ');
+    const std::string stage = what.substr(0, blank);
+    const std::string name = what.substr(blank + 1);
+    if (stage != stage_) bar_.emplace(stage);
+    stage_ = stage;
+    bar_->update(fraction);
+    if (stage == "run") {
+      ++num_runs_;
+      // The fraction is exact up to rounding, and so their number is.
+      lines_.done("run", num_runs_, static_cast<int>(std::lround(num_runs_ / fraction)), name);
+    } else {
+      end_case();
+      case_ = name;
+    }
+  }
+
+ private:
+  void end_case() {
+    if (!case_.empty()) lines_.done("case", ++num_judged_, num_cases_, case_);
+    case_.clear();
+  }
+
+  ProgressLines lines_;
+  std::optional<ProgressBar> bar_;
+  std::string stage_;
+  std::string case_;  ///< that is being judged
+  int num_cases_;
+  int num_judged_ = 0;
+  int num_runs_ = 0;
+};
 
 int validate(const ValidateOptions& options, const CommandLine& command_line) {
   const bool with_bullet = scenes::bullet_description() != "none";
   validation::SuiteOptions suite;
   suite.weft = executable_for(command_line, scenes::StoredPrecision::kFloat32);
-  suite.folder = std::filesystem::path(options.output) / "runs";
   suite.case_ids = options.cases;
   suite.jobs = options.jobs > 0
                    ? options.jobs
@@ -96,29 +139,27 @@ int validate(const ValidateOptions& options, const CommandLine& command_line) {
                  .engine = options.engine};
   if (options.list) return list_cases(suite);
 
+  const int num_cases = static_cast<int>(validation::chosen_cases(suite).size());
+  const output::OutputFolder folder = validation::report_folder(options.output);
+  suite.folder = folder.make_folder("runs");
   validation::Report report;
   {
-    std::optional<ProgressBar> bar;
-    std::string stage;
-    report = validation::run_suite(suite, [&](const std::string& what, double fraction) {
-      const std::string now = what.substr(0, what.find(' '));
-      if (now != stage) bar.emplace(now);
-      stage = now;
-      bar->update(fraction);
-    });
+    SuiteProgress progress(num_cases);
+    report = validation::run_suite(
+        suite, [&](const std::string& what, double fraction) { progress.update(what, fraction); });
   }
   for (const auto& [key, value] : build_provenance()) report.provenance.emplace_back(key, value);
-  validation::write_report(report, options.output);
+  validation::write_report(report, folder);
   print_table(report);
 
   print_verdict(report);
-  fmt::print("Report: {}\n", page_path(options));
+  print("Report: {}\n", page_path(options));
   return report.passed() ? kOk : kCaseFailed;
 }
 
 int render_again(const ValidateOptions& options) {
   validation::render_report(options.output);
-  fmt::print("Report: {}\n", page_path(options));
+  print("Report: {}\n", page_path(options));
   return kOk;
 }
 

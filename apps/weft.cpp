@@ -3,12 +3,11 @@
 #include <exception>
 #include <map>
 
-#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include <weft/custom_forces/core/error.hpp>
-
 #include "apps/app.hpp"
+#include "apps/interruption.hpp"
+#include "apps/terminal.hpp"
 
 namespace {
 
@@ -16,6 +15,7 @@ constexpr const char* kFooter = R"(Examples:
   weft list                                  what scenes there are
   weft run drape_sphere -o drape.weftrec     simulate and record, with the reference solver
   weft run drape_sphere --engine bullet_forces --precision float64 -o drape.weftrec
+  weft info drape.weftrec                    how far it goes, and whether it is whole
   weft render drape.weftrec -o drape.png     a picture of the last frame
   weft check my_scene.toml                   is this scene file right?
   weft check-mesh shirt.obj                  can a body be made of this mesh?
@@ -24,7 +24,10 @@ constexpr const char* kFooter = R"(Examples:
   weft validate -o report                    every case in every engine, as report/index.html
 
 A SCENE is a name from `weft list` or the path of a scene file (TOML).
-Exit codes: 0 ok; 1 a case failed or a simulation blew up; 2 bad input.)";
+A file is never written over another one, except what the same command made before; a recording only with --force.
+A run that is stopped keeps its frames in NAME.partial.weftrec.
+Exit codes: 0 ok; 1 a case failed or a simulation blew up; 2 bad input or no place for the output;
+128 + n stopped by signal n.)";
 
 int run(int argc, char** argv) {
   using namespace weft::app;
@@ -42,6 +45,7 @@ int run(int argc, char** argv) {
   std::map<std::string, Action> actions;
   actions["list"] = add_list_command(parser);
   actions["run"] = add_run_command(parser, command_line);
+  actions["info"] = add_info_command(parser);
   actions["render"] = add_render_command(parser);
   actions["contact-sheet"] = add_contact_sheet_command(parser);
   actions["check"] = add_check_command(parser);
@@ -56,21 +60,27 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& asked) {  // --help, --version
     return parser.exit(asked);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "weft: {}\nTry: weft --help\n", error.what());
+    print(stderr, "weft: {}\nTry: weft --help\n", error.what());
     return kBadInput;
   }
   return actions.at(parser.get_subcommands().front()->get_name())();
 }
 
+int run_or_say_why(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const weft::app::Interrupted& stop) {
+    weft::app::print(stderr, "weft: {}\n", stop.what());
+    return weft::app::kSignal + stop.signal();
+  } catch (const std::exception& error) {
+    weft::app::print(stderr, "weft: {}\n", error.what());
+    return weft::app::kBadInput;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const weft::Error& error) {
-    fmt::print(stderr, "weft: {}\n", error.what());
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "weft: {}\n", error.what());
-  }
-  return weft::app::kBadInput;
+  weft::app::prepare_output();
+  return weft::app::finish_output(run_or_say_why(argc, argv));
 }

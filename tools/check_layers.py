@@ -11,7 +11,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 
-_SCENES = {"custom_forces", "characters", "scenes", "scenes/import", "scenes/recording", "scenes/playback"}
+_SCENES = {
+    "custom_forces", "characters", "scenes", "scenes/import", "scenes/output", "scenes/recording", "scenes/playback"
+}
 _ENGINES = _SCENES | {"fast_solver", "bridge", "validation/reference", "scenes/engines"}
 _ALL = _ENGINES | {"validation", "validation/metrics", "validation/report"}
 
@@ -24,7 +26,10 @@ MAY_INCLUDE = {
     "characters": {"characters", "custom_forces"},
     "scenes": {"scenes", "characters", "scenes/import", "custom_forces"},
     "scenes/import": {"scenes/import", "custom_forces"},
-    "scenes/recording": {"scenes/recording", "scenes", "characters", "scenes/import", "custom_forces"},
+    "scenes/output": {"scenes/output", "custom_forces"},
+    "scenes/recording": {
+        "scenes/recording", "scenes/output", "scenes", "characters", "scenes/import", "custom_forces"
+    },
     "scenes/playback": _SCENES,
     "scenes/engines": _ENGINES,
     "validation/metrics": _SCENES | {"validation/metrics"},

@@ -1,9 +1,8 @@
 #include <png.h>
 
 #include <cstdio>
-#include <fstream>
 #include <string>
-#include <system_error>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,6 +12,14 @@
 
 namespace weft::scenes {
 namespace {
+
+/// In every picture, and what it is known by.
+constexpr const char* kComment = "Rendered by Weft";
+
+bool begins_as_picture(std::string_view beginning) {
+  return beginning.starts_with("\x89PNG\r\n\x1a\n") &&
+         beginning.find(kComment) != std::string_view::npos;
+}
 
 void append_bytes(png_structp png, png_bytep bytes, png_size_t size) {
   static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(bytes), size);
@@ -52,6 +59,8 @@ void check_image(const Image& image) {
 
 }  // namespace
 
+const output::FileKind kPictureKind{"a picture", begins_as_picture};
+
 std::string encode_png(const Image& image) {
   check_image(image);
   std::string bytes;
@@ -64,7 +73,7 @@ std::string encode_png(const Image& image) {
   png_set_sRGB(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
   // No date and no program version: the same picture must give the same bytes.
   std::string key = "Comment";
-  std::string comment = "Rendered by Weft";
+  std::string comment = kComment;
   png_text text{};
   text.compression = PNG_TEXT_COMPRESSION_NONE;
   text.key = key.data();
@@ -81,28 +90,7 @@ std::string encode_png(const Image& image) {
 }
 
 void write_png(const std::filesystem::path& path, const Image& image) {
-  const std::string bytes = encode_png(image);
-  // Written beside its place and renamed: a reader sees the old file or the whole new one.
-  std::filesystem::path part = path;
-  part += ".part";
-  std::error_code ignored;
-  {
-    std::ofstream file(part, std::ios::binary | std::ios::trunc);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    if (!file) {
-      std::filesystem::remove(part, ignored);
-      throw Error(fmt::format("write_png: file = '{}', expected a place that can be written",
-                              path.string()));
-    }
-  }
-  std::error_code error;
-  std::filesystem::rename(part, path, error);
-  if (error) {
-    std::filesystem::remove(part, ignored);
-    throw Error(fmt::format("write_png: file = '{}', cannot be written: {}", path.string(),
-                            error.message()));
-  }
+  output::write_file(path, kPictureKind, encode_png(image));
 }
 
 }  // namespace weft::scenes

@@ -47,6 +47,16 @@ class RecordingWriter {
   void add_metric(const std::string& name, double time, double value);
   /// Commits at once, together with the frames so far.
   void set_blow_up(const BlowUp& blow_up);
+  /// Commits what was added so far; otherwise that happens chunk by chunk. Throws Error if it cannot
+  /// be stored; what was committed before stays.
+  void commit();
+
+  /// How far the recording goes that a reader would find now.
+  struct Committed {
+    int frames = 0;
+    double time = 0.0;  ///< of the last of them [s]
+  };
+  [[nodiscard]] Committed committed() const;
   /// Writes what is left, marks the recording finished and returns its content hash.
   std::string finish();
 

@@ -111,6 +111,7 @@ struct RecordingWriter::Impl {
   double last_time = -std::numeric_limits<double>::infinity();
   bool finished = false;
   bool broken = false;  ///< a commit failed: nothing more can be promised
+  Committed committed;
 };
 
 RecordingWriter::Impl::Impl(const std::filesystem::path& path, Header the_header,
@@ -162,6 +163,7 @@ void RecordingWriter::Impl::commit() {
     database->execute("BEGIN IMMEDIATE");
     write_pending();
     database->execute("COMMIT");
+    committed = {static_cast<int>(num_frames), last_time};
   } catch (...) {
     broken = true;
     finished = false;
@@ -339,6 +341,15 @@ void RecordingWriter::set_blow_up(const BlowUp& blow_up) {
   impl_->header.blow_up->time = without_negative_zero(blow_up.time);
   impl_->event_pending = true;
   impl_->commit();
+}
+
+void RecordingWriter::commit() {
+  impl_->require_usable();
+  impl_->commit();
+}
+
+RecordingWriter::Committed RecordingWriter::committed() const {
+  return impl_->committed;
 }
 
 std::string RecordingWriter::finish() {

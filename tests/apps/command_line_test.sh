@@ -113,6 +113,98 @@ check "reference: a gate that is out of reach" exits 1 reference hang --time "0.
 check "its order is there all the same" grep -q '"observed_order": [12]' r.json
 check "impossible output" exits 2 "${short[@]}" -o /no/such/folder/a.weftrec
 
+# The one rule for outputs: nothing of another kind is written over, and no link, folder, device or pipe
+echo "my notes" >notes
+mkfifo pipe && ln -s notes link && mkdir folder
+# A device of its own: root can replace those of the machine, should the rule ever break.
+device=/dev/null
+[ "$(id -u)" -eq 0 ] && mknod device c 1 3 2>/dev/null && device=device
+[ "$(id -u)" -eq 0 ] && [ $device != device ] && device=
+for place in notes pipe link folder $device; do
+  check "run: $place" exits 2 "${short[@]}" -f -o $place
+  check "--trace: $place" exits 2 "${short[@]}" -o u.weftrec --trace $place
+  check "render: $place" exits 2 render a.weftrec -o $place --size 96x54
+  check "contact sheet: $place" exits 2 contact-sheet a.weftrec -o $place
+  check "its page: $place" exits 2 contact-sheet a.weftrec -o sheet.png --page $place
+  check "reference: $place" exits 2 reference hang --time "0.005 s" --levels 3 -o $place
+  check "contact table: $place" exits 2 contact-table -o $place
+  check "its CSV: $place" exits 2 contact-table --csv $place
+  [ $place = folder ] && echo x >folder/theirs
+  check "validate: $place" exits 2 validate oscillator --no-pictures -o $place
+  check "stability: $place" exits 2 stability hang -o $place
+  check "one line about $place" test "$(wc -l <err)" -eq 1
+done
+check "all is as it was" test "$(cat notes link)" = "$(printf 'my notes\nmy notes')" -a -p pipe -a -L link -a \( -z "$device" -o -c "$device" \) -a "$(ls -A folder)" = theirs
+check "no recording of a refused trace" test ! -e u.weftrec
+ln -s nowhere dangling
+check "a link to nothing" exits 2 render a.weftrec -o dangling --size 96x54
+check "nothing at its end" test ! -e nowhere
+check "no lock and no temporary file is left" test -z "$(find . -name '*.lock' -o -name '.weft-*.tmp' -o -name '*partial*')"
+
+# A file that appears during a run, and a trace that cannot be written after it
+"$weft" run hang -o late.weftrec --duration "20 s" >out 2>err &
+run=$!
+while [ ! -e late.partial.weftrec ] && kill -0 $run; do sleep 0.01; done
+check "two runs with one output" exits 2 run hang -o late.weftrec --duration "0.1 s" --force
+check "says who writes it" grep -q "late.weftrec: is being written by another run (process $run)" err
+"$weft" run hang -o late.weftrec --duration "0.1 s" >out 2>&1
+check "says so without --force" test $? -eq 2
+echo "appeared" >late.weftrec
+wait $run
+check "a file that appeared: exit code" test $? -eq 2
+check "the file is as it was" test "$(cat late.weftrec)" = appeared
+check "the recording is beside it" exits 0 info late-2.weftrec
+check "whole" grep -q "finished recording of scene 'hang'" out
+mkdir traces
+"$weft" run hang -o traced.weftrec --duration "4 s" --trace traces/t.json >out 2>err &
+run=$!
+while [ ! -e traced.partial.weftrec ] && kill -0 $run; do sleep 0.01; done
+rmdir traces
+wait $run
+check "a trace that fails after the run: exit code" test $? -eq 2
+check "says that the recording is complete" grep -q "traces/t.json.*the recording is complete in traced.weftrec" err
+check "which it is" exits 0 info traced.weftrec
+
+# A partial recording: readers say what it is, and no later command removes it
+"$weft" run hang -o stopped.weftrec --duration "1000 s" >out 2>err &
+run=$!
+while [ ! -s stopped.partial.weftrec-wal ] && kill -0 $run; do sleep 0.01; done
+sleep 0.5
+kill -TERM $run
+wait $run
+check "stopped by a signal" test $? -eq 143
+check "info opens a partial recording" exits 0 info stopped.partial.weftrec
+check "and says so" grep -q "partial recording of scene 'hang'" out
+check "render opens it" exits 0 render stopped.partial.weftrec -o stopped.png --size 96x54
+check "and says so" grep -q "stopped.partial.weftrec: a partial recording, [0-9]* frames" err
+check "the same command again" exits 0 run hang -o stopped.weftrec --duration "0.1 s"
+check "says that it is kept" grep -q "stopped.partial.weftrec: left by an earlier run" err
+check "it is kept" exits 0 info stopped.partial.weftrec
+
+# Standard output counts
+for words in list "list --verbose" --help "check mine.toml" "info a.weftrec"; do
+  # shellcheck disable=SC2086
+  "$weft" $words >/dev/full 2>err
+  check "weft $words >/dev/full: exit code" test $? -eq 2
+  check "weft $words >/dev/full: message" grep -q "standard output cannot be written" err
+  # shellcheck disable=SC2086
+  "$weft" $words >&- 2>err
+  check "weft $words >&-: exit code" test $? -eq 2
+done
+check "a closed stream is no output file" exits 0 run hang -o closed.weftrec --duration "0.1 s"
+"$weft" run hang -o closed.weftrec -f --duration "0.1 s" >&- 2>&-
+check "its recording is sound" exits 0 info closed.weftrec
+
+# No escape sequence reaches the terminal
+sed 's/^name = "hang"/name = "evil\\u001b[31m"/; s/^summary = "/&\\u001b]0;title\\u0007/' mine.toml >"$(printf 'evil\033[2J.toml')"
+evil=$(printf 'evil\033[2J.toml')
+"$weft" check "$evil" >out 2>err
+"$weft" check "$evil.missing" >>out 2>>err
+"$weft" run "$evil" --duration "0.1 s" -o "$(printf 'evil\033c.weftrec')" >>out 2>>err
+"$weft" "$(printf '\033[5m')" >>out 2>>err
+check "no escape character" test "$(cat out err | tr -cd '\033\007' | wc -c)" -eq 0
+check "it is shown" grep -qF 'evil\x1b[2J.toml' out err
+
 # Blow-up as data
 check "explicit Euler" exits 1 run drape_sphere --integrator explicit_euler -o c.weftrec
 check "step, time and node" grep -qE "blew up at step [0-9]+, t = .* node [0-9]+" out
@@ -155,8 +247,17 @@ else
   check "no Bullet: says so" exits 2 "${short[@]}" -e bullet_soft -o d.weftrec
 fi
 
+# A program that is only another name of this one does not start itself for ever
+mkdir alias && cp "$weft" alias/weft && cp "$weft" alias/weft-float64
+check "weft-float64 as a copy" timeout 20 sh -c 'alias/weft run hang -e bullet_soft -p float64 -o alias.weftrec 2>err; test $? -eq 2'
+rm alias/weft-float64 && ln -s weft alias/weft-float64
+check "weft-float64 as a link" timeout 20 sh -c 'alias/weft run hang -e bullet_soft -p float64 -o alias.weftrec 2>err; test $? -eq 2'
+check "one line" test "$(wc -l <err)" -eq 1
+rm -r alias
+
 # A report
 check "validate" exits 0 validate oscillator hanging_chain -o report --no-pictures
+check "progress for a pipe, a line for each case" test "$(grep -cE '^case [12] of 2: [a-z_]+ \([0-9.]+ s\)$' err)" -eq 2
 for file in index.html report.json junit.xml; do check "$file" test -s report/$file; done
 check "one point of a case" exits 0 validate cantilever --gamma 3.7 --nodes 60 --angle 17 --engine reference -o report --no-pictures
 check "one point: says where" grep -q "N = 60, grid at 16.7 degrees" out

@@ -1,9 +1,12 @@
 #include <weft/validation/run/engine_runs.hpp>
 
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -27,6 +30,7 @@ class EngineRunsTest : public ::testing::Test {
               "  *crashes*) kill -SEGV $$ ;;\n"
               "  *explodes*) exit 1 ;;\n"
               "  *refused*) exit 2 ;;\n"
+              "  *waits*) echo $$ >\"$(dirname \"$0\")/waiting\"; sleep 60 ;;\n"
               "esac\n";
     script.close();
     std::filesystem::permissions(folder_ / "fake_weft", std::filesystem::perms::owner_all);
@@ -82,6 +86,33 @@ TEST_F(EngineRunsTest, ProgressEndsAtOneAndRunsAreNotRepeated) {
   EXPECT_EQ(last, 1.0);
   all.run_all(count);
   EXPECT_EQ(calls, 5);
+}
+
+/// Until condition holds, or ten seconds have passed.
+bool wait_until(const std::function<bool()>& condition) {
+  for (int i = 0; i < 1000 && !condition(); ++i) usleep(10000);
+  return condition();
+}
+
+TEST_F(EngineRunsTest, RunsEndWithAProcessThatIsKilled) {
+  const pid_t parent = fork();
+  if (parent == 0) {
+    EngineRuns all = runs(1);
+    all.add(request("waits"));
+    all.run_all([](double, const std::string&) {});
+    _exit(0);
+  }
+  pid_t run = 0;
+  EXPECT_TRUE(wait_until([&] { return bool(std::ifstream(folder_ / "waiting") >> run); }));
+  kill(parent, SIGKILL);
+  waitpid(parent, nullptr, 0);
+  ASSERT_GT(run, 0);
+  // Whoever inherits the orphan may be slow to collect it; a zombie has ended.
+  EXPECT_TRUE(wait_until([&] {
+    std::string number, name, state;
+    std::ifstream status("/proc/" + std::to_string(run) + "/stat");
+    return !(status >> number >> name >> state) || state == "Z" || state == "X";
+  }));
 }
 
 TEST_F(EngineRunsTest, UnknownLabelAndMissingProgramAreErrors) {

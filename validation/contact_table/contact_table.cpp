@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,18 @@
 
 namespace weft::validation {
 namespace {
+
+constexpr std::string_view kCsvHeader =
+    "target,time_step_s,speed_m_per_s,nodes,deepest_mm,deepest_at_end_mm,tunnelled,blew_up\n";
+
+bool begins_as_csv(std::string_view beginning) {
+  return beginning.starts_with(kCsvHeader);
+}
+
+bool begins_as_markdown(std::string_view beginning) {
+  return beginning.starts_with("Engine `") &&
+         beginning.find("Per cell: deepest node in the run") != std::string_view::npos;
+}
 
 constexpr double kMargin = 0.02;    // [m]
 constexpr double kGap = 0.05;       // [m] to go before the margin is reached
@@ -111,9 +124,11 @@ ContactRow measure_contact(scenes::Simulator& engine, const ContactTarget& targe
   return row;
 }
 
+const output::FileKind kContactCsvKind{"a contact table (CSV)", begins_as_csv};
+const output::FileKind kContactMarkdownKind{"a contact table (Markdown)", begins_as_markdown};
+
 std::string contact_csv(const std::vector<ContactRow>& rows) {
-  std::string text =
-      "target,time_step_s,speed_m_per_s,nodes,deepest_mm,deepest_at_end_mm,tunnelled,blew_up\n";
+  std::string text(kCsvHeader);
   for (const ContactRow& row : rows) {
     text += fmt::format("\"{}\",{:.6f},{:g},{},{:.2f},{:.2f},{},{}\n", row.target, row.time_step,
                         row.speed, row.num_nodes, 1e3 * row.deepest, 1e3 * row.deepest_end,

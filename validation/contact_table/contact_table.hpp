@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <weft/scenes/output/file_kind.hpp>
 #include <weft/scenes/scene.hpp>
 #include <weft/scenes/simulator.hpp>
 
@@ -52,6 +53,10 @@ struct ContactSabotage {
 
 inline const std::vector<double> kTableTimeSteps = {1.0 / 60.0, 1.0 / 240.0};  ///< [s]
 inline const std::vector<double> kTableSpeeds = {1.0, 5.0, 20.0};              ///< [m/s]
+
+/// Files with what the next two functions return.
+extern const output::FileKind kContactCsvKind;
+extern const output::FileKind kContactMarkdownKind;
 
 /// A header line and one line per row; lengths in mm, with units in the header.
 [[nodiscard]] std::string contact_csv(const std::vector<ContactRow>& rows);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <weft/custom_forces/core/types.hpp>
+#include <weft/scenes/output/file_kind.hpp>
 #include <weft/scenes/scene.hpp>
 
 namespace weft::validation {
@@ -65,6 +66,9 @@ struct ConvergedReference {
 /// run; a blow-up is in its level.
 [[nodiscard]] ConvergedReference converge(const scenes::Scene& scene,
                                           const ConvergenceOptions& options = {});
+
+/// A file with what to_json() returns.
+extern const output::FileKind kReferenceKind;
 
 /// The reference as JSON: all numbers, hashes, and the positions of the finest Verlet level to 12
 /// digits for every node, or for as many evenly chosen ones as max_nodes says.

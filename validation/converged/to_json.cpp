@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,15 @@ namespace weft::validation {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* kSchema = "weft-converged-reference/1";
+
+bool begins_as_reference(std::string_view beginning) {
+  // "schema" is the first key, whatever the white space.
+  constexpr std::size_t kFirstKeys = 100;
+  return beginning.starts_with('{') &&
+         beginning.substr(0, kFirstKeys).find(kSchema) != std::string_view::npos;
+}
 
 Json optional(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
@@ -54,6 +64,8 @@ Json nodes_json(const Matrix3X<double>& positions, int max_nodes) {
 
 }  // namespace
 
+const output::FileKind kReferenceKind{"a converged reference", begins_as_reference};
+
 std::string to_json(const ConvergedReference& reference, int max_nodes) {
   Json studies = Json::array(), cloths = Json::array();
   for (const ConvergenceStudy& study : reference.studies) studies.push_back(study_json(study));
@@ -62,7 +74,7 @@ std::string to_json(const ConvergedReference& reference, int max_nodes) {
       cloths.push_back(nodes_json(positions, max_nodes));
     }
   }
-  const Json root = {{"schema", "weft-converged-reference/1"},
+  const Json root = {{"schema", kSchema},
                      {"scene", reference.scene},
                      {"program", reference.program},
                      {"scene_xxh128", reference.scene_hash},

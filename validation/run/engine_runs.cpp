@@ -1,11 +1,12 @@
 #include <weft/validation/run/engine_runs.hpp>
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -16,6 +17,7 @@
 #include <utility>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/scenes/output/output_folder.hpp>
 #include <weft/scenes/scene_file.hpp>
 
 namespace weft::validation {
@@ -67,6 +69,59 @@ class Children {
  private:
   std::map<pid_t, std::size_t> runs_;
 };
+
+/// A file that is closed at the end; a child gets it only by dup2.
+struct OpenFile {
+  OpenFile(const std::string& path, int flags) : file(open(path.c_str(), flags | O_CLOEXEC)) {
+    if (file < 0) throw Error(path + ": cannot be opened (" + std::strerror(errno) + ")");
+  }
+  ~OpenFile() { close(file); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  int file;
+};
+
+/// Tells a parent why its child could not become another program; closed without a word if it could.
+struct OpenPipe {
+  OpenPipe() {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) {
+      throw Error(std::string("engine runs: no pipe (") + std::strerror(errno) + ")");
+    }
+    read_end = ends[0];
+    write_end = ends[1];
+  }
+  ~OpenPipe() {
+    close(read_end);
+    if (write_end >= 0) close(write_end);
+  }
+  OpenPipe(const OpenPipe&) = delete;
+  OpenPipe& operator=(const OpenPipe&) = delete;
+  int read_reason() {
+    close(std::exchange(write_end, -1));
+    int reason = 0;
+    while (read(read_end, &reason, sizeof reason) < 0 && errno == EINTR) {
+    }
+    return reason;
+  }
+  int read_end = -1;
+  int write_end = -1;
+};
+
+/// In the child after fork(): only calls that are safe there, for this process may have threads. The
+/// program ends when its parent ends, however that happens.
+[[noreturn]] void become(const char* program, char* const* arguments, const OpenFile& input,
+                         const OpenFile& print, int failure, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);  // it ended before the line above
+  dup2(input.file, STDIN_FILENO);
+  dup2(print.file, STDOUT_FILENO);
+  dup2(print.file, STDERR_FILENO);
+  execv(program, arguments);
+  const int reason = errno;
+  const ssize_t told = write(failure, &reason, sizeof reason);
+  _exit(told > 0 ? 127 : 126);
+}
 
 struct Ended {
   pid_t process;
@@ -123,30 +178,29 @@ std::vector<std::string> EngineRuns::command(const Run& run) const {
 }
 
 int EngineRuns::start(const Run& run) const {
-  const std::filesystem::path scene = with_suffix(folder_, run.request.label, ".toml");
-  std::ofstream file(scene);
-  file << scenes::write_scene(run.request.scene);
-  file.close();
-  if (!file) throw Error(scene.string() + ": cannot be written");
-
+  output::replace_file(with_suffix(folder_, run.request.label, ".toml"),
+                       scenes::write_scene(run.request.scene));
+  const std::string log = with_suffix(folder_, run.request.label, ".log").string();
+  output::replace_file(log, "");
   std::vector<std::string> words = command(run);
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
 
-  const std::string log = with_suffix(folder_, run.request.label, ".log").string();
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  pid_t process = 0;
-  const int error =
-      posix_spawn(&process, weft_.c_str(), &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) {
-    throw Error(weft_.string() + ": cannot be started (" + std::strerror(error) + ")");
+  const OpenFile input("/dev/null", O_RDONLY);
+  const OpenFile print(log, O_WRONLY | O_NOFOLLOW);
+  OpenPipe failure;
+  const pid_t parent = getpid();
+  const pid_t process = fork();
+  if (process == 0)
+    become(weft_.c_str(), arguments.data(), input, print, failure.write_end, parent);
+  if (process < 0) {
+    throw Error(std::string("engine runs: no process can be started (") + std::strerror(errno) +
+                ")");
+  }
+  if (const int reason = failure.read_reason(); reason != 0) {
+    waitpid(process, nullptr, 0);
+    throw Error(weft_.string() + ": cannot be started (" + std::strerror(reason) + ")");
   }
   return process;
 }
