@@ -14,10 +14,6 @@ namespace {
 constexpr int kSampleNodes = 5;  // along an edge
 constexpr int kSampleSteps = 6;  // from one state to the next
 
-std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& key) {
-  return folder / ("swing_" + key + ".csv");
-}
-
 std::string row(const std::string& kind, const SwingTruth& truth) {
   return fmt::format("{},{:.6g},{:.6g},{:.6g},{:.4g},{:.4g},{:.3g}\n", kind, truth.first_energy,
                      truth.later_energy, truth.turning_time, truth.largest_stretch,
@@ -66,14 +62,20 @@ std::string swing_key(const SwingSheet& sheet, double stiffness) {
   return fmt::format("{}_1e{:.0f}", sheet.name, std::log10(stiffness));
 }
 
+std::filesystem::path swing_truth_file(const std::filesystem::path& folder,
+                                       const std::string& key) {
+  return folder / ("swing_" + key + ".csv");
+}
+
 void write_swing_truths(const std::filesystem::path& folder, const std::string& key,
                         const SwingTruths& truths) {
-  const std::filesystem::path path = file_of(folder, key);
+  const std::filesystem::path path = swing_truth_file(folder, key);
   std::ofstream file(path);
   file << "kind,energy_0_1_J,energy_1_3_J,turning_time_s,largest_stretch,mean_stretch,residual\n"
        << row("converged", truths.converged);
   if (truths.exact) file << row("exact", *truths.exact);
-  file << "# places [m] of 25 nodes of the converged run, ten times a second: x, y, z of each\n";
+  file
+      << "# places [m] of 25 nodes of the run that is right, ten times a second: x, y, z of each\n";
   for (const Matrix3X<double>& state : truths.sample) {
     for (Eigen::Index i = 0; i < state.size(); ++i) {
       file << fmt::format("{}{:.5f}", i == 0 ? "" : ",", state.data()[i]);
@@ -85,7 +87,7 @@ void write_swing_truths(const std::filesystem::path& folder, const std::string& 
 }
 
 SwingTruths read_swing_truths(const std::filesystem::path& folder, const std::string& key) {
-  const std::filesystem::path path = file_of(folder, key);
+  const std::filesystem::path path = swing_truth_file(folder, key);
   std::ifstream file(path);
   std::string line;
   if (!std::getline(file, line)) {

@@ -36,11 +36,18 @@ struct SwingTruth {
       0;  ///< what the equations of its steps lack, RMS over nodes and steps, over m g [-]; exact: 0
 };
 
-/// Of one sheet and stiffness: the step of 1/60 s solved until nothing changes, and explicit integration in steps that are short.
+/// Of one sheet and stiffness: the step of 1/60 s solved by the fast solver with very many iterations, and explicit integration in short steps.
 struct SwingTruths {
   SwingTruth converged;
   std::optional<SwingTruth> exact;
-  validation::Places sample;  ///< of the converged run: sampled()
+  validation::Places sample;  ///< of the one that is right: sampled()
+
+  /// Whether the step's equations hold, so that it is the step that is right and not what short steps would do.
+  [[nodiscard]] bool has_converged() const { return converged.residual < kMostResidual; }
+  [[nodiscard]] const SwingTruth& right() const {
+    return has_converged() || !exact ? converged : *exact;
+  }
+  static constexpr double kMostResidual = 0.1;  ///< over m g [-]
 };
 
 /// 25 nodes spread over the sheet, ten times a second.
@@ -51,6 +58,8 @@ struct SwingTruths {
 [[nodiscard]] std::string swing_key(const SwingSheet& sheet, double stiffness);
 [[nodiscard]] SwingTruths read_swing_truths(const std::filesystem::path& folder,
                                             const std::string& key);
+[[nodiscard]] std::filesystem::path swing_truth_file(const std::filesystem::path& folder,
+                                                     const std::string& key);
 void write_swing_truths(const std::filesystem::path& folder, const std::string& key,
                         const SwingTruths& truths);
 

@@ -18,7 +18,7 @@ struct StatedDeparture {
 
 /// How much larger than stated a departure may be before it counts as another one. Where rounding decides how far a run has gone
 /// astray, its figure is not the same on every machine.
-inline constexpr double kDepartureGrowth = 3.0;
+inline constexpr double kDepartureGrowth = 10.0;
 
 /// Gives a check its verdict, from its measured value and its tolerance.
 ///

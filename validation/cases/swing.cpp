@@ -38,8 +38,7 @@ constexpr std::array kRight = {
     Right{1e6, 0.5518, 0.5428, 0.834}, Right{1e7, 0.5489, 0.5452, 0.907},
 };
 
-const EngineChoice kJudged[] = {{"bullet_weft", scenes::StoredPrecision::kFloat32},
-                                {"bullet_weft", scenes::StoredPrecision::kFloat64}};
+const EngineChoice kJudged[] = {{"bullet_weft", scenes::StoredPrecision::kFloat32}};
 
 std::string label_of(const CaseInfo& info, const Right& right) {
   return fmt::format("{}_1e{:.0f}", info.id, std::log10(right.stiffness));
@@ -103,10 +102,9 @@ void evaluate_swing(const CaseInfo& info, const CaseOptions& options, const Engi
                     Report& report) {
   if (!options.bullet) return;
   Section section{std::string(info.id), std::string(info.summary), {}, {}, {}, ""};
-  Table table{
-      "Share of what is right",
-      {"stiffness [N/m]", "figure", "a rigid plate", "bullet_weft float32", "bullet_weft float64"},
-      {}};
+  Table table{"Share of what is right",
+              {"stiffness [N/m]", "figure", "a rigid plate", "bullet_weft float32"},
+              {}};
   for (const Right& right : kRight) {
     const ClothMesh mesh = make_mesh(swinging_sheet(kNodes, kMass, right.stiffness).cloths[0]);
     const SwingTrack still(mesh, kStep, frozen(mesh, kNumSteps));
