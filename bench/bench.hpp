@@ -33,6 +33,15 @@ void bench_threads(const Settings& settings);
 void bench_tear(const Settings& settings);
 /// Random cloths, thrown and pulled: how many explode with the fast solver and with Bullet's links.
 void bench_explosions(const Settings& settings);
+/// How a swinging sheet moves at stiffnesses of 100 N/m to 10 MN/m, beside what is right.
+void bench_motion(const Settings& settings);
+/// Falls, impacts and loads beside explicit integration in short steps.
+void bench_motion_scenes(const Settings& settings);
+/// Forces that nothing balances, at rest.
+void bench_motion_rest(const Settings& settings);
+/// Make what is right (truth/): minutes, and best in double precision. The first only makes files that are not there.
+void bench_swing_truth(const Settings& settings);
+void bench_scenes_truth(const Settings& settings);
 /// A step of a character's cape at each level of detail.
 void bench_detail(const Settings& settings);
 #endif

@@ -4,6 +4,7 @@
 
 #include <weft/validation/cases/analytic_cases.hpp>
 #include <weft/validation/cases/engine_cases.hpp>
+#include <weft/validation/cases/motion_cases.hpp>
 #include <weft/validation/cases/scene_cases.hpp>
 
 namespace weft::validation {
@@ -57,6 +58,12 @@ const std::array kCases = {
              &plan_engine_cantilever, &evaluate_engine_cantilever},
     CaseInfo{"momentum", "A ball and a free cloth keep their momentum together", &plan_momentum,
              &evaluate_momentum},
+    CaseInfo{"swing", "Stiff cloth swings with the energy and the time of soft cloth", &plan_swing,
+             &evaluate_swing},
+    CaseInfo{"impacts", "Falls, impacts and loads come out as in short steps, at 1/60 s",
+             &plan_impacts, &evaluate_impacts, Tier::kNightly},
+    CaseInfo{"rest", "At rest no force is left over, and the step has no say", &plan_rest,
+             &evaluate_rest, Tier::kNightly},
     CaseInfo{"torsion_beam", "A chain with three-point torsion is a beam", nullptr,
              &evaluate_torsion_beam},
     CaseInfo{"helix", "A rod with three-point torsion is Love's helix, and a ring", nullptr,
