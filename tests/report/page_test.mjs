@@ -132,9 +132,9 @@ const tests = {
     assert.equal(await page.textContent("#verdict"), "PASS");
     assert.match(await page.textContent(".sentence"), /1 checks? holds?, 2 of 3 checks fail as known departures/);
     assert.equal(await page.locator(".failures").count(), 0);
-    assert.equal(await page.locator(".departure").count(), 2, "two causes for three departures");
+    assert.equal(await page.locator(".causes > .departure").count(), 2, "two causes for three departures");
     assert.match(
-      await page.textContent(".departure >> nth=0"),
+      await page.textContent(".causes > .departure >> nth=0"),
       /bullet_weft: The bending force forgets its step\..*2 departures/s,
     );
     await page.getByLabel("Verdict", { exact: true }).selectOption("known");
