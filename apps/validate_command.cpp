@@ -13,7 +13,6 @@
 #include <weft/scenes/engines/engine_table.hpp>
 #include <weft/validation/cases.hpp>
 #include <weft/validation/cases/parameters.hpp>
-#include <weft/validation/report/ratio.hpp>
 #include <weft/validation/report/write.hpp>
 #include <weft/validation/suite.hpp>
 
@@ -39,38 +38,6 @@ struct ValidateOptions {
   std::string engine;
   validation::CaseValues values;
 };
-
-void print_table(const validation::Report& report) {
-  print("{:<20} {:<25} {:<52} {:>11} {:>11} {:>9}  {}\n", "case", "engine", "metric", "measured",
-        "allowed", "ratio", "verdict");
-  for (const validation::CheckResult& check : report.checks) {
-    const bool caught = std::all_of(check.sabotages.begin(), check.sabotages.end(),
-                                    [](const auto& sabotage) { return sabotage.detected; });
-    const char* verdict = check.verdict == validation::Verdict::kPass   ? "pass"
-                          : check.verdict == validation::Verdict::kInfo ? "info"
-                                                                        : "FAIL";
-    const std::string metric =
-        check.unit == "1" ? check.metric : fmt::format("{} [{}]", check.metric, check.unit);
-    const std::optional<double> part = validation::ratio(check);
-    print("{:<20} {:<25} {:<52} {:>11.3g} {:>11} {:>9}  {}{}\n", check.case_id, check.engine,
-          metric, check.measured,
-          check.tolerance ? fmt::format("{:.3g}", check.tolerance->value) : std::string("-"),
-          part ? fmt::format("{:.2g}", *part) : std::string("-"), verdict,
-          caught ? "" : " (a sabotage went unnoticed)");
-  }
-}
-
-void print_verdict(const validation::Report& report) {
-  std::size_t num_gated = 0;
-  std::size_t num_sabotages = 0;
-  for (const validation::CheckResult& check : report.checks) {
-    if (check.verdict != validation::Verdict::kInfo) ++num_gated;
-    num_sabotages += check.sabotages.size();
-  }
-  print("\n{}: {} checks, {} more measured without a bound, {} sabotages\n",
-        report.passed() ? "PASS" : "FAIL", num_gated, report.checks.size() - num_gated,
-        num_sabotages);
-}
 
 std::string page_path(const ValidateOptions& options) {
   return (std::filesystem::absolute(options.output) / "index.html").lexically_normal().string();
@@ -150,9 +117,7 @@ int validate(const ValidateOptions& options, const CommandLine& command_line) {
   }
   for (const auto& [key, value] : build_provenance()) report.provenance.emplace_back(key, value);
   validation::write_report(report, folder);
-  print_table(report);
-
-  print_verdict(report);
+  print("{}", validation::to_text(report));
   print("Report: {}\n", page_path(options));
   return report.passed() ? kOk : kCaseFailed;
 }
@@ -212,7 +177,7 @@ Action add_validate_command(CLI::App& parser, const CommandLine& command_line) {
   command->add_flag("--all", options->all, "Every case: as without --quick")->excludes(quick);
   command->add_flag("--list", options->list, "Show the cases with their parameters and stop");
   command->add_option("-e,--engine", options->engine,
-                      "Engine of the one point that is asked for: reference");
+                      "Only this engine, of one case: reference, bullet_weft, bullet_forces");
   add_parameters(*command, options->values);
   return [options, command_line] {
     return options->render_only ? render_again(*options) : validate(*options, command_line);

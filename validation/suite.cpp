@@ -5,8 +5,27 @@
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/validation/cases.hpp>
 #include <weft/validation/cases/parameters.hpp>
+#include <weft/validation/departures/stated_departures.hpp>
+#include <weft/validation/theory/theory_runs.hpp>
 
 namespace weft::validation {
+namespace {
+
+/// The reference answers for itself unless another engine is asked for.
+bool evaluates_itself(const CaseInfo& info, const CaseOptions& options) {
+  return info.evaluate != nullptr && (options.engine.empty() || options.engine == "reference");
+}
+
+/// One point of a case is the reference's alone, unless an engine is named for it.
+bool runs_theory(const CaseInfo& info, const CaseOptions& options) {
+  if (info.theory == nullptr) return false;
+  if (info.evaluate == nullptr) return true;
+  if (!options.engine.empty()) return options.engine != "reference";
+  return !asks_for_point(options);
+}
+
+}  // namespace
+
 std::vector<const CaseInfo*> chosen_cases(const SuiteOptions& options) {
   std::vector<const CaseInfo*> chosen;
   for (const std::string& id : options.case_ids) {
@@ -41,6 +60,7 @@ Report run_suite(const SuiteOptions& options,
   EngineRuns runs(options.weft, options.folder, options.jobs);
   for (const CaseInfo* info : cases) {
     if (info->plan) info->plan(*info, options.cases, runs);
+    if (runs_theory(*info, options.cases)) plan_theory(*info, options.cases, runs);
   }
   runs.run_all(
       [&](double fraction, const std::string& label) { progress("run " + label, fraction); });
@@ -50,9 +70,20 @@ Report run_suite(const SuiteOptions& options,
   double done = 0;
   for (const CaseInfo* info : cases) {
     progress("judge " + std::string(info->id), done / static_cast<double>(cases.size()));
-    info->evaluate(*info, options.cases, runs, report);
+    if (evaluates_itself(*info, options.cases)) {
+      info->evaluate(*info, options.cases, runs, report);
+    }
+    if (runs_theory(*info, options.cases)) judge_theory(*info, options.cases, runs, report);
     ++done;
   }
+  std::vector<std::string_view> judged;
+  // One point or one engine is a part of a case: what was stated of the rest cannot be missed there.
+  const bool is_whole =
+      options.cases.bullet && options.cases.engine.empty() && !asks_for_point(options.cases);
+  for (const CaseInfo* info : cases) {
+    if (is_whole) judged.push_back(info->id);
+  }
+  apply_departures(stated_departures(), judged, report);
   report.limits = {
       "Cloth does not meet itself or other cloth in any engine of this report.",
       "Contact is between nodes and surfaces; edges and faces of the cloth may cut corners.",

@@ -29,7 +29,7 @@ TEST(Base64, MatchesTheVectorsOfRfc4648) {
 TEST(Json, NamesItsSchemaAndVersion) {
   const json read = json::parse(to_json(Report{}));
   EXPECT_EQ(read["schema"], "weft-report");
-  EXPECT_EQ(read["schema_version"], 2);
+  EXPECT_EQ(read["schema_version"], 3);
 }
 
 TEST(Json, HoldsEveryFieldOfACheck) {

@@ -127,6 +127,48 @@ const tests = {
     assert.deepEqual(complaints, []);
   },
 
+  async "known departures are failures that are told apart, grouped by cause"() {
+    const { page, complaints } = await open("departures");
+    assert.equal(await page.textContent("#verdict"), "PASS");
+    assert.match(await page.textContent(".sentence"), /1 checks? holds?, 2 of 3 checks fail as known departures/);
+    assert.equal(await page.locator(".failures").count(), 0);
+    assert.equal(await page.locator(".causes > .departure").count(), 2, "two causes for three departures");
+    assert.match(
+      await page.textContent(".causes > .departure >> nth=0"),
+      /bullet_weft: The bending force forgets its step\..*2 departures/s,
+    );
+    await page.getByLabel("Verdict", { exact: true }).selectOption("known");
+    assert.equal(await visibleRows(page).count(), 2);
+    assert.deepEqual(complaints, []);
+  },
+
+  async "the first screen has a row of pictures and a line for each engine, the fast solver first"() {
+    const { page } = await open("departures");
+    const lines = await page.locator(".engines li").allTextContents();
+    assert.equal(lines.length, 2);
+    assert.match(lines[0], /✗ fail.*bullet_weft.*0 of 2 checks pass; 2 fail as known departures of 1 cause/);
+    assert.match(lines[1], /✓ pass.*reference.*1 of 1 check/);
+    assert.deepEqual(await page.locator(".first-pictures figcaption b").allTextContents(), [
+      "bullet_weft float32",
+      "reference",
+    ]);
+    const bottom = await page.$eval(".engines", (list) => list.getBoundingClientRect().bottom);
+    assert(bottom < 900, `the engines end at ${bottom} px`);
+  },
+
+  async "an error stands beside its value and the expected one"() {
+    const { page } = await open("departures");
+    assert.match(await page.textContent(".checks tbody tr >> nth=0"), /H \/ W 0\.585, expected 0\.5862/);
+  },
+
+  async "the first column of the matrix is the fast solver"() {
+    const { page } = await open("failing");
+    const heads = await page.locator(".matrix thead th").allTextContents();
+    assert.equal(heads[0], "case");
+    assert.equal(heads[1], "bullet_forces", "no bullet_weft in this sample: the next of the list");
+    assert(heads.every((head) => !/float/.test(head)));
+  },
+
   async "an empty report does not claim that anything was checked"() {
     const { page, complaints } = await open("empty");
     assert.match(await page.textContent(".sentence"), /Nothing was gated/);
@@ -176,12 +218,12 @@ const tests = {
     assert.equal(all, 14);
     await page.getByLabel("Verdict", { exact: true }).selectOption("info");
     assert.equal(await visibleRows(page).count(), 2);
-    await page.getByLabel("Engine", { exact: true }).selectOption("bullet_soft float32");
+    await page.getByLabel("Engine", { exact: true }).selectOption("bullet_soft");
     assert.equal(await visibleRows(page).count(), 1);
     assert.match(await page.textContent(".filters [role=status]"), /1 of 14 rows/);
     await page.getByRole("button", { name: "Show all" }).click();
     assert.equal(await visibleRows(page).count(), all);
-    await page.getByRole("button", { name: / hang, bullet_soft float32;/ }).click();
+    await page.getByRole("button", { name: / hang, bullet_soft;/ }).click();
     assert.equal(await visibleRows(page).count(), 2);
   },
 
@@ -225,7 +267,7 @@ const tests = {
     const images = await page.$$eval(".pictures img", (list) =>
       list.map((image) => [image.alt, image.naturalWidth]),
     );
-    assert.equal(images.length, 8);
+    assert.equal(images.length, 12, "eight of the sections, and the four of the first screen");
     assert(images.every(([alt, width]) => alt !== "" && width === 320));
     await page.locator(".picture").first().click();
     assert.match(await page.textContent("dialog [role=status]"), /1 of 4: reference/);

@@ -235,4 +235,36 @@ Report passing_report() {
   return report;
 }
 
+Report departing_report() {
+  const std::string cause = "The bending force forgets its step.";
+  Report report;
+  report.title = "Weft validation report";
+  for (const char* engine :
+       {"reference", "bullet_weft float32, 1/60 s", "bullet_weft float64, 1/60 s"}) {
+    CheckResult row =
+        check("cantilever", engine, "A strip hangs as the elastica", "relative error of H / W", "1",
+              0.002, Tolerance{0.01, Basis::kTruncation, "second order in the cells"});
+    row.values = {{"H / W", 0.585, 0.5862, "1"}};
+    row.sabotages = {{"rigidity +10 %", 0.09, true}};
+    if (row.engine != "reference") {
+      row.measured = 0.3;
+      row.values = {{"H / W", 0.41, 0.5862, "1"}};
+      row.verdict = Verdict::kKnown;
+      row.cause = cause;
+      report.departures.push_back(
+          {row.engine, "cantilever: a strip hangs", "0.3, allowed 0.01", cause});
+    }
+    report.checks.push_back(std::move(row));
+  }
+  report.departures.push_back(
+      {"bullet_soft float32", "Stiffness", "4.1 %", "Links are projected."});
+  Section section{"cantilever", "A heavy strip bends.", {}, {}, {}, ""};
+  section.picture_rows = {{"On the way", {{"reference", "t = 1 s", sample_png(0.2)}}},
+                          {"At the end",
+                           {{"bullet_weft float32", "t = 2 s", sample_png(0.5)},
+                            {"reference", "t = 2 s", sample_png(0.3)}}}};
+  report.sections = {section};
+  return report;
+}
+
 }  // namespace weft::tests

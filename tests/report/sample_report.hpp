@@ -18,4 +18,8 @@ inline const std::string kHostileText =
 /// The same without the failures: the report of a good day.
 [[nodiscard]] validation::Report passing_report();
 
+/// One that passes because what fails is stated: two checks of bullet_weft with one cause, beside the reference's, and a row of
+/// pictures with both engines.
+[[nodiscard]] validation::Report departing_report();
+
 }  // namespace weft::tests

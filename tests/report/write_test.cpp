@@ -103,7 +103,7 @@ TEST_F(WriteReport, RenderingNamesTheFileThatIsNoReport) {
   };
   EXPECT_THAT(message(), testing::HasSubstr((folder_ / "report.json").string()));
   std::ofstream(folder_ / "report.json") << "{\"schema\": \"weft-report\", \"schema_version\": 99}";
-  EXPECT_THAT(message(), testing::HasSubstr("schema_version is 99, expected 2"));
+  EXPECT_THAT(message(), testing::HasSubstr("schema_version is 99, expected 3"));
   std::ofstream(folder_ / "report.json") << "[1, 2";
   EXPECT_THAT(message(), testing::HasSubstr("is not a report"));
   EXPECT_FALSE(fs::exists(folder_ / "index.html"));

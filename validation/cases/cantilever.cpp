@@ -10,6 +10,7 @@
 
 #include <weft/validation/cases/analytic_cases.hpp>
 #include <weft/validation/cases/bent_strip.hpp>
+#include <weft/validation/cases/closed_form_check.hpp>
 #include <weft/validation/cases/elastica.hpp>
 #include <weft/validation/cases/lattice_strip.hpp>
 #include <weft/validation/cases/parameters.hpp>
@@ -32,23 +33,38 @@ struct Sweep {
   StripModel model;
   std::vector<double> drop_over_reach;
   double largest_error = 0.0;  ///< relative; infinite if an equilibrium was not found
+  ComparedValue worst = {};    ///< where it is
 };
 
-double relative_error(const BentStrip& strip, double gamma) {
-  if (!strip.converged) return std::numeric_limits<double>::infinity();
+ComparedValue drop_over_reach(const BentStrip& strip, double gamma) {
   const HeavyElastica exact = solve_heavy_elastica(gamma);
-  return std::abs(strip.drop_over_reach / (exact.drop / exact.reach) - 1);
+  return {fmt::format("H / W at Gamma = {:.4g}", gamma),
+          strip.converged ? strip.drop_over_reach : std::numeric_limits<double>::quiet_NaN(),
+          exact.drop / exact.reach, "1"};
+}
+
+/// Infinite if the equilibrium was not found.
+double error_of(const ComparedValue& pair) {
+  return std::isnan(pair.value) ? std::numeric_limits<double>::infinity() : relative_error(pair);
+}
+
+double strip_error(const BentStrip& strip, double gamma) {
+  return error_of(drop_over_reach(strip, gamma));
 }
 
 Sweep sweep(std::string title, StripModel model) {
-  Sweep result{std::move(title), model, {}, 0.0};
+  Sweep result{std::move(title), model, {}, 0.0, {}};
   Matrix3X<double> start;
   for (int i = 0; i < kNumGammas; ++i) {
     model.gamma = gamma_at(i);
     BentStrip strip = bend_strip(model, start);
     start = std::move(strip.positions);
     result.drop_over_reach.push_back(strip.drop_over_reach);
-    result.largest_error = std::max(result.largest_error, relative_error(strip, model.gamma));
+    const ComparedValue pair = drop_over_reach(strip, model.gamma);
+    if (i == 0 || error_of(pair) > result.largest_error) {
+      result.largest_error = error_of(pair);
+      result.worst = pair;
+    }
   }
   return result;
 }
@@ -98,6 +114,7 @@ void add_error_check(const CaseInfo& info, const Sweep& good, Report& report) {
   check.metric =
       fmt::format("largest relative error of H / W, 12 Gammas 0.1 to 100, N = {}", kNumCells);
   check.measured = good.largest_error;
+  check.values = {good.worst};
   const Tolerance tolerance{0.01, Basis::kTruncation,
                             "second order: 0.33 % at Gamma = 100 for a chain of 40, and what the "
                             "springs stretch"};
@@ -106,7 +123,7 @@ void add_error_check(const CaseInfo& info, const Sweep& good, Report& report) {
   check.note = "the weights or the clamp rule of hinge_torsion, or the static solver";
   const auto sabotage = [&](const std::string& name, StripModel model, double gamma) {
     model.gamma = gamma;
-    const double measured = relative_error(bend_strip(model), gamma);
+    const double measured = strip_error(bend_strip(model), gamma);
     check.sabotages.push_back({name, measured, judge(measured, tolerance) == Verdict::kFail});
   };
   StripModel plain_clamp = good.model;
@@ -144,6 +161,7 @@ Sweep add_jittered_check(const CaseInfo& info, Report& report) {
   CheckResult check = check_of(info, "a heavy strip of an irregular grid hangs as the elastica");
   check.metric = "largest relative error of H / W, nodes off by up to 20 % of a cell, N = 40";
   check.measured = jittered.largest_error;
+  check.values = {jittered.worst};
   const Tolerance tolerance{0.05, Basis::kModelGap,
                             "no hinge energy is exact on irregular cells; measured below 1 %"};
   check.tolerance = tolerance;
@@ -152,7 +170,7 @@ Sweep add_jittered_check(const CaseInfo& info, Report& report) {
   plain_clamp.clamp_factor = 1.0;
   plain_clamp.cut_one_way = true;
   plain_clamp.gamma = 1.0;
-  const double measured = relative_error(bend_strip(plain_clamp), 1.0);
+  const double measured = strip_error(bend_strip(plain_clamp), 1.0);
   check.sabotages.push_back(
       {"cells cut one way only", measured, judge(measured, tolerance) == Verdict::kFail});
   check.note = "the weights of hinge_torsion";
@@ -169,7 +187,8 @@ void add_free_sides_row(const CaseInfo& info, Report& report) {
   model.gamma = 1.0;
   CheckResult check = check_of(info, "a strip cut along diagonals has soft sides");
   check.metric = "relative error of H / W at Gamma = 1, as wide as long, N = 20";
-  check.measured = relative_error(bend_strip(model), 1.0);
+  check.values = {drop_over_reach(bend_strip(model), 1.0)};
+  check.measured = error_of(check.values[0]);
   check.note = "half a diagonal's hinges are missing on each side: first order in cell over width";
   report.checks.push_back(std::move(check));
 }
@@ -188,7 +207,12 @@ int chosen_cells(double gamma) {
 }
 
 /// Way of the tip from the straight strip: error over length, so that a tip straight below counts like any other.
-double way_error(const Point& point, double rigidity_factor) {
+struct Way {
+  double error = std::numeric_limits<double>::infinity();
+  std::vector<ComparedValue> values = {};
+};
+
+Way way_of(const Point& point, double rigidity_factor) {
   const double tilt = point.tilt * std::numbers::pi / 180;
   StripModel model;
   model.strip.angle = point.angle;
@@ -199,14 +223,17 @@ double way_error(const Point& point, double rigidity_factor) {
   model.gamma = point.gamma / rigidity_factor;
   model.tilt = tilt;
   const BentStrip strip = bend_strip(model);
-  if (!strip.converged) return std::numeric_limits<double>::infinity();
+  if (!strip.converged) return {};
   const HeavyElastica exact = solve_elastica({.gamma = point.gamma, .tilt = tilt});
   if (point.tilt == 0) {
-    return std::abs(strip.drop_over_reach / (exact.drop / exact.reach) - 1);
+    const ComparedValue pair{"H / W", strip.drop_over_reach, exact.drop / exact.reach, "1"};
+    return {relative_error(pair), {pair}};
   }
-  return std::hypot(strip.tip.drop / model.strip.length - exact.drop,
-                    strip.tip.reach / model.strip.length - exact.reach) /
-         std::hypot(exact.drop - std::sin(tilt), exact.reach - std::cos(tilt));
+  const double drop = strip.tip.drop / model.strip.length;
+  const double reach = strip.tip.reach / model.strip.length;
+  return {std::hypot(drop - exact.drop, reach - exact.reach) /
+              std::hypot(exact.drop - std::sin(tilt), exact.reach - std::cos(tilt)),
+          {{"H / L", drop, exact.drop, "1"}, {"W / L", reach, exact.reach, "1"}}};
 }
 
 void add_point_check(const CaseInfo& info, const Point& point, Report& report) {
@@ -221,7 +248,9 @@ void add_point_check(const CaseInfo& info, const Point& point, Report& report) {
   if (point.tilt != 0) {
     check.formula = "theta'' + Gamma (1 - s) cos(theta) = 0, theta(0) = tilt, theta'(1) = 0";
   }
-  check.measured = way_error(point, 1.0);
+  const Way way = way_of(point, 1.0);
+  check.measured = way.error;
+  check.values = way.values;
   const double fine = static_cast<double>(chosen_cells(point.gamma)) / point.cells;
   const Tolerance tolerance{0.01 * std::max(1.0, fine * fine), Basis::kTruncation,
                             "1 % with cells enough for the layer of bending at the clamp"};
@@ -229,7 +258,7 @@ void add_point_check(const CaseInfo& info, const Point& point, Report& report) {
   check.verdict = judge(check.measured, tolerance);
   // Where the clamp hangs down a heavy strip hangs straight, however stiff.
   const double stiffer = 1 + (point.tilt == 0 ? 5 : 50) * tolerance.value;
-  const double sabotaged = way_error(point, stiffer);
+  const double sabotaged = way_of(point, stiffer).error;
   check.sabotages.push_back({fmt::format("rigidity +{:.0f} %", 100 * (stiffer - 1)), sabotaged,
                              judge(sabotaged, tolerance) == Verdict::kFail});
   check.note = "hinge_torsion, its clamp, or the static solver";

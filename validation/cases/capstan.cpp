@@ -97,25 +97,26 @@ double largest_ratio(const Capstan& capstan) {
 }
 
 void add_check(const CaseInfo& info, const Capstan& capstan, Report& report) {
-  const auto error = [](const Capstan& each) {
-    return std::abs(largest_ratio(each) / each.exact() - 1);
+  const auto pull = [](const Capstan& each) {
+    return ComparedValue{"T2 / T1", largest_ratio(each), each.exact(), "1"};
   };
   const double rope = std::exp(capstan.friction * capstan.wrap * std::numbers::pi / 180);
   CheckResult check = judged(
       info,
       {fmt::format("a chain round a body holds as a polygon of {} turns, mu = {}, {} degrees",
                    capstan.nodes, capstan.friction, capstan.wrap),
-       fmt::format("relative error of T2 / T1 = {:.4f} (a rope's: {:.4f})", capstan.exact(), rope),
+       fmt::format("relative error of T2 / T1 (a rope's: {:.4f})", rope),
        "T2 / T1 = ((1 + mu tan(d / 2)) / (1 - mu tan(d / 2)))^n, d = wrap / n",
        "balance of a node that turns a chain by d; Euler and Eytelwein for n to infinity",
        {0.01, Basis::kModelGap, "the last node that touches moves on by a strain of 1e-4"},
        "Coulomb friction of the impulse contact on a curved body"},
-      error(capstan));
+      pull(capstan));
   Capstan wrong = capstan;
   wrong.friction_factor = 1.1;
-  if (capstan.friction * capstan.wrap > 20) add_sabotage(check, "friction +10 %", error(wrong));
+  if (capstan.friction * capstan.wrap > 20)
+    add_sabotage(check, "friction +10 %", relative_error(pull(wrong)));
   wrong.friction_factor = 0.0;
-  add_sabotage(check, "no friction", error(wrong));
+  add_sabotage(check, "no friction", relative_error(pull(wrong)));
   report.checks.push_back(std::move(check));
 }
 

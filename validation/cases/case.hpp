@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <weft/validation/report/report.hpp>
 #include <weft/validation/run/engine_runs.hpp>
@@ -41,6 +42,9 @@ struct CaseOptions {
   std::string engine = {};  ///< asked for; empty: all of the case's
 };
 
+struct CaseInfo;
+struct TheoryScene;
+
 /// A row of the case table.
 struct CaseInfo {
   std::string_view id;       ///< "hang"
@@ -52,6 +56,9 @@ struct CaseInfo {
                    Report& report);
   Tier tier = Tier::kCommit;
   std::span<const CaseParameter> parameters = {};
+  /// Scenes of this case that every engine can run and of which a theory knows a number; may be null. Given beside evaluate,
+  /// which may be null then.
+  std::vector<TheoryScene> (*theory)(const CaseInfo& info, const CaseOptions& options) = nullptr;
 };
 
 }  // namespace weft::validation

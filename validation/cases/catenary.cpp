@@ -6,6 +6,7 @@
 
 #include <weft/custom_forces/registry.hpp>
 #include <weft/validation/cases/analytic_cases.hpp>
+#include <weft/validation/cases/catenary.hpp>
 #include <weft/validation/cases/closed_form_check.hpp>
 #include <weft/validation/cases/parameters.hpp>
 #include <weft/validation/cases/small_systems.hpp>
@@ -18,38 +19,8 @@ constexpr double kSpan = 1.0;          // d [m]
 constexpr double kGravity = 9.81;      // [m/s^2]
 constexpr double kInextensible = 1e6;  ///< EA / (w d) of a chain that counts as inextensible [-]
 
-struct Cable {
-  double length = 1.2;     ///< unstretched, over the span [-]
-  double stiffness = 120;  ///< EA over weight per length times span [-]
-  int springs = 100;
-};
-
-struct Shape {
-  double pull = 0.0;     ///< horizontal, over w d [-]
-  double sag = 0.0;      ///< over d [-]
-  double tension = 0.0;  ///< largest, over w d [-]
-};
-
-/// d = H L0 / EA + (2 H / w) asinh(w L0 / (2 H)), solved for H.
-Shape exact_shape(const Cable& cable) {
-  const double half = cable.length / 2;  // V / (w d)
-  const auto span = [&](double pull) {
-    return pull * cable.length / cable.stiffness + 2 * pull * std::asinh(half / pull);
-  };
-  double low = 1e-6;
-  double high = cable.stiffness;
-  while (high - low > 1e-14 * high) {
-    const double middle = 0.5 * (low + high);
-    if (middle == low || middle == high) break;
-    (span(middle) > 1 ? high : low) = middle;
-  }
-  const double pull = 0.5 * (low + high);
-  const double end = std::hypot(pull, half);
-  return {pull, cable.length * cable.length / (8 * cable.stiffness) + end - pull, end};
-}
-
 /// Static chain of springs of mass w a / g per node. weight: of it over what the formula is told [-].
-Shape hang(const Cable& cable, double weight) {
+CableShape hang(const Cable& cable, double weight) {
   const int n = cable.springs;
   const double spacing = cable.length * kSpan / n;
   constexpr double kWeight = 10.0;  // w [N/m]
@@ -85,19 +56,20 @@ Shape hang(const Cable& cable, double weight) {
   return {pull, -positions.row(1).minCoeff() / kSpan, std::hypot(pull, lift)};
 }
 
-double largest_error(const Shape& measured, const Shape& exact) {
+double largest_error(const CableShape& measured, const CableShape& exact) {
   const double errors = std::abs(measured.pull / exact.pull - 1) +
                         std::abs(measured.sag / exact.sag - 1) +
                         std::abs(measured.tension / exact.tension - 1);
   return errors;  // a sum: what is not a number stays so
 }
 
-CheckResult add_check(const CaseInfo& info, const Cable& cable, const Shape& exact,
+CheckResult add_check(const CaseInfo& info, const Cable& cable, const CableShape& exact,
                       const std::string& source, Report& report) {
   const bool is_stiff = cable.stiffness >= kInextensible;
   const std::string what =
       is_stiff ? fmt::format("an inextensible chain of {} d", cable.length)
                : fmt::format("a chain of {} d, EA = {} w d", cable.length, cable.stiffness);
+  const CableShape measured = hang(cable, 1.0);
   CheckResult check = judged(
       info,
       {what + " hangs as the catenary",
@@ -108,7 +80,10 @@ CheckResult add_check(const CaseInfo& info, const Cable& cable, const Shape& exa
         "second order in the springs: 1e-3 for 100"},
        "the tension law, the masses, or the static solver",
        "reference statics"},
-      largest_error(hang(cable, 1.0), exact));
+      largest_error(measured, exact));
+  check.values = {{"horizontal pull over w d", measured.pull, exact.pull, "1"},
+                  {"sag over d", measured.sag, exact.sag, "1"},
+                  {"largest tension over w d", measured.tension, exact.tension, "1"}};
   add_sabotage(check, "masses +1 %", largest_error(hang(cable, 1.01), exact));
   Cable softer = cable;
   softer.length *= 1.01;
@@ -120,7 +95,7 @@ CheckResult add_check(const CaseInfo& info, const Cable& cable, const Shape& exa
 /// Tabulated H, sag and largest tension over w d.
 struct Row {
   Cable cable;
-  Shape exact;
+  CableShape exact;
 };
 constexpr std::array kTable = {Row{{1.2, 1200}, {.468698, .292818, .761366}},
                                Row{{1.2, 120}, {.461352, .297014, .756866}},
@@ -144,6 +119,23 @@ constexpr std::array kParameters = {
 
 }  // namespace
 
+CableShape exact_cable(const Cable& cable) {
+  const double half = cable.length / 2;  // V / (w d)
+  const auto span = [&](double pull) {
+    return pull * cable.length / cable.stiffness + 2 * pull * std::asinh(half / pull);
+  };
+  double low = 1e-6;
+  double high = cable.stiffness;
+  while (high - low > 1e-14 * high) {
+    const double middle = 0.5 * (low + high);
+    if (middle == low || middle == high) break;
+    (span(middle) > 1 ? high : low) = middle;
+  }
+  const double pull = 0.5 * (low + high);
+  const double end = std::hypot(pull, half);
+  return {pull, cable.length * cable.length / (8 * cable.stiffness) + end - pull, end};
+}
+
 std::span<const CaseParameter> catenary_parameters() {
   return kParameters;
 }
@@ -153,7 +145,7 @@ void evaluate_catenary(const CaseInfo& info, const CaseOptions& options, const E
   if (asks_for_point(options)) {
     const Cable cable{value_of(info, options, "length"), value_of(info, options, "stiffness"),
                       static_cast<int>(value_of(info, options, "nodes"))};
-    add_check(info, cable, exact_shape(cable), "elastic catenary, solved on the spot", report);
+    add_check(info, cable, exact_cable(cable), "elastic catenary, solved on the spot", report);
     return;
   }
   for (const Row& row : kTable) {

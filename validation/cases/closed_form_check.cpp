@@ -1,5 +1,7 @@
 #include <weft/validation/cases/closed_form_check.hpp>
 
+#include <cmath>
+
 namespace weft::validation {
 
 CheckResult judged(const CaseInfo& info, const ClosedForm& form, double measured) {
@@ -15,6 +17,16 @@ CheckResult judged(const CaseInfo& info, const ClosedForm& form, double measured
   check.tolerance = form.tolerance;
   check.verdict = judge(measured, form.tolerance);
   check.note = form.note;
+  return check;
+}
+
+double relative_error(const ComparedValue& pair) {
+  return std::abs(pair.value / pair.expected - 1);
+}
+
+CheckResult judged(const CaseInfo& info, const ClosedForm& form, const ComparedValue& pair) {
+  CheckResult check = judged(info, form, relative_error(pair));
+  check.values = {pair};
   return check;
 }
 

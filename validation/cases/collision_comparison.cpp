@@ -38,11 +38,12 @@ bool SweepEngine::has_coulomb_friction() const {
 
 std::vector<SweepEngine> sweep_engines(const CollisionScene& scene, bool with_bullet) {
   if (!with_bullet) return {};
-  std::vector<SweepEngine> list{{{"bullet_forces", kFloat32}},
+  std::vector<SweepEngine> list{{{"bullet_weft", kFloat32}},
+                                {{"bullet_weft", kFloat32}, kLongStep},
+                                {{"bullet_weft", kFloat64}, kLongStep},
+                                {{"bullet_forces", kFloat32}},
                                 {{"bullet_forces", kFloat64}},
-                                {{"bullet_soft", kFloat32}},
-                                {{"bullet_weft", kFloat32}},
-                                {{"bullet_weft", kFloat32}, kLongStep}};
+                                {{"bullet_soft", kFloat32}}};
   if (!scene.is_led) list.push_back({{"bullet_deformable", kFloat64}});
   return list;
 }

@@ -147,14 +147,28 @@ void add_step_departures(const std::map<std::string, std::pair<double, std::stri
   }
 }
 
-Picture picture_of(const Comparison& of) {
+Picture picture_of(const Comparison& of, const scenes::SceneState& frame,
+                   const std::string& engine) {
   scenes::Renderer renderer(of.metrics().scene());
   scenes::RenderOptions options;
   options.width = 320;
   options.height = 240;
-  const scenes::SceneState& frame = of.reference().back();
-  return {of.row().id, fmt::format("t = {:.2f} s, reference", frame.time),
+  return {fmt::format("{}: {}", of.row().id, engine), fmt::format("t = {:.2f} s", frame.time),
           scenes::encode_jpeg(renderer.render(frame, options, nullptr))};
+}
+
+/// The fast solver with its long step beside the reference.
+void add_pictures(const Comparison& of, PictureRow& row) {
+  for (std::size_t e = 0; e < of.engines().size(); ++e) {
+    const SweepEngine& engine = of.engines()[e];
+    const bool is_fast = engine.choice.engine == "bullet_weft" && engine.step_factor > 1 &&
+                         engine.choice.precision == scenes::StoredPrecision::kFloat32;
+    if (!is_fast || of.histories()[e].frames.empty()) continue;
+    row.pictures.push_back(picture_of(of, of.histories()[e].frames.back(), engine.title()));
+  }
+  if (!of.reference().empty()) {
+    row.pictures.push_back(picture_of(of, of.reference().back(), "reference"));
+  }
 }
 
 /// Rows of the section's two tables.
@@ -216,7 +230,7 @@ void evaluate_collision_sweep(const CaseInfo& info, const CaseOptions& options,
       add_rows(of, distances, own);
       const bool is_shown =
           options.pictures && nodes == sweep_resolutions(row).back() && !row.slides;
-      if (is_shown && !of.reference().empty()) pictures.pictures.push_back(picture_of(of));
+      if (is_shown) add_pictures(of, pictures);
     }
   }
   add_step_departures(long_steps, report);

@@ -137,6 +137,7 @@ void evaluate_engine_cantilever(const CaseInfo& info, const CaseOptions& options
     check.unit = "1";
     check.formula = "one equilibrium for all engines";
     check.source = "reference solver at rest; heavy elastica at Gamma = 5";
+    check.values = {{"H / W", value, expected, "1"}};
     check.measured = std::abs(value / expected - 1);
     check.tolerance = tolerance;
     check.verdict = judge(check.measured, tolerance);

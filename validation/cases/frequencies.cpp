@@ -88,7 +88,7 @@ void add_row_check(const CaseInfo& info, const std::string& what, const std::str
               "relative error of its frequency", formula, "eigenvalues of a row of springs",
               discrete_tolerance(row.frequency() * row.step()),
               "the tension law, the masses, or the integrator"},
-             std::abs(measured_frequency(row, 1.0) / exact - 1));
+             ComparedValue{"w", measured_frequency(row, 1.0), exact, "rad/s"});
   add_sabotage(check, "masses +1 %", std::abs(measured_frequency(row, 1.01) / exact - 1));
   report.checks.push_back(std::move(check));
 }
@@ -106,7 +106,7 @@ void add_string_check(const CaseInfo& info, const Row& row, Report& report) {
        {1e-3 * std::max(1.0, std::pow(row.phase() / 0.12, 2)), Basis::kTruncation,
         "(q a)^2 / 24, 0.06 % for q a = 0.12"},
        "the tension law, the masses, or the integrator"},
-      std::abs(measured_frequency(row, 1.0) / exact - 1));
+      ComparedValue{"w", measured_frequency(row, 1.0), exact, "rad/s"});
   const double mistake = mass_mistake(*check.tolerance);
   add_sabotage(check, fmt::format("masses {:+.3g} %", 100 * (mistake - 1)),
                std::abs(measured_frequency(row, mistake) / exact - 1));
@@ -189,7 +189,7 @@ void add_net_checks(const CaseInfo& info, const Net& net, Report& report) {
         {fmt::format("{}, {} x {} cells, mode ({}, {})", claim, net.cells, net.cells, net.m, net.n),
          "relative error of its frequency", formula, "vibrating membrane", tolerance,
          "the tension law, the masses, or the integrator"},
-        std::abs(measured / exact - 1));
+        ComparedValue{"w", measured, exact, "rad/s"});
     add_sabotage(check, fmt::format("masses {:+.3g} %", 100 * (mistake - 1)),
                  std::abs(sabotaged / exact - 1));
     report.checks.push_back(std::move(check));
@@ -235,8 +235,9 @@ void add_strip_checks(const CaseInfo& info, int cells, int count, Report& report
   const std::vector<double> wrong = strip_modes(cells, 1.0, count);
   for (int mode = 0; mode < count; ++mode) {
     const auto m = static_cast<std::size_t>(mode);
-    const auto error = [&](const std::vector<double>& list) {
-      return m < list.size() ? std::abs(list[m] / kStripModes[m] - 1) : std::nan("");
+    const auto mode_of = [&](const std::vector<double>& list) {
+      return ComparedValue{"w sqrt(rho L^4 / D)", m < list.size() ? list[m] : std::nan(""),
+                           kStripModes[m], "1"};
     };
     CheckResult check = judged(
         info,
@@ -248,8 +249,8 @@ void add_strip_checks(const CaseInfo& info, int cells, int count, Report& report
           "second order in the cells: 0.1 % from 120 cells on"},
          "hinge_torsion and its clamp, or the masses",
          "reference statics"},
-        error(right));
-    add_sabotage(check, "hinges at the clamp not doubled", error(wrong));
+        mode_of(right));
+    add_sabotage(check, "hinges at the clamp not doubled", relative_error(mode_of(wrong)));
     report.checks.push_back(std::move(check));
   }
 }

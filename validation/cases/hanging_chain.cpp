@@ -54,11 +54,13 @@ void add_check(const CaseInfo& info, const Chain& chain, Report& report) {
   form.tolerance = {std::max(2e-14 * length / exact, 1e-13), Basis::kRoundoff,
                     "some tens of roundings of a position as far down as the tip, over its drop"};
   form.note = "the tension law, gravity, or the run is too short to come to rest";
-  const auto error = [&](const Chain& each) { return std::abs(tip_drop(each) / exact - 1); };
-  CheckResult check = judged(info, form, error(chain));
+  const auto drop = [&](const Chain& each) {
+    return ComparedValue{"drop of the tip", tip_drop(each), exact, "m"};
+  };
+  CheckResult check = judged(info, form, drop(chain));
   Chain wrong = chain;
   wrong.stiffness *= 1.01;
-  add_sabotage(check, "spring constant +1 %", error(wrong));
+  add_sabotage(check, "spring constant +1 %", relative_error(drop(wrong)));
   report.checks.push_back(std::move(check));
 }
 

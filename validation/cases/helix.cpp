@@ -67,6 +67,8 @@ struct HelixTest {
   double force_error = 0.0;
   double couple_error = 0.0;
   double unbalance = 0.0;
+  ComparedValue force = {};
+  ComparedValue couple = {};
 };
 
 HelixTest test_helix(const Helix& helix) {
@@ -111,6 +113,8 @@ HelixTest test_helix(const Helix& helix) {
   // What acts on this half is what it hands on.
   result.force_error = (cut_force - Vector3<double>(0, 0, axial)).norm() / std::abs(axial);
   result.couple_error = std::abs(cut_couple.z() / couple - 1);
+  result.couple = {"couple", cut_couple.z(), couple, "N m"};
+  result.force = {"axial force", cut_force.z(), axial, "N"};
   return result;
 }
 
@@ -132,6 +136,8 @@ void add_helix_checks(const CaseInfo& info, const Helix& helix, Report& report) 
                 "Love 1927, section 270, for a rod without twisting rigidity", tolerance,
                 "the torsion law's directions or its rest angle", "laws"},
                right.*part);
+    if (part == &HelixTest::force_error) check.values = {right.force};
+    if (part == &HelixTest::couple_error) check.values = {right.couple};
     add_sabotage(check, "rigidity -10 %", test_helix(softer).*part);
     if (helix.natural > 0) {
       add_sabotage(check, "natural curvature forgotten", test_helix(straight).*part);
@@ -173,6 +179,7 @@ constexpr int kRingSegments = 60;
 struct Ring {
   double roundness = 0.0;     ///< largest |radius / mean - 1|
   double couple_error = 0.0;  ///< of the couple that holds its ends
+  ComparedValue couple = {};
 };
 
 Ring close_ring(int segments, double rigidity_factor, bool is_solved = true) {
@@ -198,7 +205,7 @@ Ring close_ring(int segments, double rigidity_factor, bool is_solved = true) {
   options.residual = 1e-9;
   options.max_move = 0.2 * kRadius;
   if (is_solved && !reference::solve_statics(problem, places, options).converged) {
-    return {std::nan(""), std::nan("")};
+    return {std::nan(""), std::nan(""), {}};
   }
   Matrix3X<double> force(3, segments + 2);
   problem.forces(places, force);
@@ -208,7 +215,8 @@ Ring close_ring(int segments, double rigidity_factor, bool is_solved = true) {
   for (int i = 0; i < segments; ++i) {
     ring.roundness = std::max(ring.roundness, std::abs(places.col(i).norm() / polygon - 1));
   }
-  ring.couple_error = std::abs(couple / (2 * kPi * kRigidity / (segments * spacing)) - 1);
+  ring.couple = {"couple", couple, 2 * kPi * kRigidity / (segments * spacing), "N m"};
+  ring.couple_error = relative_error(ring.couple);
   return ring;
 }
 
@@ -223,7 +231,7 @@ void add_ring_check(const CaseInfo& info, int segments, Report& report) {
        {1e-10, Basis::kRoundoff, "rounding; what the residual leaves goes into the shape"},
        "the torsion law, or the static solver",
        "reference statics"},
-      ring.couple_error);
+      ring.couple);
   add_sabotage(couple, "rigidity +0.01 %", close_ring(segments, 1.0001).couple_error);
   report.checks.push_back(std::move(couple));
   CheckResult round =

@@ -4,6 +4,7 @@
 #include <weft/custom_forces/core/cloth_grid.hpp>
 #include <weft/custom_forces/registry.hpp>
 #include <weft/validation/cases/analytic_cases.hpp>
+#include <weft/validation/cases/closed_form_check.hpp>
 #include <weft/validation/cases/small_systems.hpp>
 
 namespace weft::validation {
@@ -71,28 +72,29 @@ double hover_speed(const Sheet& sheet) {
   return 0.5 * (low + high);
 }
 
-double fall_error(const Sheet& sheet) {
-  return std::abs(-final_velocity(sheet, 0.0) / terminal_speed() - 1);
+ComparedValue fall_speed(const Sheet& sheet) {
+  return {"speed after 2 s", -final_velocity(sheet, 0.0), terminal_speed(), "m/s"};
 }
 
-double hover_error(const Sheet& sheet) {
-  return std::abs(hover_speed(sheet) / terminal_speed() - 1);
+ComparedValue hover_wind(const Sheet& sheet) {
+  return {"wind", hover_speed(sheet), terminal_speed(), "m/s"};
 }
 
 CheckResult check_of(const CaseInfo& info, const Tolerance& tolerance,
-                     double (*error)(const Sheet&), const Sheet& right) {
+                     ComparedValue (*speed)(const Sheet&), const Sheet& right) {
   CheckResult check;
   check.case_id = info.id;
   check.engine = "reference";
   check.unit = "1";
   check.formula = "u = sqrt(2 m g / (rho C_n A))";
   check.source = "weight = quadratic drag";
-  check.measured = error(right);
+  check.values = {speed(right)};
+  check.measured = relative_error(check.values[0]);
   check.tolerance = tolerance;
   check.verdict = judge(check.measured, tolerance);
   Sheet wrong = right;
   wrong.density *= 1.1;
-  const double sabotaged = error(wrong);
+  const double sabotaged = relative_error(speed(wrong));
   check.sabotages.push_back(
       {"density of the air +10 %", sabotaged, judge(sabotaged, tolerance) == Verdict::kFail});
   check.note = "the wind law, the area or the mass of the sheet, or it does not lie flat";
@@ -124,7 +126,7 @@ void evaluate_hover(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
   CheckResult fall = check_of(
       info,
       {1e-9, Basis::kTruncation, "what tanh(g t / u) still lacks after 2 s is exp(-26) = 5e-12"},
-      &fall_error, flat);
+      &fall_speed, flat);
   fall.claim = "a flat sheet falls through still air at its terminal speed";
   fall.metric = "relative error of the speed after 2 s";
   report.checks.push_back(std::move(fall));
@@ -133,7 +135,7 @@ void evaluate_hover(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
       check_of(info,
                {0.02, Basis::kModelGap,
                 "the formula is for a flat sheet; the masses of this one bend it a little"},
-               &hover_error, bent);
+               &hover_wind, bent);
   hover.claim = "a sheet hovers in an upward wind of its terminal speed";
   hover.metric = "relative error of the wind in which it neither rises nor falls";
   report.checks.push_back(std::move(hover));

@@ -19,6 +19,16 @@ constexpr double kDuration = 0.5;  // [s]: the ball meets the cloth after 0.25 s
 struct Judged {
   EngineChoice engine;
   Tolerance tolerance;
+  int steps_per_second = 0;  ///< 0: the scene's own
+
+  [[nodiscard]] std::string title() const {
+    return steps_per_second > 0 ? fmt::format("{}, 1/{} s", engine.title(), steps_per_second)
+                                : engine.title();
+  }
+  [[nodiscard]] std::string run_id(const CaseInfo& info) const {
+    return steps_per_second > 0 ? fmt::format("{}_{}", info.id, steps_per_second)
+                                : std::string(info.id);
+  }
 };
 
 std::vector<Judged> engines(bool with_bullet) {
@@ -35,12 +45,18 @@ std::vector<Judged> engines(bool with_bullet) {
   std::vector<Judged> list;
   const auto add = [&](const char* engine, scenes::StoredPrecision precision,
                        const Tolerance& tolerance) {
-    list.push_back({EngineChoice{engine, precision}, tolerance});
+    list.push_back({EngineChoice{engine, precision}, tolerance, 0});
   };
   if (with_bullet) {
     add("bullet_forces", kFloat32, single);
     add("bullet_forces", kFloat64, rounding);
     add("bullet_weft", kFloat32, tied);
+    add("bullet_weft", kFloat64, tied);
+    for (const int steps : {30, 60, 120, 240}) {
+      for (const auto precision : {kFloat32, kFloat64}) {
+        list.push_back({EngineChoice{"bullet_weft", precision}, tied, steps});
+      }
+    }
     add("bullet_deformable", kFloat64, solver);
     add("bullet_deformable_implicit", kFloat64, implicit);
   }
@@ -48,7 +64,7 @@ std::vector<Judged> engines(bool with_bullet) {
   return list;
 }
 
-scenes::Scene collision() {
+scenes::Scene collision(int steps_per_second) {
   scenes::Scene scene = scenes::load_scene("ball_on_cloth");
   scene.world.gravity.setZero();
   scene.world.duration = kDuration;
@@ -57,6 +73,10 @@ scenes::Scene collision() {
   std::erase_if(cloth.laws, [](const forces::LawSpecification& law) {
     return law.law == "gravity" || law.law == "velocity_damping";
   });
+  if (steps_per_second > 0) {
+    scene.world.time_step = 1.0 / steps_per_second;
+    scene.world.frame_interval = 1.0 / 30;
+  }
   return scene;
 }
 
@@ -84,14 +104,14 @@ double largest_change(const Frames& frames, const scenes::Scene& scene, bool wit
 
 void plan_momentum(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
   for (const Judged& judged : engines(options.bullet)) {
-    runs.add({judged.engine.label(std::string(info.id)), collision(), judged.engine.engine,
-              judged.engine.precision});
+    runs.add({judged.engine.label(judged.run_id(info)), collision(judged.steps_per_second),
+              judged.engine.engine, judged.engine.precision});
   }
 }
 
 void evaluate_momentum(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
                        Report& report) {
-  const scenes::Scene scene = collision();
+  const scenes::Scene scene = collision(0);
   Plot plot{"Momentum of the ball and the cloth together",
             "time [s]",
             "vertical momentum / the ball's at the start [1]",
@@ -99,10 +119,10 @@ void evaluate_momentum(const CaseInfo& info, const CaseOptions& options, const E
             false,
             {}};
   for (const Judged& judged : engines(options.bullet)) {
-    const History history = load_history(runs, std::string(info.id), judged.engine);
+    const History history = load_history(runs, judged.run_id(info), judged.engine);
     CheckResult check;
     check.case_id = info.id;
-    check.engine = judged.engine.title();
+    check.engine = judged.title();
     check.claim = "a ball and a cloth keep their momentum together";
     check.metric = "largest change of the sum over the ball's momentum, 0 to 0.5 s";
     check.unit = "1";
@@ -116,7 +136,7 @@ void evaluate_momentum(const CaseInfo& info, const CaseOptions& options, const E
                                judge(without_ball, judged.tolerance) == Verdict::kFail});
     check.note = "the impulse on the rigid body, or a force of a law that does not sum to zero";
     report.checks.push_back(std::move(check));
-    Series series{judged.engine.title(), {}, {}};
+    Series series{judged.title(), {}, {}};
     for (const scenes::SceneState& frame : history.frames) {
       series.x.push_back(frame.time);
       series.y.push_back(momentum(frame, scene, true).y() / (*scene.colliders[0].mass));

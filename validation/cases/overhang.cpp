@@ -134,29 +134,29 @@ double largest_overhang(const Table& table) {
 
 void add_check(const CaseInfo& info, const Table& table, Report& report) {
   const double exact = table.overhang(table.exact_weight());
-  const auto error = [&](const Table& each) {
-    return std::abs(largest_overhang(each) / exact - 1);
+  const auto overhang = [&](const Table& each) {
+    return ComparedValue{"overhang over the weight", largest_overhang(each), exact, "1"};
   };
   const double grip = table.friction * std::exp(table.friction * std::numbers::pi / 2);
   CheckResult check = judged(
       info,
       {fmt::format("a chain over a table's edge, mu = {}, {} nodes on the edge", table.friction,
                    table.edge_nodes),
-       fmt::format("relative error of the overhang = {:.4f} of the weight (a rope's over a sharp "
-                   "edge: {:.4f})",
-                   exact, grip / (1 + grip)),
+       fmt::format(
+           "relative error of the overhang (a rope's over a sharp edge: {:.4f} of the weight)",
+           grip / (1 + grip)),
        "T (c - mu s) = T' (c + mu s) + w (mu cos a - sin a), s, c of half a turn; T' = mu w n on "
        "the "
        "table",
        "balance of each node at its limit; mu e^(mu pi / 2) (L - h) = h for a rope",
        {0.01, Basis::kModelGap, "nodes move on by a strain of 1e-4 before they hold"},
        "Coulomb friction of the impulse contact on a flat and on a round body"},
-      error(table));
+      overhang(table));
   Table wrong = table;
   wrong.friction_factor = 1.1;
-  add_sabotage(check, "friction +10 %", error(wrong));
+  add_sabotage(check, "friction +10 %", relative_error(overhang(wrong)));
   wrong.friction_factor = 0.0;
-  add_sabotage(check, "no friction", error(wrong));
+  add_sabotage(check, "no friction", relative_error(overhang(wrong)));
   report.checks.push_back(std::move(check));
 }
 

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/validation/theory/theory_runs.hpp>
 
 namespace weft::validation {
 namespace {
@@ -43,10 +45,12 @@ void check_values(const CaseInfo& info, const CaseOptions& options) {
                                         parameter->minimum, parameter->maximum));
     }
   }
-  if (options.engine.empty() || options.engine == "reference") return;
-  throw InvalidArgument(fmt::format(
-      "validate: case '{}' runs with the engine 'reference' where one is asked for, not '{}'",
-      info.id, options.engine));
+  if (options.engine.empty() || (options.engine == "reference" && info.evaluate != nullptr)) return;
+  std::vector<std::string> engines =
+      info.theory ? theory_engine_names(options.bullet) : std::vector<std::string>{"reference"};
+  if (std::find(engines.begin(), engines.end(), options.engine) != engines.end()) return;
+  throw InvalidArgument(fmt::format("validate: case '{}': engine '{}', expected one of: {}",
+                                    info.id, options.engine, fmt::join(engines, ", ")));
 }
 
 double value_of(const CaseInfo& info, const CaseOptions& options, std::string_view name) {

@@ -8,8 +8,8 @@
 namespace weft::validation {
 
 /// Throws InvalidArgument, one line with case, name, value, unit and what was expected, for a value
-/// that the case has no parameter for, that is out of range or should be whole, and for an engine other than
-/// the reference of a case with parameters.
+/// that the case has no parameter for, that is out of range or should be whole, and for an engine that
+/// cannot run the case.
 void check_values(const CaseInfo& info, const CaseOptions& options);
 
 /// Whether one point is asked for in place of the case's table.

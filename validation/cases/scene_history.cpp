@@ -17,10 +17,10 @@ std::vector<EngineChoice> cross_validated_engines(bool with_bullet) {
   using scenes::StoredPrecision;
   std::vector<EngineChoice> engines;
   if (with_bullet) {
-    engines = {{"bullet_soft", StoredPrecision::kFloat32},
-               {"bullet_soft", StoredPrecision::kFloat64},
-               {"bullet_forces", StoredPrecision::kFloat32},
-               {"bullet_forces", StoredPrecision::kFloat64}};
+    engines = {
+        {"bullet_weft", StoredPrecision::kFloat32},   {"bullet_weft", StoredPrecision::kFloat64},
+        {"bullet_soft", StoredPrecision::kFloat32},   {"bullet_soft", StoredPrecision::kFloat64},
+        {"bullet_forces", StoredPrecision::kFloat32}, {"bullet_forces", StoredPrecision::kFloat64}};
   }
   engines.push_back({"reference", StoredPrecision::kFloat64});
   return engines;

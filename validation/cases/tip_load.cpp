@@ -28,20 +28,27 @@ StripModel model_of(double load, int cells, double clamp_factor) {
 }
 
 /// |(H, W) - (H, W) of the elastica| / |(H, W) of the bend|: the bend is from the straight strip.
-double tip_error(const StripModel& model, const Matrix3X<double>& start, Matrix3X<double>* end) {
+struct Tip {
+  double error = std::nan("");
+  std::vector<ComparedValue> values = {};
+};
+
+Tip tip_of(const StripModel& model, const Matrix3X<double>& start, Matrix3X<double>* end) {
   const HeavyElastica exact = solve_elastica({.tip_load = model.gamma});
   BentStrip strip = bend_strip(model, start);
-  if (!strip.converged) return std::nan("");
+  if (!strip.converged) return {};
   if (end != nullptr) *end = std::move(strip.positions);
-  return std::hypot(strip.tip.drop / model.strip.length - exact.drop,
-                    strip.tip.reach / model.strip.length - exact.reach) /
-         std::hypot(exact.drop, 1 - exact.reach);
+  const double drop = strip.tip.drop / model.strip.length;
+  const double reach = strip.tip.reach / model.strip.length;
+  return {
+      std::hypot(drop - exact.drop, reach - exact.reach) / std::hypot(exact.drop, 1 - exact.reach),
+      {{"H / L", drop, exact.drop, "1"}, {"W / L", reach, exact.reach, "1"}}};
 }
 
 void add_load_check(const CaseInfo& info, double load, int cells, Matrix3X<double>& start,
                     Report& report) {
   Matrix3X<double> end;
-  const double measured = tip_error(model_of(load, cells, 2.0), start, &end);
+  const Tip tip = tip_of(model_of(load, cells, 2.0), start, &end);
   CheckResult check = judged(
       info,
       {fmt::format("a strip with a weight at its tip bends as the elastica, P L^2 / D = {}", load),
@@ -51,9 +58,10 @@ void add_load_check(const CaseInfo& info, double load, int cells, Matrix3X<doubl
        {0.01, Basis::kTruncation, "second order in the cells, and what the springs stretch: 1e-3"},
        "the weights or the clamp rule of hinge_torsion, or the static solver",
        "reference statics"},
-      measured);
+      tip.error);
+  check.values = tip.values;
   add_sabotage(check, "hinges at the clamp not doubled",
-               tip_error(model_of(load, cells, 1.0), start, nullptr));
+               tip_of(model_of(load, cells, 1.0), start, nullptr).error);
   report.checks.push_back(std::move(check));
   start = std::move(end);
 }
@@ -121,7 +129,7 @@ void add_test_check(const CaseInfo& info, double degrees, int cells, Report& rep
        {0.02, Basis::kTruncation, "second order in the cells, and what the springs stretch: 1e-3"},
        "hinge_torsion and its clamp, or the weight of the strip",
        "reference statics"},
-      error(simulated));
+      ComparedValue{"Gamma", simulated, exact, "1"});
   add_sabotage(check, "hinges at the clamp not doubled",
                error(simulated_gamma(degrees, cells, 1.0)));
   report.checks.push_back(std::move(check));

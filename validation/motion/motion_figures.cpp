@@ -164,7 +164,7 @@ MotionScene bounce_scene() {
       std::move(scene),
       1.0 / 12000,
       {{"height of the first bounce", "m", &height_of_bounce, 0.01, false, WrongMotion::kUntouched},
-       energy_figure()}};
+       gained}};
 }
 
 MotionScene long_rest_scene() {

@@ -6,7 +6,7 @@
 namespace weft::validation {
 
 /// Raised whenever a field changes its name or meaning; web/src/report.ts names the version it reads.
-inline constexpr int kReportSchemaVersion = 2;
+inline constexpr int kReportSchemaVersion = 3;
 
 /// Pretty-prints JSON with two spaces, but keeps an array of numbers or words on one line: a plot
 /// with a thousand points is four lines, not four thousand. Doubles get as many digits (up to 17)

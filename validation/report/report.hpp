@@ -16,6 +16,14 @@ struct SabotageResult {
   bool detected = false;  ///< the check failed, as it must
 };
 
+/// What an error is made of: a number with its unit, and the one that it should be.
+struct ComparedValue {
+  std::string quantity;  ///< "drop of the tip", "H / W"
+  double value = 0;      ///< as measured [unit]
+  double expected = 0;   ///< by theory, or by the run it is compared with [unit]
+  std::string unit;      ///< "m"; "1" if dimensionless
+};
+
 /// One row of the report's table: one number against one bound.
 struct CheckResult {
   std::string case_id;  ///< "hang"
@@ -30,6 +38,10 @@ struct CheckResult {
   Verdict verdict = Verdict::kInfo;
   std::vector<SabotageResult> sabotages;
   std::string note;  ///< what to look at when it fails, or what the number means
+  /// What measured was computed from; where it is the largest of many, those of the largest. Empty where it is itself the
+  /// number of interest.
+  std::vector<ComparedValue> values = {};
+  std::string cause = {};  ///< of a known departure (kKnown, kStale): why it is expected to fail
 };
 
 struct Series {
@@ -92,14 +104,16 @@ struct Report {
   std::vector<std::string> limits;  ///< what was not tested
   /// machine, compiler, versions, hashes
   std::vector<std::pair<std::string, std::string>> provenance;
-  [[nodiscard]] bool passed() const;  ///< no failed check and every sabotage detected
+  [[nodiscard]] bool passed() const;  ///< no failed or stale check and every sabotage detected
 };
 
 /// report.json, pretty-printed, with a schema version; pictures as base64. Numbers read back to the
 /// same bits (up to 17 digits); a non-finite one is the string "NaN", "Infinity" or "-Infinity".
 [[nodiscard]] std::string to_json(const Report& report);
-/// junit.xml: one test case per check (skipped if not gated), one per sabotage.
+/// junit.xml: one test case per check (skipped if not gated or a known departure), one per sabotage.
 [[nodiscard]] std::string to_junit(const Report& report);
+/// The table for a terminal: one line per check and one for each of its compared values, and the verdict.
+[[nodiscard]] std::string to_text(const Report& report);
 /// One self-contained page that opens from file://.
 [[nodiscard]] std::string to_html(const Report& report);
 /// The same from the text of a report.json. @throws Error naming the file (only for the message) if it

@@ -28,6 +28,10 @@ const char* verdict_word(Verdict verdict) {
       return "fail";
     case Verdict::kInfo:
       return "info";
+    case Verdict::kKnown:
+      return "known";
+    case Verdict::kStale:
+      return "stale";
   }
   return "fail";
 }
@@ -54,6 +58,13 @@ Json check_json(const CheckResult& check) {
                {"flag", ratio_flag(check)},
                {"verdict", verdict_word(check.verdict)},
                {"note", check.note}};
+  json["cause"] = check.cause;
+  json["values"] = list(check.values, [](const ComparedValue& pair) -> Json {
+    return {{"quantity", pair.quantity},
+            {"value", json_number(pair.value)},
+            {"expected", json_number(pair.expected)},
+            {"unit", pair.unit}};
+  });
   json["sabotages"] = list(check.sabotages, [](const SabotageResult& sabotage) -> Json {
     return {{"name", sabotage.name},
             {"measured", json_number(sabotage.measured)},
@@ -66,21 +77,24 @@ Json summary_json(const Report& report) {
   int passed = 0;
   int failed = 0;
   int not_gated = 0;
+  int known = 0;
+  int stale = 0;
   int sabotages = 0;
   int detected = 0;
   for (const CheckResult& check : report.checks) {
     passed += check.verdict == Verdict::kPass ? 1 : 0;
     failed += check.verdict == Verdict::kFail ? 1 : 0;
     not_gated += check.verdict == Verdict::kInfo ? 1 : 0;
+    known += check.verdict == Verdict::kKnown ? 1 : 0;
+    stale += check.verdict == Verdict::kStale ? 1 : 0;
     for (const SabotageResult& sabotage : check.sabotages) {
       ++sabotages;
       detected += sabotage.detected ? 1 : 0;
     }
   }
-  return {{"checks_passed", passed},
-          {"checks_failed", failed},
-          {"checks_not_gated", not_gated},
-          {"sabotages", sabotages},
+  return {{"checks_passed", passed},       {"checks_failed", failed},
+          {"checks_not_gated", not_gated}, {"checks_known", known},
+          {"checks_stale", stale},         {"sabotages", sabotages},
           {"sabotages_detected", detected}};
 }
 

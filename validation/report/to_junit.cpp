@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include <weft/validation/report/quantity_text.hpp>
 #include <weft/validation/report/ratio.hpp>
 #include <weft/validation/report/report.hpp>
 #include <weft/validation/report/xml_text.hpp>
@@ -24,8 +25,9 @@ Counts& operator+=(Counts& sum, const Counts& more) {
 }
 
 Counts count(const CheckResult& check) {
-  Counts counts{1, check.verdict == Verdict::kFail ? 1 : 0,
-                check.verdict == Verdict::kInfo ? 1 : 0};
+  const bool fails = check.verdict == Verdict::kFail || check.verdict == Verdict::kStale;
+  const bool is_skipped = check.verdict == Verdict::kInfo || check.verdict == Verdict::kKnown;
+  Counts counts{1, fails ? 1 : 0, is_skipped ? 1 : 0};
   for (const SabotageResult& sabotage : check.sabotages) {
     counts += {1, sabotage.detected ? 0 : 1, 0};
   }
@@ -37,19 +39,14 @@ std::string attributes(const Counts& counts) {
                      counts.failures, counts.skipped);
 }
 
-std::string quantity(double value, const std::string& unit) {
-  return unit.empty() || unit == "1" ? fmt::format("{:.6g}", value)
-                                     : fmt::format("{:.6g} {}", value, unit);
-}
-
 // "measured 2 m, allowed 1 m (ratio 2), basis truncation: C h^2"
 std::string comparison(const CheckResult& check, double measured) {
-  const std::string what = "measured " + quantity(measured, check.unit);
+  const std::string what = "measured " + quantity_text(measured, check.unit);
   if (!check.tolerance) return what + ", not gated";
   CheckResult as_measured = check;
   as_measured.measured = measured;
   return fmt::format("{}, allowed {} (ratio {:.4g}), basis {}: {}", what,
-                     quantity(check.tolerance->value, check.unit), *ratio(as_measured),
+                     quantity_text(check.tolerance->value, check.unit), *ratio(as_measured),
                      to_string(check.tolerance->basis), check.tolerance->why);
 }
 
@@ -71,12 +68,17 @@ std::string open_test(const CheckResult& check, const std::string& name) {
 
 std::string check_xml(const CheckResult& check) {
   const std::string name = fmt::format("{} [{}]", check.claim, check.metric);
-  const std::string result = xml_text(comparison(check, check.measured));
+  std::string text = comparison(check, check.measured);
+  for (const ComparedValue& pair : check.values) text += "; " + to_text(pair);
+  if (check.verdict == Verdict::kKnown) text = "known departure (" + check.cause + "): " + text;
+  if (check.verdict == Verdict::kStale) text = "stale departure (" + check.cause + "): " + text;
+  const std::string result = xml_text(text);
   std::string xml = open_test(check, name);
-  if (check.verdict == Verdict::kFail) {
-    xml += fmt::format("      <failure type=\"bound\" message=\"{}\">{}</failure>\n", result,
+  if (check.verdict == Verdict::kFail || check.verdict == Verdict::kStale) {
+    xml += fmt::format("      <failure type=\"{}\" message=\"{}\">{}</failure>\n",
+                       check.verdict == Verdict::kFail ? "bound" : "stale", result,
                        xml_text(details(check)));
-  } else if (check.verdict == Verdict::kInfo) {
+  } else if (check.verdict != Verdict::kPass) {
     xml += fmt::format("      <skipped message=\"{}\"/>\n", result);
   } else {
     xml += fmt::format("      <system-out>{}</system-out>\n", result);

@@ -3,7 +3,13 @@ import { h } from "./dom";
 import { exactQuantity, formatQuantity, formatRatio, toNumber } from "./format";
 import type { Check, Sabotage, Verdict } from "./report";
 
-const WORDS: Record<Verdict, string> = { pass: "✓ pass", fail: "✗ fail", info: "not gated" };
+const WORDS: Record<Verdict, string> = {
+  pass: "✓ pass",
+  fail: "✗ fail",
+  info: "not gated",
+  known: "✗ fail, known",
+  stale: "✗ stale",
+};
 
 export function verdictPill(verdict: Verdict): HTMLElement {
   return h("span", { class: `pill ${verdict}` }, WORDS[verdict]);
@@ -14,6 +20,27 @@ export function measured(check: Check): HTMLElement {
     "span",
     { "data-tip": exactQuantity(check.measured, check.unit), tabindex: 0 },
     formatQuantity(check.measured, check.unit),
+  );
+}
+
+/** The numbers that an error was computed from, each beside the expected one. */
+export function comparedValues(check: Check): HTMLElement | null {
+  if (check.values.length === 0) return null;
+  return h(
+    "ul",
+    { class: "values small" },
+    check.values.map((pair) =>
+      h(
+        "li",
+        {
+          "data-tip": `${exactQuantity(pair.value, pair.unit)}, expected ${exactQuantity(pair.expected, pair.unit)}`,
+          tabindex: 0,
+        },
+        `${pair.quantity} `,
+        h("b", {}, formatQuantity(pair.value, pair.unit, 5)),
+        `, expected ${formatQuantity(pair.expected, pair.unit, 5)}`,
+      ),
+    ),
   );
 }
 
@@ -36,7 +63,7 @@ export function ratioBar(check: Check): HTMLElement | null {
   if (check.ratio === null) return null;
   const ratio = toNumber(check.ratio);
   const share = Number.isFinite(ratio) ? Math.min(Math.max(ratio, 0), 1) : 1;
-  const state = check.verdict === "fail" ? "fail" : check.flag || "pass";
+  const state = ["fail", "known", "stale"].includes(check.verdict) ? "fail" : check.flag || "pass";
   const fill = h("span", { class: "fill" });
   fill.style.width = share > 0 ? `max(2px, ${share * 100}%)` : "0";
   return h(

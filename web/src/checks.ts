@@ -1,7 +1,7 @@
-import { allowed, basis, measured, ratioBar, sabotageItem, verdictPill } from "./check_parts";
+import { allowed, basis, comparedValues, measured, ratioBar, sabotageItem, verdictPill } from "./check_parts";
 import { h, scrollBox, tableHead } from "./dom";
 import { count } from "./format";
-import { needsAttention, undetected, unique, type Check, type Report } from "./report";
+import { families, family, needsAttention, undetected, unique, type Check, type Report } from "./report";
 
 interface Filter {
   case: string;
@@ -14,6 +14,7 @@ const VERDICTS: [string, string][] = [
   ["", "any verdict"],
   ["attention", "failed"],
   ["pass", "passed"],
+  ["known", "failed, known departure"],
   ["info", "not gated"],
   ["tight", "tight bound"],
   ["loose", "loose bound"],
@@ -21,7 +22,7 @@ const VERDICTS: [string, string][] = [
 
 function matches(check: Check, filter: Filter): boolean {
   if (filter.case !== "" && check.case !== filter.case) return false;
-  if (filter.engine !== "" && check.engine !== filter.engine) return false;
+  if (filter.engine !== "" && family(check.engine) !== filter.engine) return false;
   switch (filter.verdict) {
     case "":
       return true;
@@ -52,6 +53,7 @@ function more(check: Check): HTMLElement | null {
     ["against", check.formula],
     ["source", check.source],
     ["bound", check.tolerance?.why ?? ""],
+    ["known departure", check.cause],
     ["note", check.note],
   ];
   const shown = facts.filter(([, value]) => value !== "");
@@ -93,6 +95,7 @@ function row(check: Check, sections: Map<string, string>): HTMLElement {
       { scope: "row", role: "rowheader", class: "claim" },
       check.claim,
       h("span", { class: "muted small block" }, check.metric),
+      comparedValues(check),
       more(check),
     ),
     cell("measured", "number", measured(check)),
@@ -114,16 +117,18 @@ function select(label: string, options: [string, string][]): HTMLSelectElement {
 /** Cases against engines: where the numbers are and how many pass. */
 function matrix(report: Report, choose: (filter: Filter) => void): HTMLElement | null {
   const cases = unique(report.checks.map((check) => check.case));
-  const engines = unique(report.checks.map((check) => check.engine));
+  const engines = families(report);
   if (cases.length < 2 || engines.length < 2) return null;
   const cell = (name: string, engine: string): HTMLElement => {
-    const here = report.checks.filter((check) => check.case === name && check.engine === engine);
+    const here = report.checks.filter((check) => check.case === name && family(check.engine) === engine);
     if (here.length === 0) return h("td", { class: "none" }, "·");
     const gated = here.filter((check) => check.verdict !== "info");
     const good = gated.filter((check) => check.verdict === "pass").length;
-    const state = here.some(needsAttention) ? "fail" : gated.length > 0 ? "pass" : "info";
+    const known = here.filter((check) => check.verdict === "known").length;
+    const state = here.some(needsAttention) ? "fail" : known > 0 ? "known" : gated.length > 0 ? "pass" : "info";
     const text = gated.length > 0 ? `${good}/${gated.length}` : "info";
-    const what = gated.length > 0 ? "checks pass" : "rows, not gated";
+    const rest = known > 0 ? `, ${known} fail as known departures` : "";
+    const what = gated.length > 0 ? `checks pass${rest}` : "rows, not gated";
     const button = h(
       "button",
       { type: "button", class: state, "aria-label": `${text} ${what}: ${name}, ${engine}; show them` },
@@ -165,7 +170,7 @@ export function renderChecks(report: Report, sections: Map<string, string>): HTM
     ...values.map((value): [string, string] => [value, value]),
   ];
   const byCase = select("Case", named("any case", unique(report.checks.map((check) => check.case))));
-  const byEngine = select("Engine", named("any engine", unique(report.checks.map((check) => check.engine))));
+  const byEngine = select("Engine", named("any engine", families(report)));
   const byVerdict = select("Verdict", VERDICTS);
   const reset = h("button", { type: "button" }, "Show all");
   const shown = h("span", { class: "muted", role: "status" });
@@ -219,6 +224,7 @@ export function renderChecks(report: Report, sections: Map<string, string>): HTM
       { class: "muted lead" },
       "Each row compares one measured number with one bound that has a stated reason. The bar shows how much of the bound is used; " +
         "above 0.5 the bound is tight, below 0.01 it is loose. Rows that are not gated are shown, but cannot fail. " +
+        "A known departure fails and is stated, with its cause, by more than the bound and less than 1.5 times what was stated. " +
         "A sabotage is a deliberate mistake that the check must notice.",
     ),
   );

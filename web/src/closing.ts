@@ -1,36 +1,52 @@
 import { h, scrollBox, tableHead } from "./dom";
-import type { Report } from "./report";
+import { count } from "./format";
+import { family, unique, type Report } from "./report";
 
 export function renderDepartures(report: Report): HTMLElement | null {
   if (report.departures.length === 0) return null;
-  const heads = ["engine", "what differs", "measured", "why"];
-  return h(
-    "section",
-    { id: "departures", "aria-labelledby": "departures-title" },
-    h("h2", { id: "departures-title" }, "Known departures"),
-    h("p", { class: "muted lead" }, "Where an engine is known to differ, by how much, and why."),
-    scrollBox(
-      "Table of known departures",
+  const heads = ["engine", "what differs", "measured"];
+  const causes = unique(report.departures.map((item) => item.reason));
+  const group = (reason: string): HTMLElement => {
+    const items = report.departures.filter((item) => item.reason === reason);
+    const engines = unique(items.map((item) => family(item.engine))).join(", ");
+    return h(
+      "li",
+      { class: "departure" },
+      h("p", {}, h("b", {}, engines), `: ${reason}.`.replace(/\.\.$/, ".")),
       h(
-        "table",
-        { class: "departures" },
-        tableHead(heads),
-        h(
-          "tbody",
-          {},
-          report.departures.map((item) =>
+        "details",
+        { "data-print-open": true },
+        h("summary", {}, count(items.length, "departure")),
+        scrollBox(
+          `Known departures of ${engines}`,
+          h(
+            "table",
+            { class: "departures" },
+            tableHead(heads),
             h(
-              "tr",
+              "tbody",
               {},
-              h("th", { scope: "row" }, item.engine),
-              h("td", {}, item.what),
-              h("td", {}, item.measured),
-              h("td", {}, item.reason),
+              items.map((item) =>
+                h(
+                  "tr",
+                  {},
+                  h("th", { scope: "row" }, item.engine),
+                  h("td", {}, item.what),
+                  h("td", {}, item.measured),
+                ),
+              ),
             ),
           ),
         ),
       ),
-    ),
+    );
+  };
+  return h(
+    "section",
+    { id: "departures", "aria-labelledby": "departures-title" },
+    h("h2", { id: "departures-title" }, "Known departures"),
+    h("p", { class: "muted lead" }, "Where an engine is known to differ, by cause, and by how much."),
+    h("ol", { class: "causes" }, causes.map(group)),
   );
 }
 

@@ -36,8 +36,8 @@ export function formatNumber(value: Numeric | number, digits = 3): string {
 }
 
 /** The number with its unit; a dimensionless one stands alone. */
-export function formatQuantity(value: Numeric, unit: string): string {
-  const text = formatNumber(value);
+export function formatQuantity(value: Numeric, unit: string, digits = 3): string {
+  const text = formatNumber(value, digits);
   if (!Number.isFinite(toNumber(value))) return text;
   return unit === "" || unit === "1" ? text : `${text}\u00a0${unit}`;
 }

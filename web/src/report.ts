@@ -2,12 +2,21 @@
 
 /** JSON has no NaN and no infinities; they arrive as words. */
 export type Numeric = number | "NaN" | "Infinity" | "-Infinity";
-export type Verdict = "pass" | "fail" | "info";
+/** "known": fails as a stated departure; "stale": is stated as one and is none any more, which fails. */
+export type Verdict = "pass" | "fail" | "info" | "known" | "stale";
 
 export interface Tolerance {
   value: Numeric;
   basis: string;
   why: string;
+}
+
+/** What an error was computed from. */
+export interface ComparedValue {
+  quantity: string;
+  value: Numeric;
+  expected: Numeric;
+  unit: string;
 }
 
 export interface Sabotage {
@@ -30,6 +39,9 @@ export interface Check {
   flag: "" | "tight" | "loose";
   verdict: Verdict;
   note: string;
+  /** Of a known or stale departure: why it is expected to fail. */
+  cause: string;
+  values: ComparedValue[];
   sabotages: Sabotage[];
 }
 
@@ -94,6 +106,8 @@ export interface Report {
     checks_passed: number;
     checks_failed: number;
     checks_not_gated: number;
+    checks_known: number;
+    checks_stale: number;
     sabotages: number;
     sabotages_detected: number;
   };
@@ -104,7 +118,7 @@ export interface Report {
   provenance: { name: string; value: string }[];
 }
 
-const SCHEMA_VERSION = 2;
+const SCHEMA_VERSION = 3;
 
 /** Reads the data slot; throws with one clear line if it is not a report this page knows. */
 export function readReport(): Report {
@@ -122,9 +136,28 @@ export function undetected(check: Check): Sabotage[] {
   return check.sabotages.filter((sabotage) => !sabotage.detected);
 }
 
-/** A check that keeps the report from passing: its bound is broken, or it did not notice a sabotage. */
+/** A check that keeps the report from passing: its bound is broken, what was stated of it is stale, or it did not notice a sabotage. */
 export function needsAttention(check: Check): boolean {
-  return check.verdict === "fail" || undetected(check).length > 0;
+  return check.verdict === "fail" || check.verdict === "stale" || undetected(check).length > 0;
+}
+
+/** The program behind an engine's title, without precision and step. */
+export function family(engine: string): string {
+  const name = engine.split(/[ ,]/)[0] ?? engine;
+  // The laws alone, and the reference's statics, are the reference's side.
+  return name === "laws" ? "reference" : name;
+}
+
+const FIRST = ["bullet_weft", "bullet_forces"];
+
+/** The families of all checks: the fast solver first, the reference last. */
+export function families(report: Report): string[] {
+  const rank = (name: string): number => {
+    const at = FIRST.indexOf(name);
+    if (at >= 0) return at;
+    return name === "reference" ? FIRST.length + 1 : FIRST.length;
+  };
+  return unique(report.checks.map((check) => family(check.engine))).sort((a, b) => rank(a) - rank(b));
 }
 
 export function unique(values: string[]): string[] {

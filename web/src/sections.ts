@@ -61,11 +61,12 @@ function standing(report: Report, section: Section): HTMLElement | null {
   const own = report.checks.filter((check) => check.case === section.id && check.verdict !== "info");
   if (own.length === 0) return null;
   const passed = own.filter((check) => check.verdict === "pass").length;
+  const known = own.some((check) => check.verdict === "known");
   const bad = report.checks.some((check) => check.case === section.id && needsAttention(check));
   return h(
     "span",
-    { class: `pill ${bad ? "fail" : "pass"}` },
-    `${bad ? "✗" : "✓"} ${passed} of ${count(own.length, "check")}`,
+    { class: `pill ${bad ? "fail" : known ? "known" : "pass"}` },
+    `${bad || known ? "✗" : "✓"} ${passed} of ${count(own.length, "check")}`,
   );
 }
 

@@ -1,19 +1,81 @@
-import { allowed, basis, measured, ratioBar, sabotageItem, verdictPill } from "./check_parts";
+import { allowed, basis, comparedValues, measured, ratioBar, sabotageItem, verdictPill } from "./check_parts";
 import { h } from "./dom";
 import { count } from "./format";
-import { needsAttention, undetected, type Check, type Report } from "./report";
+import { renderPictureRow } from "./pictures";
+import { families, family, needsAttention, undetected, unique, type Check, type Report } from "./report";
+
+const FIRST_ENGINE = "bullet_weft";
+const FIRST_SCENE = "drape_sphere";
+const AT_THE_END = "At the end";
 
 function tile(value: string, label: string, state = ""): HTMLElement {
   return h("div", { class: `tile ${state}` }, h("dd", {}, value), h("dt", {}, label));
 }
 
+function gatedChecks(report: Report): number {
+  const s = report.summary;
+  return s.checks_passed + s.checks_failed + s.checks_known + s.checks_stale;
+}
+
+/** One line per engine: how it stands against everything it was held to. */
+function engineLines(report: Report): HTMLElement | null {
+  const names = families(report);
+  if (names.length < 2) return null;
+  const line = (name: string): HTMLElement => {
+    const own = report.checks.filter((check) => family(check.engine) === name);
+    const gated = own.filter((check) => check.verdict !== "info");
+    const passed = gated.filter((check) => check.verdict === "pass").length;
+    const known = gated.filter((check) => check.verdict === "known");
+    const bad = own.filter(needsAttention).length;
+    const causes = unique(known.map((check) => check.cause)).length;
+    const state = bad > 0 ? "fail" : known.length > 0 ? "known" : gated.length > 0 ? "pass" : "info";
+    const words = [
+      gated.length > 0 ? `${passed} of ${count(gated.length, "check")} pass` : `${count(own.length, "row")}, not gated`,
+      known.length > 0 && `${known.length} fail as known departures of ${count(causes, "cause")}`,
+      bad > 0 && `${bad} ${bad === 1 ? "needs" : "need"} attention`,
+    ].filter(Boolean);
+    return h(
+      "li",
+      {},
+      h("span", { class: `pill ${state}` }, state === "pass" ? "✓ pass" : state === "info" ? "not gated" : "✗ fail"),
+      h("b", {}, name),
+      h("span", {}, words.join("; ")),
+    );
+  };
+  return h("ul", { class: "engines", "aria-label": "Engines" }, names.map(line));
+}
+
+/** The pictures that show most at a glance: a row in which the fast solver stands beside the others. */
+function firstPictures(report: Report): HTMLElement | null {
+  const rows = report.sections.flatMap((section) =>
+    section.picture_rows.map((row) => ({ id: section.id, row })),
+  );
+  const shows = (row: { pictures: { title: string }[] }): boolean =>
+    row.pictures.some((picture) => family(picture.title) === FIRST_ENGINE);
+  const chosen =
+    rows.find(({ id, row }) => id === FIRST_SCENE && row.title === AT_THE_END && shows(row)) ??
+    rows.find(({ row }) => row.title === AT_THE_END && shows(row)) ??
+    rows[0];
+  if (!chosen) return null;
+  return h(
+    "div",
+    { class: "first-pictures" },
+    renderPictureRow(`${chosen.id}: ${chosen.row.title.toLowerCase()}`, chosen.row.pictures),
+  );
+}
+
 function sentence(report: Report): string {
   const s = report.summary;
-  const gated = s.checks_passed + s.checks_failed;
+  const gated = gatedChecks(report);
+  const failed = s.checks_failed + s.checks_stale;
+  const known = s.checks_known > 0 ? `${s.checks_known} of ${count(gated, "check")} fail as known departures` : "";
+  const unknown = `${failed} of ${count(gated, "check")} ${failed === 1 ? "fails" : "fail"}`;
   const checks =
-    s.checks_failed === 0
-      ? `All ${count(gated, "check")} hold`
-      : `${s.checks_failed} of ${count(gated, "check")} ${s.checks_failed === 1 ? "fails" : "fail"}`;
+    failed > 0
+      ? [unknown, known && `${known} beside`].filter(Boolean).join(", ")
+      : known
+        ? `${count(s.checks_passed, "check holds", "checks hold")}, ${known}`
+        : `All ${count(gated, "check")} hold`;
   if (gated === 0) return "Nothing was gated: no number was compared with a bound.";
   if (s.sabotages === 0)
     return `${checks}. No sabotage was tried, so nothing shows that the checks can fail.`;
@@ -43,10 +105,11 @@ export function renderVerdict(report: Report): HTMLElement {
       "dl",
       { class: "tiles" },
       tile(
-        `${s.checks_passed} of ${s.checks_passed + s.checks_failed}`,
+        `${s.checks_passed} of ${gatedChecks(report)}`,
         "checks pass",
-        s.checks_failed > 0 ? "bad" : "",
+        s.checks_failed + s.checks_stale > 0 ? "bad" : "",
       ),
+      s.checks_known > 0 && tile(String(s.checks_known), "fail, known departures"),
       tile(
         `${s.sabotages_detected} of ${s.sabotages}`,
         "sabotages noticed",
@@ -55,6 +118,8 @@ export function renderVerdict(report: Report): HTMLElement {
       tile(String(s.checks_not_gated), "measured, not gated"),
       tile(`${flags("tight")} / ${flags("loose")}`, "tight / loose bounds"),
     ),
+    firstPictures(report),
+    engineLines(report),
   );
 }
 
@@ -77,6 +142,7 @@ function failure(check: Check, sections: Map<string, string>): HTMLElement {
       "dl",
       { class: "facts" },
       fact(check.metric, measured(check)),
+      fact("compared", comparedValues(check)),
       fact("allowed", allowed(check)),
       fact("measured / allowed", ratioBar(check)),
       fact("basis", basis(check)),
