@@ -111,7 +111,7 @@ void ImplicitSolver<Scalar>::factorise_bodies() {
     for (int k = 0; k < 6 && !linked_blocks_.empty(); ++k) {
       body.correction = Floats6::Unit(k);
       add_motions(&Body::correction, correction);
-      forces_.multiply(linked_blocks_, inertia_, correction, correction_product_);
+      forces_.multiply(linked_blocks_, system_inertia_, correction, correction_product_);
       body.correction_product = body.inertia.col(k);
       gather_of(static_cast<int>(b), correction_product_, body.correction_product);
       stiffness.col(k) = body.correction_product;

@@ -1,13 +1,10 @@
 // What keeps a step from gaining energy or momentum, however badly it has converged.
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 #include <weft/fast_solver/implicit_solver.hpp>
 
 namespace weft::fast {
 namespace {
-int g_desc=0; struct P{~P(){ if(getenv("DBG")) fprintf(stderr,"descends %d\n",g_desc);} } g_p;
 
 /// Of a step that is taken at least.
 constexpr double kSmallestShare = 0.1;
@@ -76,11 +73,12 @@ double ImplicitSolver<Scalar>::energy_of_holds(const StepProblem<Scalar>& proble
     const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
     const Vector3<Scalar> friction = friction_.col(i).template cast<Scalar>();
     Vector3<Scalar> slip = at_node(places, i) - at_node(starts_, i) - contact.motion;
-    if (contact.body >= 0) {
-      slip -= motion_at(bodies_[at(contact.body)].*motion, contact.arm);
-    } else {
-      sum -= static_cast<double>(friction.dot(contact.motion));
+    if (contact.body < 0) {
+      slip -= contact.normal.dot(slip) * contact.normal;
+      sum += 0.5 * static_cast<double>(drag_[i] * slip.squaredNorm());
+      continue;
     }
+    slip -= motion_at(bodies_[at(contact.body)].*motion, contact.arm);
     sum -= static_cast<double>(std::min(Scalar(0), friction.dot(slip)));
   }
   return sum;
@@ -123,7 +121,6 @@ void ImplicitSolver<Scalar>::descend(const StepProblem<Scalar>& problem, int ite
   const double most = energy(problem, unmoved_, &Body::unmoved) + slack;
   const double reached = energy(problem, places_, &Body::motion);
   if (reached <= most) return;
-  if (getenv("DBG")) fprintf(stderr, "desc excess/step %.3g excess %.3g conv %d held %zu\n", (reached-most+slack)/step_energy_, reached-most+slack, is_converged_, held_.size());
   const auto goes_up = [&] { return !(energy(problem, places_, &Body::motion) <= most); };
   if (!(reached <= most + kFarUp * step_energy_)) go_back();
   forces_.set_least_across(1);

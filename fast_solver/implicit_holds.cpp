@@ -13,6 +13,9 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
+/// [N/m] Of a node that moves: what keeps a quotient finite.
+constexpr double kLeastInertia = 1e-30;
+
 /// The part along the normal, of one node's vector.
 void take_away(const Vector3<float>& normal, NodeArrays<float>& vectors, int node) {
   vectors.row(node) -= vectors.row(node).dot(normal) * normal.transpose();
@@ -124,14 +127,45 @@ void ImplicitSolver<Scalar>::decide_hold(const PlaneContact<Scalar>& contact, bo
   holds_[at(i)] = sticks ? Hold::kFixed : Hold::kOnPlane;
   normals_.col(i) = normal.template cast<float>();
   friction_.col(i).setZero();
-  if (!sticks) friction_.col(i) = (-(most / size) * tendency).template cast<float>();
+  drag_[i] = 0;
+  if (sticks) return;
+  if (contact.body >= 0) {
+    friction_.col(i) = (-(most / size) * tendency).template cast<float>();
+    return;
+  }
+  // Friction that slides is solved for as a drag that has Coulomb's size at the slip that is expected: unlike a constant force
+  // it never drives a node, however wrong the pressure still is.
+  const Scalar slipped = (slip - normal.dot(slip) * normal).norm();
+  const Scalar expected =
+      std::max(slipped, (size - most) / std::max(inertia, Scalar(kLeastInertia)));
+  drag_[i] = expected > 0 ? most / expected : Scalar(0);
+  set_friction(contact);
+}
+
+// Of a node that slides on what does not give way, at its present place.
+template <class Scalar>
+void ImplicitSolver<Scalar>::set_friction(const PlaneContact<Scalar>& contact) {
+  const int i = contact.node;
+  Vector3<Scalar> slip = at_node(places_, i) - at_node(starts_, i) - contact.motion;
+  slip -= contact.normal.dot(slip) * contact.normal;
+  friction_.col(i) = (-drag_[i] * slip).template cast<float>();
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::update_friction(const StepProblem<Scalar>& problem) {
+  for (const int i : held_) {
+    if (contact_of_[at(i)] < 0 || holds_[at(i)] != Hold::kOnPlane) continue;
+    const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
+    if (contact.body < 0) set_friction(contact);
+  }
 }
 
 // What the rounding of places makes of the forces of stiff springs [N].
 template <class Scalar>
 Scalar ImplicitSolver<Scalar>::rounding_of_force(int node) const {
   constexpr Scalar kRoundings = 8;
-  const Scalar stiffness = Scalar(forces_.diagonal_blocks().row(node).template head<3>().maxCoeff());
+  const Scalar stiffness =
+      Scalar(forces_.diagonal_blocks().row(node).template head<3>().maxCoeff());
   return kRoundings * std::numeric_limits<Scalar>::epsilon() * stiffness *
          at_node(places_, node).cwiseAbs().maxCoeff();
 }
@@ -185,6 +219,7 @@ void ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
     contact_of_[at(i)] = static_cast<int>(c);
     normals_.col(i) = contact.normal.template cast<float>();
     friction_.col(i).setZero();
+    drag_[i] = 0;
     held_.push_back(i);
   }
 }

@@ -50,14 +50,16 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
   for (auto* holds : {&holds_, &held_before_}) {
     holds->assign(static_cast<std::size_t>(num_rows), Hold::kFree);
   }
-  for (Nodes* vectors :
-       {&targets_, &starts_, &places_, &unbalanced_, &holding_forces_, &unmoved_, &last_places_, &remainders_}) {
+  for (Nodes* vectors : {&targets_, &starts_, &places_, &unbalanced_, &holding_forces_, &unmoved_,
+                         &last_places_, &remainders_}) {
     vectors->setZero(num_rows, 3);
   }
   for (Matrix3X<Scalar>* vectors : {&more_places_, &more_forces_}) vectors->setZero(3, n);
   masses_.setZero(num_rows);
   masses_.head(n) = masses.cast<Scalar>();
   inertia_.setZero(num_rows);
+  system_inertia_.setZero(num_rows);
+  drag_.setZero(n);
   weights_.setZero(num_rows);
   if (blocks_.rows() == num_rows) return;  // the others keep no number from one step to the next
   blocks_.setZero(num_rows, 6);

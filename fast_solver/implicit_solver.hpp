@@ -11,6 +11,7 @@
 #include <weft/fast_solver/direction_weights.hpp>
 #include <weft/fast_solver/linked_body.hpp>
 #include <weft/fast_solver/network_forces.hpp>
+#include <weft/fast_solver/newton_round.hpp>
 #include <weft/fast_solver/node_arrays.hpp>
 #include <weft/fast_solver/node_parts.hpp>
 #include <weft/fast_solver/solver_effort.hpp>
@@ -57,7 +58,6 @@ class ImplicitSolver {
     ThreadTeam alone;
     solve(problem, effort, places, alone);
   }
-  /// The same by a team.
   void solve(const StepProblem<Scalar>& problem, const SolverEffort& effort,
              Matrix3XRef<Scalar> places, ThreadTeam& team);
 
@@ -124,6 +124,9 @@ class ImplicitSolver {
   void evaluate_step_forces();
   [[nodiscard]] double energy_of_step_forces(const Nodes& places);
   void decide_holds(const StepProblem<Scalar>& problem, bool is_first);
+  void set_friction(const PlaneContact<Scalar>& contact);
+  void update_friction(const StepProblem<Scalar>& problem);
+  void set_system_inertia();
   void decide_hold(const PlaneContact<Scalar>& contact, bool is_first);
   void list_held();
   [[nodiscard]] Scalar rounding_of_force(int node) const;
@@ -140,7 +143,6 @@ class ImplicitSolver {
   }
   [[nodiscard]] Vector3<Scalar> motion_with(int body, const Vector3<Scalar>& arm) const;
   [[nodiscard]] Vector3<Scalar> turned(int body, const Vector3<Scalar>& arm) const;
-  /// With the body's motion.
   [[nodiscard]] Vector3<Scalar> place_of(const LedNode<Scalar>& led) const;
   /// Adds each linked node's part of a motion of its body to its row.
   void add_motions(Floats6 Body::*motion, Floats& displacements) const;
@@ -156,12 +158,6 @@ class ImplicitSolver {
   void multiply(const Floats& displacements, Floats6 Body::*motion, Floats& product,
                 Floats6 Body::*body_product, const Next& and_then);
   void start_linear(const StepProblem<Scalar>& problem);
-  /// Twice an energy of the linear model [J]: what its solution takes away, and of that, what the last iterations did.
-  struct LinearGain {
-    double total = 0;
-    double left = 0;
-    bool is_broken = false;  ///< by rounding, before anything was found out
-  };
   [[nodiscard]] LinearGain solve_linear(const StepProblem<Scalar>& problem, int iterations,
                                         double least_gain);
   /// Of a correction c and the direction d before it, with their products: c . r, c . A d and c . A c.
@@ -169,23 +165,13 @@ class ImplicitSolver {
   [[nodiscard]] Overlaps precondition(Floats& correction, bool is_first);
   void sum_up(NodeRange nodes, bool keeps_direction);
   void move();
-  /// Of Newton's method.
-  struct Round {
-    int iterations;
-    bool is_first = false;    ///< of a step
-    bool decides = true;      ///< how contacts hold nodes
-    bool linearises = true;   ///< for another round
-    bool factorises = false;  ///< makes the coarse correction anew
-    double least_gain = 0;    ///< of an iteration that another one follows [J]
-  };
-  void do_round(const StepProblem<Scalar>& problem, const Round& round);
+  void do_round(const StepProblem<Scalar>& problem, const NewtonRound& round);
   void iterate(const StepProblem<Scalar>& problem, const SolverEffort& effort);
   void remember_places();
   void recall_places();
   /// What an implicit step minimises [J].
   [[nodiscard]] double energy(const StepProblem<Scalar>& problem, const Nodes& places,
                               Vector6 Body::*motion);
-  /// What a part of the nodes adds to it.
   [[nodiscard]] double energy_of(NodeRange nodes, const Nodes& places) const;
   [[nodiscard]] double energy_of_holds(const StepProblem<Scalar>& problem, const Nodes& places,
                                        Vector6 Body::*motion) const;
@@ -198,7 +184,6 @@ class ImplicitSolver {
   /// Of the forces that are left with the step, at nodes with a hold [J].
   [[nodiscard]] double work_of_held(std::size_t num_held) const;
   void find_holding_forces();
-  /// Norm of the forces that nothing balances [N].
   [[nodiscard]] double left_over();
   /// A shift of all nodes [m]; bodies are shifted already.
   [[nodiscard]] std::optional<Vector3<Scalar>> find_balance(const StepProblem<Scalar>& problem);
@@ -220,6 +205,9 @@ class ImplicitSolver {
   std::vector<Body> bodies_;
   std::vector<int> linked_blocks_;  ///< of nodes
   VectorX<float> inertia_;          ///< m / h'^2 [N/m]; 0 for pinned nodes; filled up with zeros
+  VectorX<float> system_inertia_;   ///< the same with the drag of friction
+  bool has_drag_ = false;           ///< system_inertia_ differs
+  VectorX<Scalar> drag_;            ///< of each sliding node [N/m]
   VectorX<Scalar> weights_;         ///< the same in Scalar
   // Of the present problem [m].
   Nodes targets_;
@@ -229,7 +217,7 @@ class ImplicitSolver {
   Nodes holding_forces_;
   Nodes remainders_;
   Nodes unmoved_;
-  Nodes last_places_;  ///< of the round before
+  Nodes last_places_;             ///< of the round before
   Matrix3X<Scalar> more_places_;  ///< as StepForces take them
   Matrix3X<Scalar> more_forces_;
   std::vector<Hold> holds_;        ///< of each node, filled up

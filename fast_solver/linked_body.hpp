@@ -37,9 +37,9 @@ struct LinkedBody {
   using Floats6 = Eigen::Matrix<float, 6, 1>;
   using Matrix6 = Eigen::Matrix<float, 6, 6>;
 
-  Vector6 motion = Vector6::Zero();   ///< beyond that of the body left alone [m, rad]
+  Vector6 motion = Vector6::Zero();       ///< beyond that of the body left alone [m, rad]
   Vector6 last_motion = Vector6::Zero();  ///< of the round before
-  Vector6 unmoved = Vector6::Zero();  ///< the same where nothing has moved in the step
+  Vector6 unmoved = Vector6::Zero();      ///< the same where nothing has moved in the step
   Vector6 motion_alone = Vector6::Zero();
   Matrix6 inertia = Matrix6::Zero();  ///< over h^2
   Eigen::LLT<Matrix6> stiffness;      ///< with what is linked to it

@@ -273,7 +273,7 @@ class OnAPlane : public testing::Test {
     contact.motion = motion;
     const std::vector<PlaneContact<double>> contacts = {contact};
     Matrix3X<double> x = kTimeStep * velocity;
-    solver_.solve({y, q, kTimeStep, kTimeStep, contacts}, {2, 2}, x);
+    solver_.solve({y, q, kTimeStep, kTimeStep, contacts}, {12, 4}, x);
     return x;
   }
 

@@ -278,13 +278,15 @@ std::vector<SceneGate> fast_gates(const std::string& scene) {
   const bool has_air = scene == "hang" || scene == "wind_hover" || scene == "heavy_strip";
   const bool is_strip = scene == "heavy_strip";
   const double end = scene == "drape_sphere" ? 6.0 : 2.0;  // [s]
+  // A ball changes little of a cloth that has just met it: 0.16 % measured, 1.8 % without it.
+  const double bound = scene == "drape_sphere" ? 0.005 : 0.03;
   std::vector<SceneGate> gates;
   for (const EngineChoice& engine : {kWeft32, kWeft64}) {
     std::vector<Sabotage> mistakes{no_contact()};
     if (is_strip) mistakes = {damping_sign()};
     if (has_air && !is_strip) mistakes = {initial_velocity_unset()};
     gates.push_back(
-        near(engine, 0, kFirstHalfSecond, model_gap(0.03, kFastWhy), mistakes, kFastNote));
+        near(engine, 0, kFirstHalfSecond, model_gap(bound, kFastWhy), mistakes, kFastNote));
     if (!has_air && scene != "ball_on_cloth") {
       gates.push_back(stays_outside(engine, end, 0.02, kMarginWhy));
     }

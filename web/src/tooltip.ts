@@ -11,15 +11,7 @@ export function installTooltips(): void {
     shown = null;
     bubble.hidden = true;
   };
-  const show = (event: Event): void => {
-    const target = event.target instanceof Element ? event.target.closest<HTMLElement>("[data-tip]") : null;
-    if (target === shown) return;
-    hide();
-    if (!target) return;
-    shown = target;
-    bubble.textContent = target.dataset["tip"] ?? "";
-    bubble.hidden = false;
-    target.setAttribute("aria-describedby", "tooltip");
+  const place = (target: HTMLElement): void => {
     const at = target.getBoundingClientRect();
     const size = bubble.getBoundingClientRect();
     const margin = 8;
@@ -29,10 +21,26 @@ export function installTooltips(): void {
     bubble.style.left = `${Math.max(margin, left)}px`;
     bubble.style.top = `${Math.max(margin, top)}px`;
   };
+  const show = (event: Event): void => {
+    const target = event.target instanceof Element ? event.target.closest<HTMLElement>("[data-tip]") : null;
+    if (target === shown) return;
+    hide();
+    if (!target) return;
+    shown = target;
+    bubble.textContent = target.dataset["tip"] ?? "";
+    bubble.hidden = false;
+    target.setAttribute("aria-describedby", "tooltip");
+    place(target);
+  };
+  // What the keyboard reaches scrolls into view by itself: its bubble goes along.
+  const follow = (): void => {
+    if (shown && shown === document.activeElement) place(shown);
+    else hide();
+  };
   document.addEventListener("pointerover", show);
   document.addEventListener("focusin", show);
   document.addEventListener("focusout", hide);
-  document.addEventListener("scroll", hide, { capture: true, passive: true });
+  document.addEventListener("scroll", follow, { capture: true, passive: true });
   document.addEventListener("keydown", (event) => {
     if (event.key === "Escape") hide();
   });

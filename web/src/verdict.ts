@@ -60,7 +60,9 @@ function firstPictures(report: Report): HTMLElement | null {
   return h(
     "div",
     { class: "first-pictures" },
-    renderPictureRow(`${chosen.id}: ${chosen.row.title.toLowerCase()}`, chosen.row.pictures),
+    // No heading: this stands before the first section.
+    h("p", {}, h("b", {}, `${chosen.id}: ${chosen.row.title.toLowerCase()}`)),
+    renderPictureRow("", chosen.row.pictures),
   );
 }
 

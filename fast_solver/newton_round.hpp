@@ -1,0 +1,23 @@
+#pragma once
+
+namespace weft::fast {
+
+/// What a linear system of Newton's method gains, twice an energy of the linear model [J]: what its solution takes away, and
+/// of that, what the last iterations did, which tells how much is left.
+struct LinearGain {
+  double total = 0;
+  double left = 0;
+  bool is_broken = false;  ///< by rounding, before anything was found out
+};
+
+/// One round of Newton's method.
+struct NewtonRound {
+  int iterations;           ///< of conjugate gradients at most
+  bool is_first = false;    ///< of a step
+  bool decides = true;      ///< how contacts hold nodes
+  bool linearises = true;   ///< for another round
+  bool factorises = false;  ///< makes the coarse correction anew
+  double least_gain = 0;    ///< of an iteration that another one follows [J]
+};
+
+}  // namespace weft::fast
