@@ -242,11 +242,11 @@ bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
   return std::all_of(is_same.begin(), is_same.end(), [](bool same) { return same; });
 }
 
-// What does that work is not known: pins and anchors that lead, obstacles that move, other cloth.
+// What does that work is not known: pins and anchors that lead, obstacles that are led, other cloth.
 bool FastBody::gets_work_from_outside() const {
   if (!led_.empty()) return true;
   for (const RigidContact& contact : contacts_) {
-    if (contact.motion.length2() > 0 || movable(contact.object) != nullptr) return true;
+    if (contact.motion.length2() > 0 && movable(contact.object) == nullptr) return true;
   }
   return std::any_of(pins_.begin(), pins_.end(),
                      [&](int pin) { return places_.col(pin) != starts_.col(pin); });
@@ -257,7 +257,7 @@ bool FastBody::gets_work_from_outside() const {
 // until it comes out as motion. Solutions that stay as they are gain nothing and are not looked at.
 void FastBody::keep_energy(btScalar time_step) {
   if (gets_work_from_outside()) excess_ = 0;
-  if (!is_projected_ && excess_ == 0) return;
+  if (!is_projected_ && pushed_.empty() && excess_ == 0) return;
   if (weights_.cols() != places_.cols()) {
     weights_ = masses_.transpose().cast<btScalar>().replicate(3, 1);
   }
@@ -265,7 +265,7 @@ void FastBody::keep_energy(btScalar time_step) {
   const double given =
       energy_put_in({weights_, starts_, start_velocities_, predicted_, places_, time_step}, team_);
   const double now = kinetic_energy(weights_, velocities_, team_);
-  const double most = given + solver_->spring_energy(starts_, team_) - excess_ +
+  const double most = given - given_to_bodies_ + solver_->spring_energy(starts_, team_) - excess_ +
                       kEnergySlack * solver_->step_energy() -
                       solver_->spring_energy(places_, team_);
   if (now > most) limit_energy(weights_, most, pins_.empty(), velocities_, team_);

@@ -207,6 +207,7 @@ class FastBody {
   bool has_normals_ = false;         ///< of the places at the end of the present step
   bool is_placed_ = false;           ///< before end_solve()
   bool is_projected_ = false;        ///< out of what the solution let a node into
+  double given_to_bodies_ = 0;       ///< kinetic energy, in the present step [J]
   double excess_ = 0;                ///< energy in springs that projections have put in [J]
   bool is_contact_missing_ = false;  ///< in the present solution, for all that is known
   bool is_support_missing_ = false;  ///< likewise

@@ -32,6 +32,15 @@ Matrix3<btScalar> inertia_of(const btRigidBody& rigid) {
   return inverse.inverse();
 }
 
+/// [J]
+double kinetic_energy_of(const btRigidBody& rigid) {
+  const btVector3 turning =
+      rigid.getCenterOfMassTransform().getBasis().transpose() * rigid.getAngularVelocity();
+  const btVector3 inertia = rigid.getLocalInertia();
+  return 0.5 * (static_cast<double>(rigid.getLinearVelocity().length2() / rigid.getInvMass()) +
+                static_cast<double>(btDot(inertia * turning, turning)));
+}
+
 void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& place) {
   rigid.activate();
   rigid.applyImpulse(impulse, place - rigid.getCenterOfMassPosition());
@@ -280,6 +289,8 @@ void FastBody::give_impulses(btSoftBody& body, btScalar time_step) {
   for (const btRigidBody* const rigid : pushed_) {
     velocities_before_.emplace_back(rigid->getLinearVelocity(), rigid->getAngularVelocity());
   }
+  given_to_bodies_ = 0;
+  for (const btRigidBody* const rigid : pushed_) given_to_bodies_ -= kinetic_energy_of(*rigid);
   for (std::size_t b = 0; b < pushed_.size(); ++b) {
     const auto motion = solver_->body_motion(static_cast<int>(b));
     if (motion.isZero(0)) continue;
@@ -298,6 +309,7 @@ void FastBody::give_impulses(btSoftBody& body, btScalar time_step) {
     const btVector3 impulse = time_step * to_bullet(solver_->holding_force(node));
     push(*anchor.m_body, (1 - anchor.m_influence) * impulse, in_world(node));
   }
+  for (const btRigidBody* const rigid : pushed_) given_to_bodies_ += kinetic_energy_of(*rigid);
   for (std::size_t b = 0; b < pushed_.size(); ++b) {
     const bool touches = std::any_of(supports_.begin(), supports_.end(),
                                      [&](const Support& one) { return one.body == pushed_[b]; });
