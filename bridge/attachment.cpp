@@ -84,7 +84,7 @@ void SoftBodySolver::Attachment::predict(btScalar time_step) {
   const auto predict_fast = [&] { fast->predict(*body, time_step, positions, velocities); };
   const bool fits = masses().size() == body->m_nodes.size();  // if not, the laws say so
   if (fast && fits) {
-    FastBody::take_impulses(*body, time_step);
+    fast->take_impulses(*body, time_step);
     fast->set_laws(laws, masses());
   }
   if (fast && fits && !deferred.is_in_flight() && laws.is_node_by_node()) {

@@ -96,13 +96,16 @@ void FastBody::choose_origin(const btSoftBody& body) {
 
 void FastBody::take_impulses(btSoftBody& body, btScalar time_step) {
   const btScalar most = body.m_worldInfo->m_maxDisplacement / time_step;
+  impulses_.resize(3, 0);
   for (int i = 0; i < body.m_nodes.size(); ++i) {
     btSoftBody::Node& node = body.m_nodes[i];
     if (node.m_f.isZero()) continue;
+    if (impulses_.cols() == 0) impulses_.setZero(3, body.m_nodes.size());
     btVector3 change = node.m_f * (node.m_im * time_step);
     change.setMin(btVector3(most, most, most));  // as btSoftBody::predictMotion
     change.setMax(btVector3(-most, -most, -most));
     node.m_v += change;
+    impulses_.col(i) = from_bullet<btScalar>(change);
     node.m_f.setZero();
   }
 }
@@ -118,21 +121,12 @@ void FastBody::note_velocities(const btSoftBody& body) {
   });
 }
 
-// BDF2 takes a change of velocity between steps for the beginning of a trend, and makes 4/3 of it. A history that has had the
-// same velocity from the start counts it once: v' + dv and q' - h dv.
-void FastBody::follow_velocity_changes(btScalar time_step) {
-  if (left_velocities_.cols() != start_velocities_.cols() ||
-      last_velocities_.cols() != start_velocities_.cols()) {
-    return;
-  }
-  for_nodes([&](int begin, int count) {
-    for (int i = begin; i < begin + count; ++i) {
-      const Vector3<btScalar> change = start_velocities_.col(i) - left_velocities_.col(i);
-      if (change.isZero(0)) continue;
-      last_velocities_.col(i) += change;
-      last_starts_.col(i) -= time_step * change;
-    }
-  });
+// BDF2 takes a change of velocity between steps for the beginning of a trend, and makes 4/3 of it: such a step is implicit
+// Euler, which counts it once. The steps after it have a history that has had that velocity.
+bool FastBody::was_pushed() const {
+  if (impulses_.cols() > 0) return true;
+  return left_velocities_.cols() == start_velocities_.cols() &&
+         left_velocities_ != start_velocities_;
 }
 
 void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btScalar>& positions,
@@ -147,7 +141,6 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
     starts_.middleCols(begin, count) = positions.middleCols(begin, count).colwise() - origin_;
     start_velocities_.middleCols(begin, count) = velocities.middleCols(begin, count);
   });
-  follow_velocity_changes(time_step);
   contacts_.clear();
   obstacles_.clear();
   forget_supports();
@@ -228,7 +221,7 @@ void FastBody::set_free(const std::vector<bool>& is_free) {
 
 bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
   if (!settings_.is_second_order || last_step_ != time_step || !contacts_.empty() ||
-      body.m_scontacts.size() > 0 || places_.cols() != starts_.cols()) {
+      body.m_scontacts.size() > 0 || places_.cols() != starts_.cols() || was_pushed()) {
     return false;
   }
   // Somebody may have moved a node since.
@@ -257,7 +250,7 @@ bool FastBody::gets_work_from_outside() const {
 // until it comes out as motion. Solutions that stay as they are gain nothing and are not looked at.
 void FastBody::keep_energy(btScalar time_step) {
   if (gets_work_from_outside()) excess_ = 0;
-  if (!is_projected_ && pushed_.empty() && excess_ == 0) return;
+  if (solver_->is_converged() && !is_projected_ && pushed_.empty() && excess_ == 0) return;
   if (weights_.cols() != places_.cols()) {
     weights_ = masses_.transpose().cast<btScalar>().replicate(3, 1);
   }
@@ -400,6 +393,8 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
       of(targets_) = of(origins_) + inertia_step_ * of(predicted_);
     }
     of(places_) = of(starts_) + time_step * of(start_velocities_);
+    // Springs may hold back at once what a force would do alone.
+    if (impulses_.cols() > 0) of(places_) -= time_step * of(impulses_);
   });
   for (const int pin : pins_) {
     targets_.col(pin) = from_bullet<btScalar>(body.m_nodes[pin].m_x) - origin_;

@@ -89,7 +89,7 @@ class FastBody {
   }
 
   /// Forces that somebody else has added to m_f become velocities: impulses, which count once. Before the laws add theirs.
-  static void take_impulses(btSoftBody& body, btScalar time_step);
+  void take_impulses(btSoftBody& body, btScalar time_step);
   /// btSoftBody::predictMotion. positions and velocities: m_x [m] and m_v [m/s], 3 x n. Touches only the body, but not
   /// its entry in the broadphase: predictions of several bodies may run at the same time.
   void predict(btSoftBody& body, btScalar time_step, const Matrix3X<btScalar>& positions,
@@ -152,7 +152,7 @@ class FastBody {
   /// nodes. True if there are any.
   [[nodiscard]] bool find_missed_contacts(btSoftBody& body, btScalar time_step);
   void choose_origin(const btSoftBody& body);
-  void follow_velocity_changes(btScalar time_step);
+  [[nodiscard]] bool was_pushed() const;
   void read_prediction(const btSoftBody& body);
   [[nodiscard]] btVector3 in_world(int node) const;
   void write_places(btSoftBody& body);
@@ -200,6 +200,7 @@ class FastBody {
   // Of the step before.
   Matrix3X<btScalar> last_starts_;
   Matrix3X<btScalar> last_velocities_;
+  Matrix3X<btScalar> impulses_;         ///< of the present step, over masses [m/s]; empty: none
   Matrix3X<btScalar> left_velocities_;  ///< at its end, after damping
   btScalar inertia_step_ = 0;           ///< [s] of the present step
   btScalar last_step_ = 0;              ///< [s]; 0: no history

@@ -135,9 +135,11 @@ void ImplicitSolver<Scalar>::decide_hold(const PlaneContact<Scalar>& contact, bo
   }
   // Friction that slides is solved for as a drag that has Coulomb's size at the slip that is expected: unlike a constant force
   // it never drives a node, however wrong the pressure still is.
+  // Forces foretell the slip of a node alone; after that the motion so far does, which converges where they do not.
   const Scalar slipped = (slip - normal.dot(slip) * normal).norm();
+  const bool is_foretold = is_first || !(slipped > 0);
   const Scalar expected =
-      std::max(slipped, (size - most) / std::max(inertia, Scalar(kLeastInertia)));
+      is_foretold ? (size - most) / std::max(inertia, Scalar(kLeastInertia)) : slipped;
   drag_[i] = expected > 0 ? most / expected : Scalar(0);
   set_friction(contact);
 }

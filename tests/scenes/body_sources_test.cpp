@@ -1,9 +1,11 @@
+#include <filesystem>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <weft/custom_forces/core/hinges.hpp>
+#include <weft/custom_forces/core/input_file.hpp>
 #include <weft/scenes/mesh_text.hpp>
 #include <weft/scenes/scene_file.hpp>
 
@@ -116,7 +118,7 @@ orientation = { axis = [0, 0, 1], angle = "30 deg" }
 areal_density = "1/3 kg/m^2"
 pin = [{ part = "right" }]
 )";
-    return read_scene_text(text, name);
+    return read_scene_text(text, name, files_below(std::filesystem::path(name).parent_path()));
   };
   const Scene first = read_mesh("two_parts.obj");
   const ClothMesh mesh = make_mesh(first.cloths[0]);
@@ -140,7 +142,7 @@ TEST(BodySource, AStoredMeshThatIsDamagedIsRefused) {
       std::get<MeshBody>(
           read_scene_text(
               std::string(kHead) + "mesh = { file = \"tetrahedron.ply\" }\nmass = \"1 kg\"\n",
-              std::string(WEFT_SOURCE_DIR) + "/tests/scenes/import/good/scene.toml")
+              "scene.toml", files_below(std::string(WEFT_SOURCE_DIR) + "/tests/scenes/import/good"))
               .cloths[0]
               .source)
           .shape->surface;

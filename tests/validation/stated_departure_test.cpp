@@ -10,7 +10,7 @@ namespace weft::validation {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr StatedDeparture kRows[] = {{"swing", "bullet_weft float32", "energy", 0.5},
+constexpr MotionDeparture kRows[] = {{"swing", "bullet_weft float32", "energy", 0.5},
                                      {"swing", "bullet_weft float32", "turn", kNaN}};
 
 CheckResult check_of(const std::string& metric, double measured) {
@@ -23,7 +23,7 @@ CheckResult check_of(const std::string& metric, double measured) {
   return check;
 }
 
-TEST(StatedDeparture, ChecksWithoutARowAreJudgedAsAlways) {
+TEST(MotionDeparture, ChecksWithoutARowAreJudgedAsAlways) {
   Report report;
   CheckResult good = check_of("other", 0.05);
   judge_departing(good, kRows, "why", report);
@@ -34,7 +34,7 @@ TEST(StatedDeparture, ChecksWithoutARowAreJudgedAsAlways) {
   EXPECT_TRUE(report.departures.empty());
 }
 
-TEST(StatedDeparture, AKnownOneIsShownAndDoesNotFail) {
+TEST(MotionDeparture, AKnownOneIsShownAndDoesNotFail) {
   Report report;
   CheckResult check = check_of("energy", 0.6);
   judge_departing(check, kRows, "why", report);
@@ -44,7 +44,7 @@ TEST(StatedDeparture, AKnownOneIsShownAndDoesNotFail) {
   EXPECT_NE(report.departures[0].measured.find("0.6"), std::string::npos);
 }
 
-TEST(StatedDeparture, OneThatNoLongerOccursIsStaleAndFails) {
+TEST(MotionDeparture, OneThatNoLongerOccursIsStaleAndFails) {
   Report report;
   CheckResult check = check_of("energy", 0.05);
   judge_departing(check, kRows, "why", report);
@@ -52,7 +52,7 @@ TEST(StatedDeparture, OneThatNoLongerOccursIsStaleAndFails) {
   EXPECT_NE(check.note.find("stale"), std::string::npos);
 }
 
-TEST(StatedDeparture, OneThatHasGrownFails) {
+TEST(MotionDeparture, OneThatHasGrownFails) {
   Report report;
   for (const double measured : {5.1, kNaN}) {
     CheckResult check = check_of("energy", measured);
@@ -62,14 +62,14 @@ TEST(StatedDeparture, OneThatHasGrownFails) {
   EXPECT_TRUE(report.departures.empty());
 }
 
-TEST(StatedDeparture, ABlowUpMayBeStated) {
+TEST(MotionDeparture, ABlowUpMayBeStated) {
   Report report;
   CheckResult check = check_of("turn", kNaN);
   judge_departing(check, kRows, "why", report);
   EXPECT_EQ(check.verdict, Verdict::kInfo);
 }
 
-TEST(StatedDeparture, NeedsATolerance) {
+TEST(MotionDeparture, NeedsATolerance) {
   Report report;
   CheckResult check = check_of("energy", 0.6);
   check.tolerance.reset();

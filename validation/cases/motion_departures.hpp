@@ -8,7 +8,7 @@ namespace weft::validation {
 
 /// What the fast solver is known to do wrong in motion, in contact and at rest (swing, impacts, rest): each row with its figure. A row that no longer
 /// holds fails its check and must be taken out.
-[[nodiscard]] std::span<const StatedDeparture> motion_departures();
+[[nodiscard]] std::span<const MotionDeparture> motion_departures();
 
 inline constexpr const char* kMotionReason =
     "an unconverged step is drawn back towards its start or has its velocity taken, and contact "

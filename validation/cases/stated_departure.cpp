@@ -9,14 +9,14 @@
 
 namespace weft::validation {
 
-void judge_departing(CheckResult& check, std::span<const StatedDeparture> stated,
+void judge_departing(CheckResult& check, std::span<const MotionDeparture> stated,
                      const std::string& reason, Report& report) {
   if (!check.tolerance) {
     throw InvalidArgument(fmt::format("departures: check '{}' of {} has no tolerance, expected one",
                                       check.metric, check.case_id));
   }
   check.verdict = judge(check.measured, *check.tolerance);
-  const auto row = std::find_if(stated.begin(), stated.end(), [&](const StatedDeparture& d) {
+  const auto row = std::find_if(stated.begin(), stated.end(), [&](const MotionDeparture& d) {
     return d.case_id == check.case_id && d.engine == check.engine && d.metric == check.metric;
   });
   if (row == stated.end()) return;

@@ -9,7 +9,7 @@
 namespace weft::validation {
 
 /// A check that an engine is known to fail, with the figure that it had when this was written down.
-struct StatedDeparture {
+struct MotionDeparture {
   std::string_view case_id;
   std::string_view engine;  ///< title, "bullet_weft float32"
   std::string_view metric;  ///< of the check
@@ -28,7 +28,7 @@ inline constexpr double kDepartureGrowth = 10.0;
 ///   a row, kDepartureGrowth times it   kFail: it has become worse
 ///
 /// Throws InvalidArgument for a check without a tolerance.
-void judge_departing(CheckResult& check, std::span<const StatedDeparture> stated,
+void judge_departing(CheckResult& check, std::span<const MotionDeparture> stated,
                      const std::string& reason, Report& report);
 
 }  // namespace weft::validation
