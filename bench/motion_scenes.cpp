@@ -24,7 +24,7 @@ using validation::MotionScene;
 
 const std::filesystem::path kTruthFile = WEFT_SOURCE_DIR "/bench/truth/motion_scenes.csv";
 
-/// What is right, by "scene,figure".
+/// The right figures, by "scene,figure".
 std::map<std::string, double> read_truths() {
   std::ifstream file(kTruthFile);
   std::map<std::string, double> truths;

@@ -25,7 +25,7 @@ inline constexpr double kSwingEnd = 3.0;  // [s]
 [[nodiscard]] std::vector<SwingSheet> swing_sheets();
 [[nodiscard]] std::vector<double> swing_stiffnesses();  ///< [N/m]
 
-/// What is stored of a run that is right.
+/// The stored figures of a right run.
 struct SwingTruth {
   double first_energy = 0;  ///< mean kinetic energy to 1 s [J]
   double later_energy = 0;  ///< from 1 to 3 s [J]
@@ -36,7 +36,7 @@ struct SwingTruth {
       0;  ///< what the equations of its steps lack, RMS over nodes and steps, over m g [-]; exact: 0
 };
 
-/// Of one sheet and stiffness: the step of 1/60 s solved by the fast solver with very many iterations, and explicit integration in short steps.
+/// The runs of one sheet and stiffness: the step of 1/60 s solved by the fast solver with very many iterations, and explicit integration in short steps.
 struct SwingTruths {
   SwingTruth converged;
   std::optional<SwingTruth> exact;

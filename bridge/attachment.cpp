@@ -77,7 +77,7 @@ void SoftBodySolver::Attachment::predict(btScalar time_step) {
   follow_masses();
   if (blow_up) return;
   if (fast) {
-    // What attach_fast() refuses, and the program has done since.
+    // The program may have done since what attach_fast() refuses.
     if (auto reason = FastBody::obstacle(*body))
       return stop("it cannot be fast any more: " + *reason);
   }

@@ -96,7 +96,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     const double left = last_gain_.left + last_gain_.total * limited / (1 - limited);
     num_stalled = !are_holds_new && !(shrinks < kStalled) ? num_stalled + 1 : 0;
     const bool is_solved = left <= asked && !last_gain_.is_broken;
-    const bool is_over = is_solved || num_stalled == kMostStalled;
+    const bool is_over = is_solved || (num_stalled >= kMostStalled && effort.tolerance > 0);
     // With these contacts. Whether they are the right ones is asked of a solution: on the way there forces say little.
     const bool can_decide = has_contacts && num_decisions < kMostDecisions;
     is_converged_ = is_solved && (!has_contacts || (decides && !are_holds_new) || !can_decide);
