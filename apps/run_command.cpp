@@ -140,8 +140,8 @@ struct Recorded {
 
 Recorded record(const scenes::Scene& scene, const scenes::EngineInfo& engine, int threads,
                 scenes::RecordingWriter& writer) {
-  const std::unique_ptr<scenes::Simulator> simulator = engine.make();
   ProgressBar progress(scene.name);
+  const std::unique_ptr<scenes::Simulator> simulator = engine.make();
   const Interruption interruption;
   Recorded recorded;
   const auto run = [&] {

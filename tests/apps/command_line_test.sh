@@ -112,6 +112,19 @@ check "reference: no folder for its output" exits 2 reference hang -o /no/such/f
 check "reference: a gate that is out of reach" exits 1 reference hang --time "0.005 s" --levels 3 --gate 1e-15 -o r.json
 check "its order is there all the same" grep -q '"observed_order": [12]' r.json
 check "impossible output" exits 2 "${short[@]}" -o /no/such/folder/a.weftrec
+for length in 238 247 250; do  # too long with .partial, .lock or .weftrec
+  name=$(printf 'a%.0s' $(seq $length))
+  check "a name of $length characters" exits 2 "${short[@]}" -o "$name.weftrec"
+  check "one line about it" test "$(wc -l <err)" -eq 1
+  check "which says why" grep -q "weft: $name.*: File name too long" err
+done
+check "no file of that name" test -z "$(find . -name 'aaa*')"
+for command in "run hang -o" "run hang --trace" "render a.weftrec -o" "contact-sheet a.weftrec -o" "reference hang -o" \
+  "contact-table -o" "validate oscillator -o" "stability hang -o" "run hang --duration" "check" "info"; do
+  # shellcheck disable=SC2086
+  check "$command ''" exits 2 $command ""
+  check "$command '': says so" grep -q "is empty, expected a text" err
+done
 
 # The one rule for outputs: nothing of another kind is written over, and no link, folder, device or pipe
 echo "my notes" >notes
