@@ -342,7 +342,7 @@ void FastBody::solve(btSoftBody& body, btScalar time_step, const fast::SolverEff
                      bool is_again) {
   read_constraints(body, time_step, is_again);
   solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, led_, inertias_,
-                  bending_.empty() ? nullptr : &bending_},
+                  bending_.empty() ? nullptr : &bending_, is_again},
                  effort, places_, team_);
   remember_ways();
 }
