@@ -24,17 +24,6 @@ constexpr double kEnergySlack = 0.01;
 /// [m] Places are counted from a multiple of this near the body.
 constexpr btScalar kOriginGrid = btScalar(0.25);
 constexpr btScalar kFarFromOrigin = 2;  // [m] from which on another one is chosen
-/// Of the margin: an object that is farther from where a contact took it to come has met something since. Gravity alone is left
-/// to the next step: to follow it would be a little more exact, and give a box on anchors some energy in each of its swings.
-constexpr btScalar kSurpriseShare = btScalar(0.1);
-
-/// Bullet tells of one obstacle after the other. What does not move before the solution can be looked at then, when
-/// several bodies can at the same time.
-bool can_wait(const Obstacle& obstacle) {
-  return movable(obstacle.object) == nullptr &&
-         !needs_distance_field(*obstacle.shape, obstacle.facets);
-}
-
 void include_in_bounds(const Matrix3X<btScalar>& positions, btSoftBody& body) {
   body.m_bounds[0].setMin(to_bullet(positions.rowwise().minCoeff()));
   body.m_bounds[1].setMax(to_bullet(positions.rowwise().maxCoeff()));
@@ -193,10 +182,8 @@ void FastBody::publish_bounds(btSoftBody& body) {
 void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& object,
                        HullTable& hulls, btScalar time_step) {
   if ((body.m_cfg.collisions & btSoftBody::fCollision::SDF_RS) == 0) return;
-  obstacles_.push_back({object.getCollisionObject(), object.getCollisionShape(),
-                        object.getWorldTransform(), hulls.find(*object.getCollisionShape()),
-                        static_cast<int>(obstacles_.size())});
-  if (!can_wait(obstacles_.back())) find_contacts(body, obstacles_.back(), time_step, contacts_);
+  obstacles_.push_back(make_obstacle(object, hulls.find(*object.getCollisionShape()),
+                                     static_cast<int>(obstacles_.size()), time_step));
 }
 
 void FastBody::prepare_solver(const btSoftBody& body) {
@@ -285,7 +272,7 @@ void FastBody::write_places(btSoftBody& body) {
 
 void FastBody::project_cloth_contacts(btSoftBody& body) {
   if (body.m_scontacts.size() > 0) btSoftBody::PSolve_SContacts(&body, 1, 0);
-  stay_outside(body, false);
+  stay_outside(body);
 }
 
 // What has moved nodes since they were put to their places: other cloth.
@@ -334,7 +321,6 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
     places.colwise() += origin_;
     places.colwise() -= origin_;
   });
-  stay_outside(body, true);
   const bool met_something = !contacts_.empty() || meets_cloth;
   last_step_ = met_something ? btScalar(0) : time_step;
 }
@@ -356,7 +342,7 @@ void FastBody::solve(btSoftBody& body, btScalar time_step, const fast::SolverEff
                      bool is_again) {
   read_constraints(body, time_step, is_again);
   solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, led_, inertias_,
-                  bending_.empty() ? nullptr : &bending_},
+                  bending_.empty() ? nullptr : &bending_, is_again},
                  effort, places_, team_);
   remember_ways();
 }
@@ -367,14 +353,18 @@ void FastBody::prepare(const btSoftBody& body) {
   prepare_solver(body);
 }
 
+void FastBody::detect_contacts(const btSoftBody& body, btScalar time_step) {
+  const TraceScope trace("detect contacts");
+  const fast::ThreadTeam::Scope scope(team_, team_size());
+  follow_obstacles(false);
+  for (const Obstacle& obstacle : obstacles_) find_contacts(body, obstacle, time_step, contacts_);
+}
+
 void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
                            std::span<const btRigidBody* const> pushed) {
   const TraceScope trace("fast body");
   const fast::ThreadTeam::Scope scope(team_, team_size());
   all_pushed_.assign(pushed.begin(), pushed.end());
-  for (const Obstacle& obstacle : obstacles_) {
-    if (can_wait(obstacle)) find_contacts(body, obstacle, time_step, contacts_);
-  }
   // Bullet has predicted velocities v + h a; what it would do to nodes without springs.
   const bool uses_history = may_use_history(body, time_step);
   inertia_step_ = uses_history ? time_step * 2 / 3 : time_step;
@@ -400,14 +390,13 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
     targets_.col(pin) = from_bullet<btScalar>(body.m_nodes[pin].m_x) - origin_;
   }
   if (!bending_.empty()) bending_.begin_step(starts_);
-  const btScalar least_surprise = kSurpriseShare * body.getCollisionShape()->getMargin();
-  for (RigidContact& contact : contacts_) follow_object(contact, time_step, least_surprise);
   solve(body, time_step, settings_.effort, false);
 }
 
 void FastBody::look_again(btSoftBody& body, btScalar time_step) {
   const TraceScope trace("look again");
   const fast::ThreadTeam::Scope scope(team_, team_size());
+  follow_obstacles(true);
   is_contact_missing_ = find_missed_contacts(body, time_step);
   is_support_missing_ = are_supports_wrong(time_step);
 }

@@ -16,6 +16,7 @@
 #include <weft/bridge/precision.hpp>
 #include <weft/bridge/rigid_contacts.hpp>
 #include <weft/bridge/rigid_motion.hpp>
+#include <weft/bridge/rigid_parts.hpp>
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
 #include <weft/fast_solver/implicit_solver.hpp>
@@ -60,8 +61,11 @@ class FastBody {
   }
   /// That may work on this body at a time, with the one that calls.
   void set_num_threads(int num_threads) { num_threads_ = num_threads; }
-  /// They stay as long as the result exists: between the parts of a solve too.
+  /// They stay as long as the scope has them: between the stages of a step too.
   [[nodiscard]] fast::ThreadTeam::Scope hold_threads() { return {team_, team_size()}; }
+  void hold_threads(std::optional<fast::ThreadTeam::Scope>& scope) {
+    scope.emplace(team_, team_size());
+  }
 
   /// work(first node, number of nodes) for each part of the nodes, by them.
   template <class Work>
@@ -103,7 +107,21 @@ class FastBody {
   [[nodiscard]] bool is_predicted() const { return is_predicted_; }
   /// Appends the rigid bodies that this one may push in this step, each once.
   void list_pushed(const btSoftBody& body, std::vector<const btRigidBody*>& list) const;
-  /// In place of btSoftBody::solveConstraints, in parts. prepare(), begin_solve(), solve_again() and end_solve() change only the
+  /// Whether detect_contacts() and look_again() touch only the body too.
+  [[nodiscard]] bool looks_alone() const;
+  /// After prepare(), once Bullet has moved rigid bodies.
+  void detect_contacts(const btSoftBody& body, btScalar time_step);
+  /// In how many parts the step is to be taken, after detect_contacts(): in one the surface of a dynamic body that comes far
+  /// would have turned away from the nodes that it meets.
+  [[nodiscard]] int num_parts(const btSoftBody& body) const;
+  /// Appends the dynamic bodies that this one is near to or hangs on, each once.
+  void list_dynamic(const btSoftBody& body, std::vector<btRigidBody*>& list) const;
+  /// Around all parts; each is then a step of its own, from detect_contacts() to end_solve().
+  void begin_parts(const btSoftBody& body, btScalar time_step);
+  void begin_part(btSoftBody& body, const RigidParts& rigid, int part, int num_parts,
+                  btScalar part_step);
+  void end_parts(btSoftBody& body, btScalar time_step);
+  /// In place of btSoftBody::solveConstraints. prepare(), begin_solve(), solve_again() and end_solve() change only the
   /// body, so that those of several bodies may run at the same time; place() pushes and moves rigid bodies.
   /// pushed: those of all bodies, in order. Each of several that push one rigid body has a part of its inertia: they are
   /// solved apart, and each alone would stop it.
@@ -114,8 +132,6 @@ class FastBody {
   /// whether it found any.
   void look_again(btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool is_unfinished() const { return is_contact_missing_ || is_support_missing_; }
-  /// Whether look_again() touches only the body too.
-  [[nodiscard]] bool looks_alone() const;
   void solve_again(btSoftBody& body, btScalar time_step,
                    std::span<const btRigidBody* const> pushed);
   /// Writes the solution to m_x, if anybody looks at it before end_solve(). Contacts with cloth are projected then, over all bodies, as often as
@@ -147,6 +163,10 @@ class FastBody {
   void prepare_solver(const btSoftBody& body);
   void set_free(const std::vector<bool>& is_free);
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
+  void list_known(const btSoftBody& body);
+  [[nodiscard]] RigidContact* known_contact(const RigidContact& found);
+  void follow_obstacles(bool to_solution);
+  [[nodiscard]] btTransform solved_place(const btRigidBody& rigid) const;
   void find_contacts(const btSoftBody& body, const Obstacle& obstacle, btScalar time_step,
                      std::vector<RigidContact>& contacts);
   /// Contacts that the solution would need, and that nobody looked for where Bullet had predicted the
@@ -170,11 +190,9 @@ class FastBody {
   void give_impulses(btSoftBody& body, btScalar time_step);
   void keep_out_of_missed(btSoftBody& body, btScalar time_step);
   void leave_depths();
-  void stay_outside(btSoftBody& body, bool of_movable) const;
+  void stay_outside(btSoftBody& body) const;
   [[nodiscard]] bool gets_work_from_outside() const;
   void keep_energy(btScalar time_step);
-  [[nodiscard]] btVector3 motion_since_solution(const btRigidBody& rigid,
-                                                const btVector3& place) const;
 
   BendingForces bending_;
   fast::SpringNetwork network_;  ///< until solver_ has it
@@ -198,6 +216,10 @@ class FastBody {
   Matrix3X<btScalar> targets_;           ///< y [m]
   Matrix3X<btScalar> places_;            ///< solution [m]
   Matrix3X<btScalar> velocities_;        ///< solution [m/s]
+  // Of the whole step, while it is taken in parts.
+  Matrix3X<btScalar> whole_starts_;    ///< [m]
+  Matrix3X<btScalar> accelerations_;   ///< without springs [m/s^2]
+  std::vector<btVector3> pin_places_;  ///< of pins_, at the end [m]
   // Of the step before.
   Matrix3X<btScalar> last_starts_;
   Matrix3X<btScalar> last_velocities_;

@@ -48,6 +48,8 @@ void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& place) 
 
 /// Of the margin: how far below its plane a node may end a step.
 constexpr btScalar kDepthShare = btScalar(0.5);
+/// Of the margin: by how much a plane may be wrong where the node has come to.
+constexpr btScalar kPlaneShare = btScalar(0.02);
 /// [m] How near to a rigid object a body touches it.
 constexpr btScalar kTouch = btScalar(1e-3);
 /// [m/s^2] From which acceleration on it is pushed into it.
@@ -61,50 +63,99 @@ void FastBody::find_contacts(const btSoftBody& body, const Obstacle& obstacle, b
   add_rigid_contacts(body, ways_, obstacle, time_step, PinnedNodes::kLeftOut, contacts, &team_);
 }
 
-// Those that are known again, and those that the solution keeps to anyway, are left out.
-bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
-  deep_.clear();
-  if (obstacles_.empty()) return false;
-  const std::size_t num_known = contacts_.size();
-  write_places(body);
-  found_.clear();
-  ways_.outdate();
-  for (const Obstacle& obstacle : obstacles_) find_contacts(body, obstacle, time_step, found_);
-  const btScalar depth = kDepthShare * body.getCollisionShape()->getMargin();
-  std::erase_if(found_, [&](const RigidContact& found) {
-    const btScalar gap = btDot(found.normal, body.m_nodes[found.node].m_x) - found.offset;
-    if (gap < -depth && movable(found.object) == nullptr) deep_.push_back(found);
-    return gap >= 0;
-  });
-  if (found_.empty()) return false;
+// Where a rigid body is at the end of the step: as Bullet has moved it, and as the last solution moves it further.
+btTransform FastBody::solved_place(const btRigidBody& rigid) const {
+  btTransform place = rigid.getCenterOfMassTransform();
+  const RigidWay way = way_of(rigid);
+  if (way.isZero(0)) return place;
+  place.setOrigin(place.getOrigin() + to_bullet(way.head<3>().eval()));
+  const btScalar angle = way.tail<3>().norm();
+  if (angle > 0) {
+    const btVector3 axis = to_bullet((way.tail<3>() / angle).eval());
+    place.setBasis(btMatrix3x3(btQuaternion(axis, angle)) * place.getBasis());
+  }
+  return place;
+}
+
+void FastBody::follow_obstacles(bool to_solution) {
+  for (Obstacle& obstacle : obstacles_) {
+    const btRigidBody* const rigid = movable(obstacle.object);
+    if (rigid == nullptr) continue;
+    const btTransform end = to_solution ? solved_place(*rigid) : rigid->getCenterOfMassTransform();
+    obstacle.motion = end * obstacle.object_place.inverse();
+  }
+}
+
+// The contact that is known of a node and an obstacle, after list_known().
+RigidContact* FastBody::known_contact(const RigidContact& found) {
+  for (int c = last_contact_[static_cast<std::size_t>(found.node)]; c >= 0;
+       c = contact_before_[static_cast<std::size_t>(c)]) {
+    RigidContact& known = contacts_[static_cast<std::size_t>(c)];
+    if (known.obstacle == found.obstacle) return &known;
+  }
+  return nullptr;
+}
+
+void FastBody::list_known(const btSoftBody& body) {
   last_contact_.assign(static_cast<std::size_t>(body.m_nodes.size()), -1);
-  contact_before_.resize(num_known);
-  for (std::size_t c = 0; c < num_known; ++c) {
+  contact_before_.resize(contacts_.size());
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
     int& last = last_contact_[static_cast<std::size_t>(contacts_[c].node)];
     contact_before_[c] = last;
     last = static_cast<int>(c);
   }
-  const auto is_known = [&](const RigidContact& found) {
-    for (int c = last_contact_[static_cast<std::size_t>(found.node)]; c >= 0;
-         c = contact_before_[static_cast<std::size_t>(c)]) {
-      const RigidContact& known = contacts_[static_cast<std::size_t>(c)];
-      if (known.obstacle == found.obstacle) return true;
-    }
-    return false;
-  };
-  for (const RigidContact& found : found_) {
-    if (!is_known(found)) contacts_.push_back(found);
-  }
-  return contacts_.size() > num_known;
 }
 
-// What the last solution needs too: nodes that slide from one facet into the next.
+// Whether the solution needs contacts that are not known. Those that it keeps to anyway are left out. Where a dynamic object
+// was met by another place of the node than it has come to, the plane there counts from now on.
+bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
+  deep_.clear();
+  if (obstacles_.empty()) return false;
+  write_places(body);
+  found_.clear();
+  ways_.outdate();
+  for (const Obstacle& obstacle : obstacles_) find_contacts(body, obstacle, time_step, found_);
+  if (found_.empty()) return false;
+  list_known(body);
+  const btScalar margin = body.getCollisionShape()->getMargin();
+  const std::size_t num_known = contacts_.size();
+  bool is_any_wrong = false;
+  for (RigidContact& found : found_) {
+    const btVector3& place = body.m_nodes[found.node].m_x;
+    const btScalar gap = btDot(found.normal, place) - found.offset;
+    const btRigidBody* const rigid = movable(found.object);
+    if (gap < -kDepthShare * margin && rigid == nullptr) deep_.push_back(found);
+    RigidContact* const known = known_contact(found);
+    if (known != nullptr && rigid != nullptr) {
+      RigidContact solved = *known;
+      follow_object(solved, solved_place(*rigid));
+      const btScalar known_gap = btDot(solved.normal, place) - solved.offset;
+      if (std::abs(std::min(gap, known_gap)) < margin &&
+          std::abs(gap - known_gap) > kPlaneShare * margin) {
+        *known = found;
+        is_any_wrong = true;
+      }
+    } else if (known == nullptr && gap < 0) {
+      contacts_.push_back(found);
+    }
+  }
+  for (RigidContact& contact : contacts_) {
+    if (const btRigidBody* const rigid = movable(contact.object)) {
+      follow_object(contact, rigid->getCenterOfMassTransform());
+    }
+  }
+  return is_any_wrong || contacts_.size() > num_known;
+}
+
+// What the last solution needs too: nodes that slide from one facet into the next. Not out of dynamic objects, which would have
+// to be pushed for that: a node that is left inside of one comes out in the next step.
 void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
   if (!is_unfinished()) return;
-  is_projected_ = true;
   const std::size_t num_solved = contacts_.size();
   for (int look = 0; look <= kMostLooks && find_missed_contacts(body, time_step); ++look) {
     for (const RigidContact& contact : contacts_) {
+      if (movable(contact.object) != nullptr) continue;
+      is_projected_ = true;
       if (look == kMostLooks && &contact >= &contacts_[num_solved]) {  // between two facets
         places_.col(contact.node) =
             starts_.col(contact.node) + from_bullet<btScalar>(contact.motion);
@@ -112,7 +163,7 @@ void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
       }
       const Vector3<btScalar> normal = from_bullet<btScalar>(contact.normal);
       const btScalar gap = normal.dot(places_.col(contact.node) + origin_) - contact.offset;
-      if (gap < 0 && movable(contact.object) == nullptr) places_.col(contact.node) -= gap * normal;
+      if (gap < 0) places_.col(contact.node) -= gap * normal;
     }
   }
   contacts_.resize(num_solved);  // the others have no force in the solution
@@ -131,25 +182,14 @@ void FastBody::leave_depths() {
   }
 }
 
-// In front of where an object is by now: one that gives way has moved since the solution, if not always as far.
-void FastBody::stay_outside(btSoftBody& body, bool of_movable) const {
+// Other cloth may have pushed nodes into what does not give way.
+void FastBody::stay_outside(btSoftBody& body) const {
   for (const RigidContact& contact : contacts_) {
-    const btRigidBody* const rigid = movable(contact.object);
-    if ((rigid != nullptr) != of_movable) continue;
+    if (movable(contact.object) != nullptr) continue;
     btSoftBody::Node& node = body.m_nodes[contact.node];
-    btScalar gap = btDot(contact.normal, node.m_x) - contact.offset;
-    if (rigid != nullptr) gap -= btDot(contact.normal, motion_since_solution(*rigid, node.m_x));
+    const btScalar gap = btDot(contact.normal, node.m_x) - contact.offset;
     if (gap < 0 && node.m_im > 0) node.m_x -= gap * contact.normal;
   }
-}
-
-// Of what is at a place now, with the body.
-btVector3 FastBody::motion_since_solution(const btRigidBody& rigid, const btVector3& place) const {
-  for (std::size_t b = 0; b < pushed_.size(); ++b) {
-    if (pushed_[b] != &rigid) continue;
-    return place - pushed_places_[b] * (rigid.getCenterOfMassTransform().inverse() * place);
-  }
-  return {0, 0, 0};
 }
 
 // Those that are only near are not meant: a cloth that holds a body alone has to move all of it.

@@ -9,6 +9,7 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
+#include <LinearMath/btTransformUtil.h>
 
 #include <weft/bridge/bullet_vector.hpp>
 
@@ -130,7 +131,35 @@ btScalar largest_motion(const btRigidBody& rigid, const MotionBox& nodes, btScal
                       rigid.getAngularVelocity().length() * std::sqrt(reach2));
 }
 
+/// The same with a motion that is known: the corner that goes farthest.
+btScalar largest_motion(const btTransform& back, const MotionBox& nodes) {
+  btScalar most = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto side = [&](int axis) {
+      const auto k = static_cast<std::size_t>(axis);
+      return (corner >> axis & 1) != 0 ? nodes.high[k] : nodes.low[k];
+    };
+    const btVector3 place(side(0), side(1), side(2));
+    most = std::max(most, (back * place - place).length());
+  }
+  return most;
+}
+
 }  // namespace
+
+Obstacle make_obstacle(const btCollisionObjectWrapper& object, const HullFacets* facets, int number,
+                       btScalar time_step) {
+  Obstacle obstacle{object.getCollisionObject(), object.getCollisionShape(),
+                    object.getWorldTransform(), facets, number};
+  if (const btRigidBody* const rigid = movable(obstacle.object)) {
+    btTransform end;
+    btTransformUtil::integrateTransform(rigid->getWorldTransform(), rigid->getLinearVelocity(),
+                                        rigid->getAngularVelocity(), time_step, end);
+    obstacle.object_place = rigid->getWorldTransform();
+    obstacle.motion = end * obstacle.object_place.inverse();
+  }
+  return obstacle;
+}
 
 btRigidBody* movable(const btCollisionObject* object) {
   auto* rigid = const_cast<btRigidBody*>(btRigidBody::upcast(object));
@@ -166,22 +195,21 @@ void add_rigid_contacts(const btSoftBody& body, NodeWays& ways, const Obstacle& 
                         btScalar time_step, PinnedNodes pinned, std::vector<RigidContact>& contacts,
                         fast::ThreadTeam* team) {
   if (!obstacle.object->hasContactResponse()) return;
-  const btRigidBody* rigid = btRigidBody::upcast(obstacle.object);
+  // Where the step begins is what Bullet knows of a dynamic body, and where it ends of a kinematic one.
   const btRigidBody* const dynamic = movable(obstacle.object);
-  if (rigid != nullptr && rigid->getLinearVelocity().isZero() &&
-      rigid->getAngularVelocity().isZero()) {
-    rigid = nullptr;  // as good as an object that cannot move
+  const btRigidBody* led = dynamic == nullptr ? btRigidBody::upcast(obstacle.object) : nullptr;
+  if (led != nullptr && led->getLinearVelocity().isZero() && led->getAngularVelocity().isZero()) {
+    led = nullptr;
   }
-  // Bullet moves a dynamic body only after it has looked for contacts; a kinematic one stands where
-  // it ends already.
-  const bool is_still_to_move = rigid != nullptr && !rigid->isStaticOrKinematicObject();
+  const btTransform back = obstacle.motion.inverse();
   const btScalar margin = body.getCollisionShape()->getMargin();
   btVector3 low;
   btVector3 high;
   obstacle.shape->getAabb(obstacle.place, low, high);
   const MotionBox box = box_of(low, high).grown(2 * margin);
-  const MotionBox reached =
-      rigid == nullptr ? box : box.grown(largest_motion(*rigid, ways.all(), time_step));
+  MotionBox reached = box;
+  if (dynamic != nullptr) reached = box.grown(largest_motion(back, ways.all()));
+  if (led != nullptr) reached = box.grown(largest_motion(*led, ways.all(), time_step));
   if (!meet(reached, ways.all())) return;
   const bool looks_at_pinned =
       pinned == PinnedNodes::kWithDynamicObjects && !obstacle.object->isStaticOrKinematicObject();
@@ -191,12 +219,11 @@ void add_rigid_contacts(const btSoftBody& body, NodeWays& ways, const Obstacle& 
     const btSoftBody::Node& node = body.m_nodes[i];
     if ((node.m_im <= 0 && !looks_at_pinned) || node.m_battach != 0) return;
     btVector3 motion(0, 0, 0);
-    if (rigid != nullptr) {
-      motion =
-          time_step * rigid->getVelocityInLocalPoint(node.m_x - rigid->getCenterOfMassPosition());
+    if (led != nullptr) {
+      motion = time_step * led->getVelocityInLocalPoint(node.m_x - led->getCenterOfMassPosition());
     }
-    const btVector3 from = is_still_to_move ? node.m_q : node.m_q + motion;
-    const btVector3 to = is_still_to_move ? node.m_x - motion : node.m_x;
+    const btVector3 from = node.m_q + motion;
+    const btVector3 to = dynamic != nullptr ? back * node.m_x : node.m_x;
     btVector3 least = from;
     btVector3 most = from;
     least.setMin(to);
@@ -211,10 +238,12 @@ void add_rigid_contacts(const btSoftBody& body, NodeWays& ways, const Obstacle& 
     contact->object = obstacle.object;
     contact->obstacle = obstacle.number;
     if (dynamic != nullptr) {
-      contact->met = node.m_x;
-      contact->met_by_object = dynamic->getWorldTransform().invXform(node.m_x);
+      contact->met = to;
+      contact->met_by_object = obstacle.object_place.invXform(to);
+      contact->normal_by_object = contact->normal * obstacle.object_place.getBasis();
+      contact->gap = btDot(contact->normal, to) - contact->offset;
+      follow_object(*contact, obstacle.motion * obstacle.object_place);
     }
-    if (is_still_to_move) contact->offset += btDot(contact->normal, motion);
     found.push_back(*contact);
   };
   const auto look_at_groups = [&](std::size_t begin, std::size_t end,
@@ -228,14 +257,12 @@ void add_rigid_contacts(const btSoftBody& body, NodeWays& ways, const Obstacle& 
   ways.collect(look_at_groups, needs_field ? nullptr : team, contacts);
 }
 
-void follow_object(RigidContact& contact, btScalar time_step, btScalar least_surprise) {
-  const btRigidBody* const rigid = movable(contact.object);
-  if (rigid == nullptr) return;
-  const btVector3 motion = rigid->getWorldTransform() * contact.met_by_object - contact.met;
-  const btVector3 expected = contact.motion + time_step * time_step * rigid->getGravity();
-  if ((motion - expected).length() < least_surprise) return;
-  contact.offset += btDot(contact.normal, motion - contact.motion);
-  contact.motion = motion;
+void follow_object(RigidContact& contact, const btTransform& object_place) {
+  if (movable(contact.object) == nullptr) return;
+  const btVector3 now = object_place * contact.met_by_object;
+  contact.motion = now - contact.met;
+  contact.normal = object_place.getBasis() * contact.normal_by_object;
+  contact.offset = btDot(contact.normal, now) - contact.gap;
 }
 
 }  // namespace WEFT_BULLET_PRECISION

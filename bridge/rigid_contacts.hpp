@@ -26,19 +26,29 @@ struct RigidContact {
   btVector3 motion{0, 0, 0};  ///< of the surface during the step [m]
   const btCollisionObject* object = nullptr;
   int obstacle = 0;  ///< Obstacle::number
-  // Of a dynamic object: the node's place when it was met, in the world and as the object sees it [m].
+  // Of a dynamic object, which carries the plane with it: the node's place as seen from the object, in the world where the
+  // step began, and as the object has it; the normal as the object has it.
   btVector3 met{0, 0, 0};
   btVector3 met_by_object{0, 0, 0};
+  btVector3 normal_by_object{0, 0, 0};
+  btScalar gap = 0;  ///< of that place in front of the plane [m]
 };
 
 /// What a body's bounds meet: a whole object, or a part of it.
 struct Obstacle {
   const btCollisionObject* object;
   const btCollisionShape* shape;
-  btTransform place;
+  btTransform place;         ///< where the step begins; of what is not dynamic, where it stands
   const HullFacets* facets;  ///< of a hull, or nullptr
   int number = 0;            ///< to tell the parts of an object from each other
+  btTransform object_place = btTransform::getIdentity();  ///< of the whole object, as place
+  /// Of a dynamic object: takes its points from where the step begins to where it ends.
+  btTransform motion = btTransform::getIdentity();
 };
+
+/// An obstacle of the present step, before Bullet has moved it: dynamic ones are expected to go on with their velocity.
+[[nodiscard]] Obstacle make_obstacle(const btCollisionObjectWrapper& object,
+                                     const HullFacets* facets, int number, btScalar time_step);
 
 /// A body's nodes by where their ways lead, from m_q to m_x.
 class NodeWays {
@@ -93,7 +103,7 @@ enum class PinnedNodes {
 /// Appends the contacts of a body's nodes with an obstacle, between btSoftBody::predictMotion and
 /// solveConstraints of a step of time_step [s]. ways: of the body as it is.
 ///
-/// Nodes are looked up at the predicted place, up to twice the collision margin: exactly (surface_distance()), or in
+/// Nodes are looked up at the predicted place, as the obstacle sees it, up to twice the collision margin: exactly (surface_distance()), or in
 /// Bullet's distance field of the shape, as Bullet does. A node that travels farther than the margin is followed along
 /// its way, relative to the object, and stopped at the surface that it meets first: however thin the
 /// object, it is not shot through. Anchored nodes are left out. By a team, in the same order for any.
@@ -101,10 +111,8 @@ void add_rigid_contacts(const btSoftBody& body, NodeWays& ways, const Obstacle& 
                         btScalar time_step, PinnedNodes pinned, std::vector<RigidContact>& contacts,
                         fast::ThreadTeam* team = nullptr);
 
-/// Once Bullet has moved dynamic objects: they may have come elsewhere than their velocities told when the contact was
-/// found, for they have met each other since. Offset and motion become those of where the object is, if that is farther from where
-/// it would be by its velocity and its gravity than least_surprise [m].
-void follow_object(RigidContact& contact, btScalar time_step, btScalar least_surprise);
+/// Takes the plane of a contact with a dynamic object to where the object is at the end of the step.
+void follow_object(RigidContact& contact, const btTransform& object_place);
 
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

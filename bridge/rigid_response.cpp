@@ -56,10 +56,9 @@ void RigidResponse::collide(btSoftBody& body, const btCollisionObjectWrapper& ob
   // At once what a cloth that lies with all its nodes needs, and nothing later on.
   found_.reserve(static_cast<std::size_t>(body.m_nodes.size()));
   contacts_.reserve(static_cast<std::size_t>(body.m_nodes.size()));
-  add_rigid_contacts(body, ways_,
-                     {&collision_object, object.getCollisionShape(), object.getWorldTransform(),
-                      hulls.find(*object.getCollisionShape()), 0},
-                     time_step, PinnedNodes::kWithDynamicObjects, found_);
+  const HullFacets* const facets = hulls.find(*object.getCollisionShape());
+  add_rigid_contacts(body, ways_, make_obstacle(object, facets, 0, time_step), time_step,
+                     PinnedNodes::kWithDynamicObjects, found_);
   for (const RigidContact& found : found_) {
     Contact contact;
     contact.with = found;
@@ -135,7 +134,9 @@ void RigidResponse::solve(btSoftBody& body) {
     return !(contact.node->m_im > 0) && contact.dynamic == nullptr;
   });
   for (Contact& contact : contacts_) {
-    follow_object(contact.with, body.m_sst.sdt, 0);
+    if (contact.dynamic != nullptr) {
+      follow_object(contact.with, contact.dynamic->getWorldTransform());
+    }
     if (contact.node->m_im > 0) continue;
     const btVector3 start = contact.node->m_q + contact.with.motion;
     const btScalar gap = btDot(contact.with.normal, start) - contact.with.offset;

@@ -206,13 +206,15 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   void meet_cloth(btSoftBody& body, btSoftBody& other);
   void for_bodies(const std::function<void(btSoftBody&, Attachment*)>& work);
   void solve_fast_bodies();
-  void solve_listed_bodies();
-  void solve_single_body(Attachment& one);
+  void detect_contacts(btScalar time_step);
+  void solve_in_parts();
+  void solve_group(const std::vector<Attachment*>& group, int num_parts);
+  void solve_listed_bodies(btScalar time_step);
   void solve_other_body(btSoftBody& body, Attachment* attachment);
   void collide(Attachment& one, const btCollisionObjectWrapper& object);
   void tell_of_blow_ups() noexcept;
   [[nodiscard]] bool may_meet_cloth() const;
-  void place_listed_bodies(bool may_meet);
+  void place_listed_bodies(btScalar time_step, bool may_meet);
   /// Has exploded or is suspended.
   [[nodiscard]] bool is_still(const btSoftBody& body) const;
 

@@ -2,6 +2,7 @@
 #include <weft/bridge/solver.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include <tbb/parallel_for.h>
@@ -11,6 +12,7 @@
 
 #include <weft/bridge/attachment.hpp>
 #include <weft/bridge/position_limits.hpp>
+#include <weft/bridge/rigid_parts.hpp>
 #include <weft/custom_forces/core/trace.hpp>
 
 namespace weft::bridge {
@@ -98,25 +100,88 @@ void SoftBodySolver::solve_fast_bodies() {
   const int num_each = std::max(
       1, tbb::this_task_arena::max_concurrency() / std::max(1, static_cast<int>(bodies.size())));
   for (Attachment* one : bodies) one->fast->set_num_threads(num_each);
-  if (bodies.size() == 1) return solve_single_body(*bodies[0]);
+  Attachment* const single = bodies.size() == 1 ? bodies[0] : nullptr;
+  std::optional<fast::ThreadTeam::Scope> threads;
+  if (single) single->fast->hold_threads(threads);  // to call for them takes longer than most loops
   in_parallel(bodies, [](Attachment& one) { one.fast->prepare(*one.body); });
-  solve_listed_bodies();
-  place_listed_bodies(may_meet_cloth());
+  detect_contacts(time_step_);
+  solve_in_parts();
+  if (bodies.empty()) return;
+  solve_listed_bodies(time_step_);
+  const bool may_meet = may_meet_cloth();
+  if (may_meet) threads.reset();  // cloth on cloth takes long, and one thread
+  place_listed_bodies(time_step_, may_meet);
+  const bool is_final = single && !may_meet && single->limits.is_empty() &&
+                        m_softBodySet.size() == 1 && !single->blow_up;
+  if (is_final) single->fast->update_normals(*single->body);
 }
 
-void SoftBodySolver::solve_single_body(Attachment& one) {
-  const bool may_meet = may_meet_cloth();
-  {
-    const auto threads = one.fast->hold_threads();  // to call for them takes longer than most loops
-    in_parallel(attachments_->stepped, [](Attachment& it) { it.fast->prepare(*it.body); });
-    solve_listed_bodies();
-    if (!may_meet) {
-      place_listed_bodies(false);
-      const bool is_final = one.limits.is_empty() && m_softBodySet.size() == 1 && !one.blow_up;
-      if (is_final) one.fast->update_normals(*one.body);
+void SoftBodySolver::detect_contacts(btScalar time_step) {
+  std::vector<Attachment*>& bodies = attachments_->stepped;
+  in_parallel(bodies, [&](Attachment& one) {
+    if (one.fast->looks_alone()) one.fast->detect_contacts(*one.body, time_step);
+  });
+  in_turn(bodies, [&](Attachment& one) {
+    if (!one.fast->looks_alone()) one.fast->detect_contacts(*one.body, time_step);
+  });
+}
+
+// Bodies that touch or hang on the same dynamic bodies take the same parts. What takes its step in parts leaves the list.
+void SoftBodySolver::solve_in_parts() {
+  std::vector<Attachment*>& bodies = attachments_->stepped;
+  if (may_meet_cloth()) return;
+  const auto wants_parts = [](const Attachment* one) {
+    return one->fast->num_parts(*one->body) > 1;
+  };
+  while (true) {
+    const auto first = std::find_if(bodies.begin(), bodies.end(), wants_parts);
+    if (first == bodies.end()) return;
+    std::vector<Attachment*> group{*first};
+    std::vector<btRigidBody*> reached;
+    int num_parts = 1;
+    for (std::size_t g = 0; g < group.size(); ++g) {
+      num_parts = std::max(num_parts, group[g]->fast->num_parts(*group[g]->body));
+      group[g]->fast->list_dynamic(*group[g]->body, reached);
+      for (Attachment* other : bodies) {
+        if (std::find(group.begin(), group.end(), other) != group.end()) continue;
+        std::vector<btRigidBody*> of_other;
+        other->fast->list_dynamic(*other->body, of_other);
+        const bool shares = std::any_of(of_other.begin(), of_other.end(), [&](const auto* rigid) {
+          return std::find(reached.begin(), reached.end(), rigid) != reached.end();
+        });
+        if (shares) group.push_back(other);
+      }
     }
+    std::vector<Attachment*> rest;
+    for (Attachment* one : bodies) {
+      if (std::find(group.begin(), group.end(), one) == group.end()) rest.push_back(one);
+    }
+    solve_group(group, num_parts);
+    bodies = rest;
   }
-  if (may_meet) place_listed_bodies(true);  // cloth on cloth takes long, and one thread
+}
+
+void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_parts) {
+  const TraceScope trace("step in parts");
+  const btScalar part_step = time_step_ / static_cast<btScalar>(num_parts);
+  std::vector<btRigidBody*> dynamic;
+  for (const Attachment* one : group) one->fast->list_dynamic(*one->body, dynamic);
+  RigidParts rigid(dynamic, time_step_, num_parts);
+  std::vector<Attachment*>& bodies = attachments_->stepped;
+  bodies = group;
+  in_parallel(bodies, [&](Attachment& one) { one.fast->begin_parts(*one.body, time_step_); });
+  for (int part = 0; part < num_parts && !bodies.empty(); ++part) {
+    in_parallel(bodies, [&](Attachment& one) {
+      one.fast->begin_part(*one.body, rigid, part, num_parts, part_step);
+    });
+    rigid.begin_part();
+    detect_contacts(part_step);
+    solve_listed_bodies(part_step);
+    place_listed_bodies(part_step, false);
+    rigid.end_part();
+  }
+  rigid.finish();
+  in_parallel(bodies, [&](Attachment& one) { one.fast->end_parts(*one.body, time_step_); });
 }
 
 bool SoftBodySolver::may_meet_cloth() const {
@@ -126,7 +191,7 @@ bool SoftBodySolver::may_meet_cloth() const {
   });
 }
 
-void SoftBodySolver::solve_listed_bodies() {
+void SoftBodySolver::solve_listed_bodies(btScalar time_step) {
   std::vector<Attachment*>& bodies = attachments_->stepped;
   std::vector<const btRigidBody*>& pushed = attachments_->pushed;
   const auto list_pushed = [&] {
@@ -136,33 +201,33 @@ void SoftBodySolver::solve_listed_bodies() {
   };
   list_pushed();
   in_parallel(bodies,
-              [&](Attachment& one) { one.fast->begin_solve(*one.body, time_step_, pushed); });
+              [&](Attachment& one) { one.fast->begin_solve(*one.body, time_step, pushed); });
   std::vector<Attachment*>& asked = attachments_->asked;
   asked.assign(bodies.begin(), bodies.end());
   for (int look = 0; look < FastBody::kMostLooks && !asked.empty(); ++look) {
     in_parallel(asked, [&](Attachment& one) {
-      if (one.fast->looks_alone()) one.fast->look_again(*one.body, time_step_);
+      if (one.fast->looks_alone()) one.fast->look_again(*one.body, time_step);
     });
     in_turn(asked, [&](Attachment& one) {
-      if (!one.fast->looks_alone()) one.fast->look_again(*one.body, time_step_);
+      if (!one.fast->looks_alone()) one.fast->look_again(*one.body, time_step);
     });
     std::erase_if(asked, [](const Attachment* one) { return !one->fast->is_unfinished(); });
     drop_stopped(bodies);
     list_pushed();
     in_parallel(asked,
-                [&](Attachment& one) { one.fast->solve_again(*one.body, time_step_, pushed); });
+                [&](Attachment& one) { one.fast->solve_again(*one.body, time_step, pushed); });
   }
   drop_stopped(bodies);
 }
 
-void SoftBodySolver::place_listed_bodies(bool may_meet) {
+void SoftBodySolver::place_listed_bodies(btScalar time_step, bool may_meet) {
   std::vector<Attachment*>& bodies = attachments_->stepped;
-  in_turn(bodies, [&](Attachment& one) { one.fast->place(*one.body, time_step_, may_meet); });
+  in_turn(bodies, [&](Attachment& one) { one.fast->place(*one.body, time_step, may_meet); });
   // Where springs have led the nodes, not where they would fly without them: in steps of 1/100 s layers that were found there
   // threw each other about.
   in_parallel(bodies, [&](Attachment& one) {
     if (ClothContact* contact = find_contact(*one.body)) {
-      contact->add_self_contacts(*one.body, time_step_);
+      contact->add_self_contacts(*one.body, time_step);
     }
   });
   const bool meet = std::any_of(bodies.begin(), bodies.end(), [](const Attachment* one) {
@@ -171,7 +236,7 @@ void SoftBodySolver::place_listed_bodies(bool may_meet) {
   for (int sweep = 0; meet && sweep < FastBody::kClothContactSweeps; ++sweep) {
     in_turn(bodies, [](Attachment& one) { one.fast->project_cloth_contacts(*one.body); });
   }
-  in_parallel(bodies, [&](Attachment& one) { one.fast->end_solve(*one.body, time_step_); });
+  in_parallel(bodies, [&](Attachment& one) { one.fast->end_solve(*one.body, time_step); });
 }
 
 void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {

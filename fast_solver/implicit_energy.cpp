@@ -74,8 +74,9 @@ double ImplicitSolver<Scalar>::energy_of_holds(const StepProblem<Scalar>& proble
     const Vector3<Scalar> friction = friction_.col(i).template cast<Scalar>();
     Vector3<Scalar> slip = at_node(places, i) - at_node(starts_, i) - contact.motion;
     if (contact.body < 0) {
-      slip -= contact.normal.dot(slip) * contact.normal;
-      sum += 0.5 * static_cast<double>(drag_[i] * slip.squaredNorm());
+      if (holds_[at(i)] == Hold::kOnPlane) {
+        sum += static_cast<double>(friction_bounds_[i] * slip_of(contact, at_node(places, i)));
+      }
       continue;
     }
     slip -= motion_at(bodies_[at(contact.body)].*motion, contact.arm);

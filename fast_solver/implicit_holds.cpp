@@ -13,6 +13,10 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
+/// Of friction: what it takes to stop the slip that is left of a node that sticks from now on.
+constexpr double kStopped = 0.01;
+/// Over what resists the motion of a node: a drag.
+constexpr double kStiffestDrag = 1e4;
 /// [N/m] Of a node that moves: what keeps a quotient finite.
 constexpr double kLeastInertia = 1e-30;
 
@@ -26,7 +30,8 @@ void take_away(const Vector3<float>& normal, NodeArrays<float>& vectors, int nod
 // What holds a node is decided by what it would do if it stuck: the force that is left there is
 // weighed against what friction can bear.
 template <class Scalar>
-void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bool is_first) {
+void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
+                                          const NewtonRound& round) {
   const bool can_hold =
       !problem.contacts.empty() || !problem.led.empty() || !problem.bodies.empty();
   have_holds_changed_ = false;
@@ -58,7 +63,7 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem, bo
     for (auto c = static_cast<int>(count * part / num_parts);
          c < static_cast<int>(count * (part + 1) / num_parts); ++c) {
       const int i = problem.contacts[at(c)].node;
-      if (contact_of_[at(i)] == c) decide_hold(problem.contacts[at(c)], is_first);
+      if (contact_of_[at(i)] == c) decide_hold(problem.contacts[at(c)], round);
     }
   });
   for (const PlaneContact<Scalar>& contact : problem.contacts) {
@@ -99,8 +104,15 @@ void ImplicitSolver<Scalar>::list_held() {
 
 // One contact's node: what it would do if it stuck decides.
 template <class Scalar>
-void ImplicitSolver<Scalar>::decide_hold(const PlaneContact<Scalar>& contact, bool is_first) {
+void ImplicitSolver<Scalar>::decide_hold(const PlaneContact<Scalar>& contact,
+                                         const NewtonRound& round) {
   const int i = contact.node;
+  const bool is_first = round.is_first;
+  if (is_first && round.continues && held_before_[at(i)] != Hold::kFree) {
+    holds_[at(i)] = held_before_[at(i)];
+    normals_.col(i) = contact.normal.template cast<float>();
+    return;
+  }
   const Vector3<Scalar> normal = contact.normal;
   const Vector3<Scalar> with_body = motion_with(contact.body, contact.arm);
   const Scalar gap = normal.dot(at_node(places_, i) - with_body) - contact.offset;
@@ -123,7 +135,10 @@ void ImplicitSolver<Scalar>::decide_hold(const PlaneContact<Scalar>& contact, bo
   // may be rounding.
   const bool did_stick = held_before_[at(i)] == Hold::kFixed;
   const Scalar doubt = is_first || did_stick ? Scalar(0) : friction * rounding_of_force(i);
-  const bool sticks = size <= most - doubt;
+  const Scalar slipped = (slip - normal.dot(slip) * normal).norm();
+  // One that has slid would be drawn back to where the step began, and let go by the next decision: its drag stops it first.
+  const bool has_stopped = inertia * slipped <= kStopped * most;
+  const bool sticks = size <= most - doubt && (!was_held || did_stick || has_stopped);
   holds_[at(i)] = sticks ? Hold::kFixed : Hold::kOnPlane;
   normals_.col(i) = normal.template cast<float>();
   friction_.col(i).setZero();
@@ -134,23 +149,39 @@ void ImplicitSolver<Scalar>::decide_hold(const PlaneContact<Scalar>& contact, bo
     return;
   }
   // Friction that slides is solved for as a drag that has Coulomb's size at the slip that is expected: unlike a constant force
-  // it never drives a node, however wrong the pressure still is.
-  // Forces foretell the slip of a node alone; after that the motion so far does, which converges where they do not.
-  const Scalar slipped = (slip - normal.dot(slip) * normal).norm();
-  const bool is_foretold = is_first || !(slipped > 0);
-  const Scalar expected =
-      is_foretold ? (size - most) / std::max(inertia, Scalar(kLeastInertia)) : slipped;
-  drag_[i] = expected > 0 ? most / expected : Scalar(0);
-  set_friction(contact);
+  // it never drives a node, however wrong the pressure still is. Forces foretell the slip of a node alone; after that the
+  // motion so far does (iteratively reweighted least squares, which converge for any pressure).
+  friction_bounds_[i] = most;
+  const Scalar resistance = std::max(inertia + largest_stiffness(i), Scalar(kLeastInertia));
+  const bool is_foretold = is_first || did_stick || !(slipped > 0);
+  const Scalar expected = is_foretold ? (size - most) / resistance : slipped;
+  set_friction(contact, expected);
 }
 
 // Of a node that slides on what does not give way, at its present place.
 template <class Scalar>
-void ImplicitSolver<Scalar>::set_friction(const PlaneContact<Scalar>& contact) {
+void ImplicitSolver<Scalar>::set_friction(const PlaneContact<Scalar>& contact, Scalar expected) {
   const int i = contact.node;
+  const Scalar most = friction_bounds_[i];
+  const Scalar resistance =
+      std::max(Scalar(inertia_[i]) + largest_stiffness(i), Scalar(kLeastInertia));
+  drag_[i] = most / std::max(expected, most / (Scalar(kStiffestDrag) * resistance));
+  if (!(most > 0)) drag_[i] = 0;
   Vector3<Scalar> slip = at_node(places_, i) - at_node(starts_, i) - contact.motion;
   slip -= contact.normal.dot(slip) * contact.normal;
   friction_.col(i) = (-drag_[i] * slip).template cast<float>();
+}
+
+template <class Scalar>
+Scalar ImplicitSolver<Scalar>::slip_of(const PlaneContact<Scalar>& contact,
+                                       const Vector3<Scalar>& place) const {
+  const Vector3<Scalar> slip = place - at_node(starts_, contact.node) - contact.motion;
+  return (slip - contact.normal.dot(slip) * contact.normal).norm();
+}
+
+template <class Scalar>
+Scalar ImplicitSolver<Scalar>::largest_stiffness(int node) const {
+  return Scalar(forces_.diagonal_blocks().row(node).template head<3>().maxCoeff());
 }
 
 template <class Scalar>
@@ -158,7 +189,7 @@ void ImplicitSolver<Scalar>::update_friction(const StepProblem<Scalar>& problem)
   for (const int i : held_) {
     if (contact_of_[at(i)] < 0 || holds_[at(i)] != Hold::kOnPlane) continue;
     const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
-    if (contact.body < 0) set_friction(contact);
+    if (contact.body < 0) set_friction(contact, slip_of(contact, at_node(places_, i)));
   }
 }
 
@@ -166,9 +197,7 @@ void ImplicitSolver<Scalar>::update_friction(const StepProblem<Scalar>& problem)
 template <class Scalar>
 Scalar ImplicitSolver<Scalar>::rounding_of_force(int node) const {
   constexpr Scalar kRoundings = 8;
-  const Scalar stiffness =
-      Scalar(forces_.diagonal_blocks().row(node).template head<3>().maxCoeff());
-  return kRoundings * std::numeric_limits<Scalar>::epsilon() * stiffness *
+  return kRoundings * std::numeric_limits<Scalar>::epsilon() * largest_stiffness(node) *
          at_node(places_, node).cwiseAbs().maxCoeff();
 }
 
@@ -222,6 +251,7 @@ void ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
     normals_.col(i) = contact.normal.template cast<float>();
     friction_.col(i).setZero();
     drag_[i] = 0;
+    friction_bounds_[i] = 0;
     held_.push_back(i);
   }
 }

@@ -51,7 +51,7 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
     holds->assign(static_cast<std::size_t>(num_rows), Hold::kFree);
   }
   for (Nodes* vectors : {&targets_, &starts_, &places_, &unbalanced_, &holding_forces_, &unmoved_,
-                         &last_places_, &remainders_}) {
+                         &last_places_, &last_results_, &remainders_}) {
     vectors->setZero(num_rows, 3);
   }
   for (Matrix3X<Scalar>* vectors : {&more_places_, &more_forces_}) vectors->setZero(3, n);
@@ -60,6 +60,7 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
   inertia_.setZero(num_rows);
   system_inertia_.setZero(num_rows);
   drag_.setZero(n);
+  friction_bounds_.setZero(n);
   weights_.setZero(num_rows);
   if (blocks_.rows() == num_rows) return;  // the others keep no number from one step to the next
   blocks_.setZero(num_rows, 6);
@@ -67,6 +68,7 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
                           &correction_product_, &work_, &coarse_}) {
     vectors->setZero(num_rows, 3);
   }
+  anderson_.resize(num_rows);
   for (Floats& correction : corrections_) correction.setZero(num_rows, 3);
 }
 

@@ -1,5 +1,6 @@
 // Newton's method on the energy that an implicit step minimises (Gast et al. 2015), with a line search on it.
 #include <algorithm>
+#include <limits>
 
 #include <weft/fast_solver/implicit_solver.hpp>
 
@@ -23,8 +24,14 @@ constexpr double kFirstAcross = 0.02;
 constexpr double kMoreAcross = 7;
 /// Of an energy.
 constexpr double kEnergyRounding = 2e-7;
+/// Of what places gain by their rounding alone: where there is no more to be gained.
+constexpr double kRoundings = 4;
 /// Of the gain that is asked for: what a single iteration may leave.
 constexpr double kLastShare = 0.02;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 }  // namespace
 
@@ -32,7 +39,7 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::do_round(const StepProblem<Scalar>& problem,
                                       const NewtonRound& round) {
   if (round.decides) {
-    decide_holds(problem, round.is_first);
+    decide_holds(problem, round);
   } else {
     list_held();
     update_friction(problem);
@@ -63,18 +70,22 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
   double before = 0;
   double energy_before = 0;
   double across = 0;
+  double rounding = 0;
   int num_stalled = 0;
   int num_decisions = 0;
   bool decides = true;
   is_converged_ = false;
+  anderson_.forget();
   for (int round = 0; round < effort.rounds && !is_converged_; ++round) {
     remember_places();
     do_round(problem, {.iterations = effort.iterations,
                        .is_first = round == 0,
                        .decides = decides,
+                       .continues = problem.continues,
                        .factorises = round % kRoundsPerFactor == 0,
                        .least_gain = kLastShare * asked});
     if (decides) ++num_decisions;
+    if (round == 0) rounding = kRoundings * gain_of_rounding();
     const bool are_holds_new = decides && (round == 0 || have_holds_changed_);
     const double now = energy(problem, places_, &Body::motion);
     if (!are_holds_new && !(now <= energy_before * (1 + kEnergyRounding) + asked)) {
@@ -85,6 +96,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
       across = std::min(1.0, std::max(kFirstAcross, kMoreAcross * across));
       forces_.set_least_across(static_cast<Scalar>(across));
       recall_places();
+      anderson_.forget();
       decides = false;
       continue;
     }
@@ -95,17 +107,78 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     const double limited = std::min(kSlowest, shrinks);
     const double left = last_gain_.left + last_gain_.total * limited / (1 - limited);
     num_stalled = !are_holds_new && !(shrinks < kStalled) ? num_stalled + 1 : 0;
-    const bool is_solved = left <= asked && !last_gain_.is_broken;
+    const bool is_rounding = last_gain_.total <= rounding;
+    const bool is_solved = (left <= asked || is_rounding) && !last_gain_.is_broken;
     const bool is_over = is_solved || (num_stalled >= kMostStalled && effort.tolerance > 0);
     // With these contacts. Whether they are the right ones is asked of a solution: on the way there forces say little.
     const bool can_decide = has_contacts && num_decisions < kMostDecisions;
     is_converged_ = is_solved && (!has_contacts || (decides && !are_holds_new) || !can_decide);
     if (is_over && !is_converged_ && !can_decide) break;
-    decides = can_decide && (round < kFirstDecisions || is_over);
+    decides = can_decide && ((round < kFirstDecisions && !problem.continues) || is_over);
     if (decides) num_stalled = 0;
     before = last_gain_.total;
+    if (are_holds_new) {
+      anderson_.forget();
+    } else if (!is_converged_ && round + 1 < effort.rounds) {
+      energy_before = accelerate(problem, now);
+    }
   }
   forces_.set_least_across(0);
+}
+
+// Goes on to the combination of the last rounds, if that has less energy than the last one has reached. Returns the energy then.
+template <class Scalar>
+double ImplicitSolver<Scalar>::accelerate(const StepProblem<Scalar>& problem, double reached) {
+  using Products = typename AndersonHistory<Scalar>::Products;
+  anderson_.next();
+  const Products products = sum_over_parts<Products>([this](NodeRange nodes) {
+    const Products of_part = anderson_.add(nodes, last_places_, places_, last_results_);
+    const int count = nodes.end - nodes.begin;
+    last_results_.middleRows(nodes.begin, count) = places_.middleRows(nodes.begin, count);
+    return of_part;
+  });
+  for (Body& body : bodies_) {
+    if (anderson_.has_last()) {
+      body.result_changes[at(anderson_.newest())] = body.motion - body.last_result;
+    }
+    body.last_result = body.motion;
+  }
+  anderson_.added();
+  if (anderson_.count() == 0) return reached;
+  const typename AndersonHistory<Scalar>::Weights weights = anderson_.weights(products);
+  for_each_part([this, weights](NodeRange nodes) { anderson_.combine(nodes, weights, places_); });
+  for (Body& body : bodies_) {
+    for (int k = 0; k < anderson_.count(); ++k) {
+      body.motion -= static_cast<Scalar>(weights[k]) * body.result_changes[at(k)];
+    }
+  }
+  const double combined = energy(problem, places_, &Body::motion);
+  if (combined <= reached) {
+    evaluate();
+    return combined;
+  }
+  places_ = last_results_;
+  for (Body& body : bodies_) body.motion = body.last_result;
+  return reached;
+}
+
+/// What a round would gain if places were exact but for their last digit [J], twice an energy as LinearGain.
+template <class Scalar>
+double ImplicitSolver<Scalar>::gain_of_rounding() {
+  constexpr double kVariance = 1.0 / 12;  // of numbers rounded to whole ones
+  constexpr double kUnit = std::numeric_limits<Scalar>::epsilon();
+  const BlockArrays& blocks = forces_.diagonal_blocks();
+  return kVariance * kUnit * kUnit * sum_over_parts([&](NodeRange nodes) {
+           const int count = nodes.end - nodes.begin;
+           double sum = 0;
+           for (int axis = 0; axis < 3; ++axis) {
+             const auto stiffness = blocks.col(axis).segment(nodes.begin, count) +
+                                    inertia_.segment(nodes.begin, count);
+             const auto places = places_.col(axis).segment(nodes.begin, count);
+             sum += static_cast<double>(places.cwiseAbs2().template cast<float>().dot(stiffness));
+           }
+           return sum;
+         });
 }
 
 template <class Scalar>

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include <weft/fast_solver/anderson_history.hpp>
 #include <weft/fast_solver/coarse_correction.hpp>
 #include <weft/fast_solver/direction_weights.hpp>
 #include <weft/fast_solver/linked_body.hpp>
@@ -123,11 +124,14 @@ class ImplicitSolver {
   void evaluate(bool linearises = true);
   void evaluate_step_forces();
   [[nodiscard]] double energy_of_step_forces(const Nodes& places);
-  void decide_holds(const StepProblem<Scalar>& problem, bool is_first);
-  void set_friction(const PlaneContact<Scalar>& contact);
+  void decide_holds(const StepProblem<Scalar>& problem, const NewtonRound& round);
+  void set_friction(const PlaneContact<Scalar>& contact, Scalar expected);
+  [[nodiscard]] Scalar slip_of(const PlaneContact<Scalar>& contact,
+                               const Vector3<Scalar>& place) const;
+  [[nodiscard]] Scalar largest_stiffness(int node) const;
   void update_friction(const StepProblem<Scalar>& problem);
   void set_system_inertia();
-  void decide_hold(const PlaneContact<Scalar>& contact, bool is_first);
+  void decide_hold(const PlaneContact<Scalar>& contact, const NewtonRound& round);
   void list_held();
   [[nodiscard]] Scalar rounding_of_force(int node) const;
   [[nodiscard]] Scalar first_push(int node, const Vector3<Scalar>& normal) const;
@@ -167,8 +171,10 @@ class ImplicitSolver {
   void move();
   void do_round(const StepProblem<Scalar>& problem, const NewtonRound& round);
   void iterate(const StepProblem<Scalar>& problem, const SolverEffort& effort);
+  [[nodiscard]] double gain_of_rounding();
   void remember_places();
   void recall_places();
+  [[nodiscard]] double accelerate(const StepProblem<Scalar>& problem, double reached);
   /// What an implicit step minimises [J].
   [[nodiscard]] double energy(const StepProblem<Scalar>& problem, const Nodes& places,
                               Vector6 Body::*motion);
@@ -203,12 +209,13 @@ class ImplicitSolver {
   std::vector<int> held_;  ///< nodes with a hold, in order while linear systems are solved
   std::vector<Link> links_;
   std::vector<Body> bodies_;
-  std::vector<int> linked_blocks_;  ///< of nodes
-  VectorX<float> inertia_;          ///< m / h'^2 [N/m]; 0 for pinned nodes; filled up with zeros
-  VectorX<float> system_inertia_;   ///< the same with the drag of friction
-  bool has_drag_ = false;           ///< system_inertia_ differs
-  VectorX<Scalar> drag_;            ///< of each sliding node [N/m]
-  VectorX<Scalar> weights_;         ///< the same in Scalar
+  std::vector<int> linked_blocks_;   ///< of nodes
+  VectorX<float> inertia_;           ///< m / h'^2 [N/m]; 0 for pinned nodes; filled up with zeros
+  VectorX<float> system_inertia_;    ///< the same with the drag of friction
+  bool has_drag_ = false;            ///< system_inertia_ differs
+  VectorX<Scalar> drag_;             ///< of each sliding node [N/m]
+  VectorX<Scalar> friction_bounds_;  ///< likewise, by Coulomb's law [N]
+  VectorX<Scalar> weights_;          ///< the same in Scalar
   // Of the present problem [m].
   Nodes targets_;
   Nodes starts_;
@@ -217,7 +224,9 @@ class ImplicitSolver {
   Nodes holding_forces_;
   Nodes remainders_;
   Nodes unmoved_;
-  Nodes last_places_;             ///< of the round before
+  Nodes last_places_;   ///< where the round began
+  Nodes last_results_;  ///< of the round before
+  AndersonHistory<Scalar> anderson_;
   Matrix3X<Scalar> more_places_;  ///< as StepForces take them
   Matrix3X<Scalar> more_forces_;
   std::vector<Hold> holds_;        ///< of each node, filled up

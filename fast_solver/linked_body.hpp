@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include <weft/custom_forces/core/types.hpp>
+#include <weft/fast_solver/anderson_history.hpp>
 
 namespace weft::fast {
 
@@ -38,8 +41,10 @@ struct LinkedBody {
   using Matrix6 = Eigen::Matrix<float, 6, 6>;
 
   Vector6 motion = Vector6::Zero();       ///< beyond that of the body left alone [m, rad]
-  Vector6 last_motion = Vector6::Zero();  ///< of the round before
-  Vector6 unmoved = Vector6::Zero();      ///< the same where nothing has moved in the step
+  Vector6 last_motion = Vector6::Zero();  ///< where the round began
+  Vector6 last_result = Vector6::Zero();  ///< of the round before
+  std::array<Vector6, AndersonHistory<Scalar>::kMemory> result_changes{};
+  Vector6 unmoved = Vector6::Zero();  ///< the same where nothing has moved in the step
   Vector6 motion_alone = Vector6::Zero();
   Matrix6 inertia = Matrix6::Zero();  ///< over h^2
   Eigen::LLT<Matrix6> stiffness;      ///< with what is linked to it

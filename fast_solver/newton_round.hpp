@@ -12,9 +12,11 @@ struct LinearGain {
 
 /// One round of Newton's method.
 struct NewtonRound {
-  int iterations;           ///< of conjugate gradients at most
-  bool is_first = false;    ///< of a step
-  bool decides = true;      ///< how contacts hold nodes
+  int iterations;         ///< of conjugate gradients at most
+  bool is_first = false;  ///< of a step
+  bool decides = true;    ///< how contacts hold nodes
+  bool continues =
+      false;  ///< in the first round: a node that was held in the solve before stays so
   bool linearises = true;   ///< for another round
   bool factorises = false;  ///< makes the coarse correction anew
   double least_gain = 0;    ///< of an iteration that another one follows [J]

@@ -36,6 +36,8 @@ struct StepProblem {
   std::span<const LedNode<Scalar>> led = {};
   std::span<const RigidInertia<Scalar>> bodies = {};
   const StepForces<Scalar>* forces = nullptr;  ///< beside the network's
+  /// The step was solved before: places are the solution, and contacts are the same, with other planes or more of them behind.
+  bool continues = false;
 };
 
 }  // namespace weft::fast
