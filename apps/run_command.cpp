@@ -198,7 +198,7 @@ Recorded record(const scenes::Scene& scene, const scenes::EngineInfo& engine, in
   } catch (const InvalidArgument& error) {
     throw InvalidArgument(keep_frames(std::move(writer), output, error.what()));
   } catch (const std::exception& error) {
-    throw Error(keep_frames(std::move(writer), output, error.what()));
+    throw Error(keep_frames(std::move(writer), output, reason_of(error)));
   }
 }
 

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <exception>
 #include <map>
+#include <new>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -84,12 +85,17 @@ int run_or_say_why(int argc, char** argv) {
     weft::app::print(stderr, "weft: {}\n", stop.what());
     return weft::app::kSignal + stop.signal();
   } catch (const std::exception& error) {
-    weft::app::print(stderr, "weft: {}\n", error.what());
+    weft::app::print(stderr, "weft: {}\n", weft::app::reason_of(error));
     return weft::app::kBadInput;
   }
 }
 
 }  // namespace
+
+std::string weft::app::reason_of(const std::exception& error) {
+  const bool is_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  return is_memory ? "there is not enough memory" : error.what();
+}
 
 int main(int argc, char** argv) {
   weft::app::prepare_output();

@@ -218,6 +218,16 @@ evil=$(printf 'evil\033[2J.toml')
 check "no escape character" test "$(cat out err | tr -cd '\033\007' | wc -c)" -eq 0
 check "it is shown" grep -qF 'evil\x1b[2J.toml' out err
 
+# A machine that is too small
+sed 's/nodes = \[[0-9]*, [0-9]*\]/nodes = [1000, 1000]/' mine.toml >large.toml
+limit=600000  # kB of address space
+if (ulimit -v $limit && "$weft" --version >/dev/null 2>&1); then  # not so under a sanitizer
+  (ulimit -v $limit && "$weft" run large.toml -j 1 -o large.weftrec >out 2>err)
+  check "no memory: exit code" test $? -eq 2
+  check "no memory: says so" grep -q "^weft: there is not enough memory" err
+  check "nothing left" test ! -e large.weftrec -a ! -e large.partial.weftrec
+fi
+
 # Blow-up as data
 check "explicit Euler" exits 1 run drape_sphere --integrator explicit_euler -o c.weftrec
 check "step, time and node" grep -qE "blew up at step [0-9]+, t = .* node [0-9]+" out
