@@ -24,6 +24,8 @@ constexpr double kEnergySlack = 0.01;
 /// [m] Places are counted from a multiple of this near the body.
 constexpr btScalar kOriginGrid = btScalar(0.25);
 constexpr btScalar kFarFromOrigin = 2;  // [m] from which on another one is chosen
+/// [s] Of a program that can still be played.
+constexpr btScalar kLongestStep = btScalar(1) / 15;
 void include_in_bounds(const Matrix3X<btScalar>& positions, btSoftBody& body) {
   body.m_bounds[0].setMin(to_bullet(positions.rowwise().minCoeff()));
   body.m_bounds[1].setMax(to_bullet(positions.rowwise().maxCoeff()));
@@ -49,7 +51,12 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
                     VectorX<double> masses, const std::vector<int>& origins) {
   masses_ = std::move(masses);
   if (solver_) {
-    solver_->tear(springs, is_changed, masses_, origins);
+    if (limited_.as_given.edges.cols() > 0) {
+      fast::replace_springs(is_changed, springs, limited_.as_given);
+    }
+    fast::SpringNetwork limited = springs;
+    limit_stiffness(limited_.step, masses_, limited);
+    solver_->tear(limited, is_changed, masses_, origins);
     for (const int origin : origins) {
       if (!is_free_[static_cast<std::size_t>(origin)]) {
         solver_pins_.push_back(static_cast<int>(is_free_.size()));
@@ -84,6 +91,7 @@ void FastBody::choose_origin(const btSoftBody& body) {
 }
 
 void FastBody::take_impulses(btSoftBody& body, btScalar time_step) {
+  limited_.asked_step = time_step;
   const btScalar most = body.m_worldInfo->m_maxDisplacement / time_step;
   impulses_.resize(3, 0);
   for (int i = 0; i < body.m_nodes.size(); ++i) {
@@ -187,6 +195,11 @@ void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& o
 }
 
 void FastBody::prepare_solver(const btSoftBody& body) {
+  // A little longer does no harm, and steps that vary would make a solver each.
+  if (solver_ && limited_.as_given.edges.cols() > 0 && limited_.asked_step > 2 * limited_.step) {
+    network_ = std::exchange(limited_.as_given, {});
+    solver_.reset();
+  }
   const auto num_nodes = static_cast<std::size_t>(body.m_nodes.size());
   const bool is_same = solver_ != nullptr && pins_ == solver_pins_ && is_free_.size() == num_nodes;
   if (!is_same) {
@@ -202,7 +215,14 @@ void FastBody::set_free(const std::vector<bool>& is_free) {
   const TraceScope trace("factorise");
   const fast::ThreadTeam::Pause pause(team_);  // helpers would wait for long
   if (solver_) return solver_->set_free(is_free);
-  solver_ = std::make_unique<fast::ImplicitSolver<btScalar>>(network_, masses_, is_free);
+  fast::SpringNetwork limited = network_;
+  limited_.step = limited_.asked_step;
+  limit_stiffness(limited_.step, masses_, limited);
+  solver_ = std::make_unique<fast::ImplicitSolver<btScalar>>(limited, masses_, is_free);
+  // A longer step needs a lower limit, of what the laws say.
+  const bool may_be_limited =
+      limit_stiffness(std::max(kLongestStep, limited_.step), masses_, limited);
+  if (may_be_limited) limited_.as_given = std::move(network_);
   network_ = {};  // the solver has it now
 }
 

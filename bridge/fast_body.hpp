@@ -17,6 +17,7 @@
 #include <weft/bridge/rigid_contacts.hpp>
 #include <weft/bridge/rigid_motion.hpp>
 #include <weft/bridge/rigid_parts.hpp>
+#include <weft/bridge/stiffness_limit.hpp>
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
 #include <weft/fast_solver/implicit_solver.hpp>
@@ -196,6 +197,7 @@ class FastBody {
 
   BendingForces bending_;
   fast::SpringNetwork network_;  ///< until solver_ has it
+  LimitedStiffness limited_;
   VectorX<double> masses_;
   FastSettings settings_;
   std::unique_ptr<fast::ImplicitSolver<btScalar>> solver_;
