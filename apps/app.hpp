@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -25,6 +26,9 @@ struct CommandLine {
   std::vector<std::string> words;
   std::filesystem::path executable;  ///< the file that runs
 };
+
+/// What to say of an error: its text, or what the standard library's word for it means.
+[[nodiscard]] std::string reason_of(const std::exception& error);
 
 [[nodiscard]] Action add_list_command(CLI::App& parser);
 [[nodiscard]] Action add_run_command(CLI::App& parser, const CommandLine& command_line);

@@ -15,7 +15,9 @@ constexpr int kWidth = 30;  ///< characters
 }  // namespace
 
 ProgressBar::ProgressBar(const std::string& label)
-    : label_(printable(label)), is_terminal_(isatty(STDERR_FILENO) == 1) {}
+    : label_(printable(label)), is_terminal_(isatty(STDERR_FILENO) == 1) {
+  update(0.0);
+}
 
 ProgressBar::~ProgressBar() {
   if (is_terminal_) fmt::print(stderr, "\r\x1b[K");

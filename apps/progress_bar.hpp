@@ -9,6 +9,7 @@ namespace weft::app {
 /// terminal.
 class ProgressBar {
  public:
+  /// Draws at once: what is done before the first update() may take minutes.
   explicit ProgressBar(const std::string& label);
   ~ProgressBar();  ///< clears the line
   ProgressBar(const ProgressBar&) = delete;

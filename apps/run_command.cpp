@@ -140,8 +140,8 @@ struct Recorded {
 
 Recorded record(const scenes::Scene& scene, const scenes::EngineInfo& engine, int threads,
                 scenes::RecordingWriter& writer) {
-  const std::unique_ptr<scenes::Simulator> simulator = engine.make();
   ProgressBar progress(scene.name);
+  const std::unique_ptr<scenes::Simulator> simulator = engine.make();
   const Interruption interruption;
   Recorded recorded;
   const auto run = [&] {
@@ -198,7 +198,7 @@ Recorded record(const scenes::Scene& scene, const scenes::EngineInfo& engine, in
   } catch (const InvalidArgument& error) {
     throw InvalidArgument(keep_frames(std::move(writer), output, error.what()));
   } catch (const std::exception& error) {
-    throw Error(keep_frames(std::move(writer), output, error.what()));
+    throw Error(keep_frames(std::move(writer), output, reason_of(error)));
   }
 }
 

@@ -2,6 +2,8 @@
 #include <cstdio>
 #include <exception>
 #include <map>
+#include <new>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -28,6 +30,15 @@ A file is never written over another one, except what the same command made befo
 A run that is stopped keeps its frames in NAME.partial.weftrec.
 Exit codes: 0 ok; 1 a case failed or a simulation blew up; 2 bad input or no place for the output;
 128 + n stopped by signal n.)";
+
+/// A shell variable that is not set makes an empty text, which is not the same as none.
+void refuse_empty_texts(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& text : option->results()) {
+      if (text.empty()) throw CLI::ValidationError(option->get_name(), "is empty, expected a text");
+    }
+  }
+}
 
 int run(int argc, char** argv) {
   using namespace weft::app;
@@ -57,6 +68,7 @@ int run(int argc, char** argv) {
 
   try {
     parser.parse(argc, argv);
+    refuse_empty_texts(*parser.get_subcommands().front());
   } catch (const CLI::Success& asked) {  // --help, --version
     return parser.exit(asked);
   } catch (const CLI::ParseError& error) {
@@ -73,12 +85,17 @@ int run_or_say_why(int argc, char** argv) {
     weft::app::print(stderr, "weft: {}\n", stop.what());
     return weft::app::kSignal + stop.signal();
   } catch (const std::exception& error) {
-    weft::app::print(stderr, "weft: {}\n", error.what());
+    weft::app::print(stderr, "weft: {}\n", weft::app::reason_of(error));
     return weft::app::kBadInput;
   }
 }
 
 }  // namespace
+
+std::string weft::app::reason_of(const std::exception& error) {
+  const bool is_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  return is_memory ? "there is not enough memory" : error.what();
+}
 
 int main(int argc, char** argv) {
   weft::app::prepare_output();

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include <weft/bridge/node_state.hpp>
@@ -76,10 +77,13 @@ void SoftBodySolver::Attachment::sum_laws() {
 void SoftBodySolver::Attachment::predict(btScalar time_step) {
   follow_masses();
   if (blow_up) return;
+  // The program may have done since what attach() and attach_fast() refuse.
   if (fast) {
-    // The program may have done since what attach_fast() refuses.
     if (auto reason = FastBody::obstacle(*body))
       return stop("it cannot be fast any more: " + *reason);
+  }
+  if (body->m_cfg.timescale != btScalar(1)) {
+    return stop("m_cfg.timescale = " + std::to_string(body->m_cfg.timescale) + " [1], expected 1");
   }
   const auto predict_fast = [&] { fast->predict(*body, time_step, positions, velocities); };
   const bool fits = masses().size() == body->m_nodes.size();  // if not, the laws say so

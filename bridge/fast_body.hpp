@@ -140,7 +140,8 @@ class FastBody : public NodeTeam {
   /// How often look_again() is called.
   static constexpr int kMostLooks = 2;
 
-  [[nodiscard]] int num_contacts() const { return static_cast<int>(contacts_.size()); }
+  /// With rigid objects, of the last step.
+  [[nodiscard]] const std::vector<RigidContact>& contacts() const { return contacts_; }
   /// Unbalanced forces that the last step left, over those that it began with [-].
   [[nodiscard]] double residual() const { return solver_ ? solver_->residual() : 0.0; }
 

@@ -34,6 +34,10 @@ class RigidResponse {
   /// with cloth and with links of a btMultiBody. Dynamic objects get the impulses.
   void solve(btSoftBody& body);
   [[nodiscard]] int num_contacts() const { return static_cast<int>(contacts_.size()); }
+  /// Appends those of the last step.
+  void list_contacts(std::vector<RigidContact>& list) const {
+    for (const Contact& contact : contacts_) list.push_back(contact.with);
+  }
 
  private:
   struct Contact {

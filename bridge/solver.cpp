@@ -150,9 +150,33 @@ bool SoftBodySolver::is_fast(const btSoftBody& body) const {
 int SoftBodySolver::num_contacts(const btSoftBody& body) const {
   const Attachment* attachment = find(body);
   const int num_with_cloth = body.m_scontacts.size();
-  if (attachment && attachment->fast) return num_with_cloth + attachment->fast->num_contacts();
+  if (attachment && attachment->fast) {
+    return num_with_cloth + static_cast<int>(attachment->fast->contacts().size());
+  }
   const int num_own = attachment ? attachment->rigid_response.num_contacts() : 0;
   return num_with_cloth + num_own + body.m_rcontacts.size();
+}
+
+std::vector<NodeContact> SoftBodySolver::rigid_contacts(const btSoftBody& body) const {
+  std::vector<RigidContact> own;
+  if (const Attachment* const attachment = find(body)) {
+    if (attachment->fast) own = attachment->fast->contacts();
+    attachment->rigid_response.list_contacts(own);
+  }
+  std::vector<NodeContact> contacts;
+  for (const RigidContact& contact : own) {
+    const btVector3& place = body.m_nodes[contact.node].m_x;
+    contacts.push_back({contact.node, contact.object, contact.normal,
+                        btDot(place, contact.normal) - contact.offset});
+  }
+  for (int i = 0; i < body.m_rcontacts.size(); ++i) {
+    const btSoftBody::RContact& contact = body.m_rcontacts[i];
+    const auto node = static_cast<int>(contact.m_node - &body.m_nodes[0]);
+    const btSoftBody::sCti& met = contact.m_cti;
+    contacts.push_back({node, met.m_colObj, met.m_normal,
+                        btDot(contact.m_node->m_x, met.m_normal) + met.m_offset});
+  }
+  return contacts;
 }
 
 void SoftBodySolver::replace_laws(btSoftBody& body, const ClothMesh& mesh,

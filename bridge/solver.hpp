@@ -52,6 +52,15 @@ enum class ContactResponse {
   kBullet,   ///< contacts from Bullet's distance fields, and Bullet's visits to them
 };
 
+/// A node of a body near a rigid object.
+struct NodeContact {
+  int node = 0;
+  const btCollisionObject* object = nullptr;
+  btVector3 normal{0, 0, 0};  ///< out of the object
+  btScalar distance =
+      0;  ///< [m] along the normal from where the object holds the node, its margin away; about 0: it touches
+};
+
 /// Weft's forces in Bullet's classic soft-body world, through Bullet's own extension point.
 ///
 ///   SoftBodySolver solver;
@@ -120,6 +129,10 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   void wake(btSoftBody& body);
   /// Contacts with rigid bodies and with cloth that the last step looked at.
   [[nodiscard]] int num_contacts(const btSoftBody& body) const;
+  /// Those with rigid bodies, also of a body without laws. Bodies with laws leave btSoftBody::m_rcontacts empty;
+  /// contacts with cloth are in m_scontacts. Distances are those of the nodes' present places. Objects that
+  /// have been deleted since the step are still named.
+  [[nodiscard]] std::vector<NodeContact> rigid_contacts(const btSoftBody& body) const;
   /// Back to plain Bullet. Does nothing if no laws are attached.
   void detach(btSoftBody& body);
   /// Nodes were appended to a body, copies of these: its contact with cloth knows them from now on.

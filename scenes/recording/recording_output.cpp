@@ -41,7 +41,12 @@ void remove_companions(const fs::path& path) {
 }
 
 bool is_there(const fs::path& path) {
-  return fs::exists(fs::symlink_status(path));
+  std::error_code error;
+  const fs::file_status status = fs::symlink_status(path, error);
+  if (status.type() == fs::file_type::none) {
+    throw Error(fmt::format("{}: cannot be looked at: {}", path.string(), error.message()));
+  }
+  return fs::exists(status);
 }
 
 bool has_companion(const fs::path& path) {

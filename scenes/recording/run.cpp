@@ -57,7 +57,8 @@ RunSummary record_run(Simulator& simulator, const Scene& scene, RecordingWriter&
   const int frame_steps = steps_per_frame(scene.world);
   RunSummary summary;
   simulator.load(scene);
-  write_frame(simulator, simulator.state().time, writer, summary);
+  double written = simulator.state().time;  // [s] of the last frame
+  write_frame(simulator, written, writer, summary);
   using Clock = std::chrono::steady_clock;
   Clock::duration engine{};
   while (summary.steps < num_steps && !summary.blow_up) {
@@ -68,8 +69,11 @@ RunSummary record_run(Simulator& simulator, const Scene& scene, RecordingWriter&
     summary.blow_up = report.blow_up;
     // The last state too where the duration is no whole number of intervals.
     const bool is_last = summary.steps == num_steps || summary.blow_up;
-    if (summary.steps % frame_steps == 0 || is_last) {
-      write_frame(simulator, report.time, writer, summary);
+    // A state that has exploded already is not stepped: it is in the frame before.
+    const bool is_new = !summary.blow_up || report.time > written;
+    if (is_new && (summary.steps % frame_steps == 0 || is_last)) {
+      written = report.time;
+      write_frame(simulator, written, writer, summary);
     }
     if (progress) {
       progress(report);

@@ -17,9 +17,9 @@ struct RunSummary {
 };
 
 /// Runs the scene for world.duration in steps of world.time_step, and writes the initial state and
-/// then a frame every world.frame_interval, and the last state in any case. A blow-up ends the run; it is recorded, with the state
-/// after it as last frame. Frame times are the engine's own. The recording is left unfinished, so
-/// that metrics can follow. progress, if there is one, is called after every step; what it throws ends the run. Throws
+/// then a frame every world.frame_interval, and the last state in any case. A blow-up ends the run; it is
+/// recorded, with the state after it as last frame; that is the frame before if the engine did not take the
+/// step. Frame times are the engine's own. The recording is left unfinished, so that metrics can follow. progress, if there is one, is called after every step; what it throws ends the run. Throws
 /// InvalidArgument if the times are not positive or frame_interval is not a whole number of steps,
 /// and what load() and the writer throw.
 [[nodiscard]] RunSummary record_run(Simulator& simulator, const Scene& scene,

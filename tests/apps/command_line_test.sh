@@ -112,6 +112,19 @@ check "reference: no folder for its output" exits 2 reference hang -o /no/such/f
 check "reference: a gate that is out of reach" exits 1 reference hang --time "0.005 s" --levels 3 --gate 1e-15 -o r.json
 check "its order is there all the same" grep -q '"observed_order": [12]' r.json
 check "impossible output" exits 2 "${short[@]}" -o /no/such/folder/a.weftrec
+for length in 238 247 250; do  # too long with .partial, .lock or .weftrec
+  name=$(printf 'a%.0s' $(seq $length))
+  check "a name of $length characters" exits 2 "${short[@]}" -o "$name.weftrec"
+  check "one line about it" test "$(wc -l <err)" -eq 1
+  check "which says why" grep -q "weft: $name.*: File name too long" err
+done
+check "no file of that name" test -z "$(find . -name 'aaa*')"
+for command in "run hang -o" "run hang --trace" "render a.weftrec -o" "contact-sheet a.weftrec -o" "reference hang -o" \
+  "contact-table -o" "validate oscillator -o" "stability hang -o" "run hang --duration" "check" "info"; do
+  # shellcheck disable=SC2086
+  check "$command ''" exits 2 $command ""
+  check "$command '': says so" grep -q "is empty, expected a text" err
+done
 
 # The one rule for outputs: nothing of another kind is written over, and no link, folder, device or pipe
 echo "my notes" >notes
@@ -204,6 +217,16 @@ evil=$(printf 'evil\033[2J.toml')
 "$weft" "$(printf '\033[5m')" >>out 2>>err
 check "no escape character" test "$(cat out err | tr -cd '\033\007' | wc -c)" -eq 0
 check "it is shown" grep -qF 'evil\x1b[2J.toml' out err
+
+# A machine that is too small
+sed 's/nodes = \[[0-9]*, [0-9]*\]/nodes = [1000, 1000]/' mine.toml >large.toml
+limit=600000  # kB of address space
+if (ulimit -v $limit && "$weft" --version >/dev/null 2>&1); then  # not so under a sanitizer
+  (ulimit -v $limit && "$weft" run large.toml -j 1 -o large.weftrec >out 2>err)
+  check "no memory: exit code" test $? -eq 2
+  check "no memory: says so" grep -q "^weft: there is not enough memory" err
+  check "nothing left" test ! -e large.weftrec -a ! -e large.partial.weftrec
+fi
 
 # Blow-up as data
 check "explicit Euler" exits 1 run drape_sphere --integrator explicit_euler -o c.weftrec

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """What a run has committed is found again, whatever ends it: a table of kills, signals, full disks and rival runs.
 
-Usage: nothing_lost.py WEFT [--kills N] [--signals N] [--disks N] [--rivals N]
+Usage: nothing_lost.py WEFT [--kills N] [--signals N] [--disks N] [--rivals N] [--csv FILE]
 "Committed" is what another process saw in the recording before the end; "found" is what `weft info` finds afterwards,
 which checks every frame. Fails if anything committed is not found, or if a later run removes it.
+With --csv all rows go to one file: bench/results/nothing_lost.csv is that of the numbers that are the default.
 """
 import argparse
+import csv
 import os
 import random
 import re
@@ -50,8 +52,11 @@ damping = "0.002 N*s/m"
 KEPT = re.compile(r"; (\d+) frames up to t = \S+ s are kept in (\S+)")
 ACCEPTED_DELAY = 60  # seconds for what takes a moment on an idle machine
 
+COLUMNS = ("experiment", "case", "committed", "found", "exit", "said", "the next command says")
+
 weft = ""
 faults = []
+rows = []
 
 
 def expect(condition, what):
@@ -62,13 +67,16 @@ def expect(condition, what):
 
 
 def start(folder, *options, output="x.weftrec", limit=None):
-    def set_limit():
+    def prepare():
+        # A shell in the background, and nohup, leave their children deaf to them.
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, signal.SIG_DFL)
         if limit is not None:
             resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
     return subprocess.Popen(
         [weft, "run", str(folder.parent / "small.toml"), "-e", "reference", "-j", "1", "-o", output, *options],
-        cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=set_limit)
+        cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=prepare)
 
 
 def committed(path):
@@ -109,25 +117,34 @@ def next_command(folder, partial, frames, what):
     if frames is not None:
         expect(f"{partial.name}: left by an earlier run that did not end, is kept" in said, f"{what}: next run: {said}")
         expect(found(partial) == frames, f"{what}: the next run changed {partial.name}")
-    return said.strip().splitlines()[0][:60] if said.strip() else "(nothing)"
+    return brief(said)
+
+
+def brief(said):
+    """The last line of what a run says, without what is the same in every message or another one each time."""
+    lines = said.strip().splitlines()
+    return re.sub(r"process \d+", "process N", lines[-1].removeprefix("weft: ")) if lines else "nothing"
 
 
 class Table:
-    def __init__(self, title):
-        self.title, self.rows = title, []
+    def __init__(self, experiment, title):
+        self.experiment, self.title, self.rows = experiment, title, []
 
-    def add(self, *row):
-        self.rows.append(row)
+    def add(self, case, committed, found, code, said, next_said=""):
+        """What was committed and found: frames, None where there was no recording yet."""
+        frames = ["none" if number is None else number for number in (committed, found)]
+        self.rows.append((self.experiment, case, *frames, code, said, next_said))
 
-    def show(self, *columns):
+    def show(self):
         print(f"\n{self.title}")
-        for row in (columns, *self.rows):
-            print(" | ".join(str(cell) for cell in row))
+        for row in (COLUMNS, *self.rows):
+            print(" | ".join(str(cell) for cell in row[1:]))
+        rows.extend(self.rows)
         sys.stdout.flush()
 
 
 def kill_at_random(work, count, chooser):
-    table, total = Table(f"kill -9 at {count} random moments"), [0, 0, 0]
+    table, total = Table("kill -9", f"kill -9 at {count} random moments"), [0, 0, 0]
     for number in range(count):
         folder = work / f"kill{number}"
         folder.mkdir()
@@ -146,14 +163,14 @@ def kill_at_random(work, count, chooser):
         expect(before is None or after >= before, f"kill {number}: committed {before}, found {after}")
         expect(not (folder / "x.weftrec").exists(), f"kill {number}: a finished recording")
         said = next_command(folder, partial, after, f"kill {number}")
-        table.add(number, before, after, said)
+        table.add(number, before, after, -signal.SIGKILL, "nothing", said)
         total = [total[0] + 1, total[1] + (before or 0), total[2] + (after or 0)]
-    table.show("number", "committed", "found", "the next command says")
+    table.show()
     print(f"{total[0]} kills: {total[1]} frames committed, {total[2]} found")
 
 
 def signals(work, count, chooser):
-    table = Table(f"{count} signals")
+    table = Table("signal", f"{count} signals")
     for number in range(count):
         which = [signal.SIGINT, signal.SIGINT, signal.SIGTERM, signal.SIGHUP][number % 4] if count < 20 else signal.SIGINT
         folder = work / f"signal{number}"
@@ -172,12 +189,12 @@ def signals(work, count, chooser):
         expect(kept and int(kept[1]) == after >= before, f"signal {number}: {before}, {after}, {said}")
         expect(not (folder / "x.weftrec.lock").exists(), f"signal {number}: the lock is left")
         next_said = next_command(folder, partial, after, f"signal {number}")
-        table.add(which.name, before, after, process.returncode, next_said)
-    table.show("signal", "committed", "found", "exit", "the next command says")
+        table.add(f"{number} {which.name}", before, after, process.returncode, brief(said), next_said)
+    table.show()
 
 
 def full_disk(work, count):
-    table = Table(f"full disk, {count} sizes")
+    table = Table("full disk", f"full disk, {count} sizes")
     for number in range(count):
         kilobytes = [8, 40, 100, 160, 250, 400, 700, 1200, 2500, 5000][number * 10 // count]
         for kind in ("limit", "disk"):
@@ -188,14 +205,14 @@ def full_disk(work, count):
                     ["mount", "-t", "tmpfs", "-o", f"size={kilobytes}k", "tmpfs", str(folder)],
                     capture_output=True).returncode == 0
                 if not mounted:
-                    table.add(kind, kilobytes, "no right to mount", "", "", "")
+                    table.add(f"{kilobytes} kB, {kind}", None, None, "", "no right to mount")
                     continue
             try:
                 run_until_full(table, kind, kilobytes, folder)
             finally:
                 if kind == "disk":
                     subprocess.run(["umount", str(folder)], check=True)
-    table.show("kind", "kB", "committed", "found", "exit", "message")
+    table.show()
 
 
 def run_until_full(table, kind, kilobytes, folder):
@@ -214,11 +231,14 @@ def run_until_full(table, kind, kilobytes, folder):
     expect(after >= before, f"{what}: committed {before}, found {after}: {said}")
     expect(not kept or int(kept[1]) == after, f"{what}: found {after}: {said}")
     expect(kept or not partial.exists(), f"{what}: {partial.name} without frames is left")
-    table.add(kind, kilobytes, before, after, process.returncode, said.strip()[-90:])
+    next_said = ""
+    if kind == "limit":  # a full disk has no room for another run
+        next_said = next_command(folder, partial, after if kept else None, what)
+    table.add(f"{kilobytes} kB, {kind}", before, after, process.returncode, brief(said), next_said)
 
 
 def rivals(work, count):
-    table = Table(f"two runs with one output, {count} staggerings")
+    table = Table("two runs", f"two runs with one output, {count} staggerings")
     for number in range(count):
         folder = work / f"rivals{number}"
         folder.mkdir()
@@ -238,8 +258,13 @@ def rivals(work, count):
             expect(codes[i] == 2 and len(said[i].strip().splitlines()) == 1, what)
             expect("is being written by another run" in said[i] or "exists already" in said[i], what)
         expect(sorted(p.name for p in folder.iterdir()) == ["x.weftrec"], f"{what}: {list(folder.iterdir())}")
-        table.add(delay, codes, frames, [text.strip()[:70] for text in said])
-    table.show("delay [s]", "exits", "frames", "messages")
+        next_said = brief(start(folder, "--duration", "0.1 s").communicate()[1])
+        expect("x.weftrec: exists already" in next_said, f"{what}, then {next_said}")
+        expect(found(folder / "x.weftrec") == frames, f"{what}: the next run changed the recording")
+        whole = (2001, 1001)[winners[-1]] if winners else None
+        case = f"{delay} s apart{', --force' if force else ''}"
+        table.add(case, whole, frames, f"{codes[0]} and {codes[1]}", " / ".join(map(brief, said)), next_said)
+    table.show()
 
 
 def main():
@@ -247,6 +272,7 @@ def main():
     parser.add_argument("weft")
     for name, number in (("kills", 100), ("signals", 20), ("disks", 10), ("rivals", 10)):
         parser.add_argument(f"--{name}", type=int, default=number)
+    parser.add_argument("--csv")
     options = parser.parse_args()
     global weft
     weft = os.path.abspath(options.weft)
@@ -258,6 +284,9 @@ def main():
         signals(work, options.signals, chooser)
         full_disk(work, options.disks)
         rivals(work, options.rivals)
+    if options.csv:
+        with open(options.csv, "w", encoding="utf-8", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows((COLUMNS, *rows))
     print(f"{len(faults)} faults")
     sys.exit(1 if faults else 0)
 

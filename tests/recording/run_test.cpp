@@ -15,13 +15,22 @@ using samples::TemporaryFolder;
 /// An engine that rounds its step, as Bullet does, and blows up when told to.
 class FakeSimulator : public Simulator {
  public:
-  explicit FakeSimulator(int blow_up_step) : blow_up_step_(blow_up_step) {}
+  /// stays: a step that blows up is not taken.
+  explicit FakeSimulator(int blow_up_step, bool stays = false)
+      : blow_up_step_(blow_up_step), stays_(stays) {}
   void load(const Scene& scene) override {
     scene_ = scene;
     state_ = make_state(scene, 0, StoredPrecision::kFloat64);
   }
   StepReport step(double time_step) override {
     ++step_;
+    if (stays_ && step_ == blow_up_step_) {
+      StepReport report;
+      report.step = step_;
+      report.time = state_.time;
+      report.blow_up = BlowUp{step_, state_.time, "towel", 0, "too fast to begin with"};
+      return report;
+    }
     const double taken = static_cast<double>(static_cast<float>(time_step));
     const double time = state_.time + taken;
     state_ = make_state(scene_, step_, StoredPrecision::kFloat64);
@@ -43,6 +52,7 @@ class FakeSimulator : public Simulator {
   SceneState state_;
   int step_ = 0;
   int blow_up_step_;
+  bool stays_;
 };
 
 constexpr int kNever = -1;
@@ -109,6 +119,23 @@ TEST(RecordRun, StopsAtABlowUpAndKeepsTheLastFrame) {
   ASSERT_EQ(reader.num_frames(), 4);
   EXPECT_TRUE(std::isnan(reader.frame(3).cloths[0].positions(0, 0)));
   EXPECT_EQ(reader.blow_up()->step, 8);
+}
+
+TEST(RecordRun, ABlowUpInAStepThatIsNotTakenHasTheFrameBefore) {
+  for (const int step : {1, 4, 6}) {
+    const TemporaryFolder folder;
+    const Scene scene = timed_scene();
+    FakeSimulator simulator(step, true);
+    RecordingWriter writer(folder / "a", scene, {}, StoredPrecision::kFloat64);
+    const RunSummary summary = record_run(simulator, scene, writer, {});
+    EXPECT_EQ(summary.steps, step);
+    writer.finish();
+    const RecordingReader reader(folder / "a");
+    ASSERT_TRUE(reader.blow_up());
+    EXPECT_EQ(reader.blow_up()->step, step);
+    EXPECT_EQ(reader.frame_time(reader.num_frames() - 1), simulator.state().time);
+    EXPECT_EQ(reader.num_frames(), step == 6 ? 3 : 1 + step / 3);  // 5 steps: after 0, 3, 5
+  }
 }
 
 TEST(RecordRun, RefusesTimesThatDoNotFit) {

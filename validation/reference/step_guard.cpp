@@ -87,7 +87,12 @@ int num_substeps(GuardPolicy policy, const Stability& stability, double time_ste
   if (policy == GuardPolicy::kRefuse && !(time_step < limit)) refuse("less than the stable step");
   if (policy != GuardPolicy::kSubstep) return 1;
   const double needed = std::ceil(time_step / (kSubstepSafety * limit));
-  if (!(needed <= kMaxSubsteps)) refuse("few enough substeps of the stable step");
+  if (!(needed <= kMaxSubsteps)) {
+    std::ostringstream expected;
+    expected << "at most " << kMaxSubsteps << " substeps of " << kSubstepSafety
+             << " times the stable step,";
+    refuse(expected.str());
+  }
   return std::max(1, static_cast<int>(needed));
 }
 
