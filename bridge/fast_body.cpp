@@ -18,9 +18,6 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-/// Of m |y - q|^2 / (2 h^2), what a step may gain: rounding.
-constexpr double kEnergySlack = 0.01;
-
 /// [m] Places are counted from a multiple of this near the body.
 constexpr btScalar kOriginGrid = btScalar(0.25);
 constexpr btScalar kFarFromOrigin = 2;  // [m] from which on another one is chosen
@@ -37,6 +34,7 @@ FastBody::FastBody(const ClothMesh& mesh, const std::vector<forces::LawSpecifica
                    VectorX<double> masses, const FastSettings& settings)
     : network_(fast::make_network(mesh, laws)), masses_(std::move(masses)), settings_(settings) {
   check(settings);
+  set_num_nodes(masses_.size());
 }
 
 std::optional<std::string> FastBody::obstacle(const btSoftBody& body) {
@@ -50,6 +48,7 @@ std::optional<std::string> FastBody::obstacle(const btSoftBody& body) {
 void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>& is_changed,
                     VectorX<double> masses, const std::vector<int>& origins) {
   masses_ = std::move(masses);
+  set_num_nodes(masses_.size());
   if (solver_) {
     if (limited_.as_given.edges.cols() > 0) {
       fast::replace_springs(is_changed, springs, limited_.as_given);
@@ -70,6 +69,7 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
   obstacles_.clear();
   ways_.outdate();
   excess_ = 0;
+  force_history_.forget();
   wake();
 }
 
@@ -118,18 +118,11 @@ void FastBody::note_velocities(const btSoftBody& body) {
   });
 }
 
-// BDF2 takes a change of velocity between steps for the beginning of a trend, and makes 4/3 of it: such a step is implicit
-// Euler, which counts it once. The steps after it have a history that has had that velocity.
-bool FastBody::was_pushed() const {
-  if (impulses_.cols() > 0) return true;
-  return left_velocities_.cols() == start_velocities_.cols() &&
-         left_velocities_ != start_velocities_;
-}
-
 void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btScalar>& positions,
                        const Matrix3X<btScalar>& velocities) {
   const fast::ThreadTeam::Scope scope(team_, team_size());
   last_starts_.swap(starts_);
+  last_spacing_ = time_step;
   last_velocities_.swap(start_velocities_);
   choose_origin(body);
   starts_.resize(3, positions.cols());
@@ -138,9 +131,10 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
     starts_.middleCols(begin, count) = positions.middleCols(begin, count).colwise() - origin_;
     start_velocities_.middleCols(begin, count) = velocities.middleCols(begin, count);
   });
+  last_parts_ = std::exchange(parts_, 1);
   contacts_.clear();
   obstacles_.clear();
-  forget_supports();
+  pushed_.begin_step();
   is_support_missing_ = false;
   ways_.outdate();
   if (is_plain(body)) {
@@ -226,52 +220,6 @@ void FastBody::set_free(const std::vector<bool>& is_free) {
   network_ = {};  // the solver has it now
 }
 
-bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
-  if (!settings_.is_second_order || last_step_ != time_step || !contacts_.empty() ||
-      body.m_scontacts.size() > 0 || places_.cols() != starts_.cols() || was_pushed()) {
-    return false;
-  }
-  // Somebody may have moved a node since.
-  for (const int pin : pins_) places_.col(pin) = starts_.col(pin);
-  std::array<bool, fast::ThreadTeam::kMostParts> is_same;
-  is_same.fill(true);
-  fast::run_parts(team_, static_cast<int>(starts_.cols()), [&](int part, int begin, int end) {
-    is_same[static_cast<std::size_t>(part)] =
-        places_.middleCols(begin, end - begin) == starts_.middleCols(begin, end - begin);
-  });
-  return std::all_of(is_same.begin(), is_same.end(), [](bool same) { return same; });
-}
-
-// What does that work is not known: pins and anchors that lead, obstacles that are led, other cloth.
-bool FastBody::gets_work_from_outside() const {
-  if (!led_.empty()) return true;
-  for (const RigidContact& contact : contacts_) {
-    if (contact.motion.length2() > 0 && movable(contact.object) == nullptr) return true;
-  }
-  return std::any_of(pins_.begin(), pins_.end(),
-                     [&](int pin) { return places_.col(pin) != starts_.col(pin); });
-}
-
-// A node that is put out of a surface after the solution stretches springs, and a very stiff sheet would throw it back with
-// energy that nobody has given to it. What is stored in springs cannot be taken away without another step: it is kept in mind
-// until it comes out as motion. Solutions that stay as they are gain nothing and are not looked at.
-void FastBody::keep_energy(btScalar time_step) {
-  if (gets_work_from_outside()) excess_ = 0;
-  if (solver_->is_converged() && !is_projected_ && pushed_.empty() && excess_ == 0) return;
-  if (weights_.cols() != places_.cols()) {
-    weights_ = masses_.transpose().cast<btScalar>().replicate(3, 1);
-  }
-  for (const int pin : pins_) weights_.col(pin).setZero();
-  const double given =
-      energy_put_in({weights_, starts_, start_velocities_, predicted_, places_, time_step}, team_);
-  const double now = kinetic_energy(weights_, velocities_, team_);
-  const double most = given - given_to_bodies_ + solver_->spring_energy(starts_, team_) - excess_ +
-                      kEnergySlack * solver_->step_energy() -
-                      solver_->spring_energy(places_, team_);
-  if (now > most) limit_energy(weights_, most, pins_.empty(), velocities_, team_);
-  excess_ = std::max(0.0, -most);
-}
-
 void FastBody::place(btSoftBody& body, btScalar time_step, bool is_looked_at) {
   is_projected_ = solver_->was_clamped();
   keep_out_of_missed(body, time_step);
@@ -313,13 +261,8 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
   is_predicted_ = false;
   const bool is_pushed = is_placed_ && take_pushed_places(body);
   const bool meets_cloth = body.m_scontacts.size() > 0 || is_pushed;
-  velocities_.resize(3, places_.cols());
-  for_nodes([&](int begin, int count) {
-    auto velocities = velocities_.middleCols(begin, count);
-    velocities = places_.middleCols(begin, count) - origins_.middleCols(begin, count);
-    solver_->add_remainders(begin, velocities);
-    velocities /= inertia_step_;
-  });
+  find_velocities();
+  keep_forces(time_step);
   if (meets_cloth) {
     excess_ = 0;
   } else {
@@ -352,19 +295,13 @@ void FastBody::update_normals(btSoftBody& body) {
   has_normals_ = true;
 }
 
-// What threads gain with one part each, they lose waiting for one another.
-int FastBody::team_size() const {
-  const int num_parts = fast::NodeParts(static_cast<int>(masses_.size())).count();
-  return std::clamp(num_parts / 2, 1, num_threads_);
-}
-
 void FastBody::solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort,
                      bool is_again) {
   read_constraints(body, time_step, is_again);
-  solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, led_, inertias_,
-                  bending_.empty() ? nullptr : &bending_, is_again},
+  solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, led_,
+                  pushed_.inertias(), bending_.empty() ? nullptr : &bending_, is_again},
                  effort, places_, team_);
-  remember_ways();
+  pushed_.take_ways(*solver_, time_step);
 }
 
 void FastBody::prepare(const btSoftBody& body) {
@@ -384,33 +321,21 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
                            std::span<const btRigidBody* const> pushed) {
   const TraceScope trace("fast body");
   const fast::ThreadTeam::Scope scope(team_, team_size());
-  all_pushed_.assign(pushed.begin(), pushed.end());
-  // Bullet has predicted velocities v + h a; what it would do to nodes without springs.
-  const bool uses_history = may_use_history(body, time_step);
-  inertia_step_ = uses_history ? time_step * 2 / 3 : time_step;
-  for (Matrix3X<btScalar>* vectors : {&origins_, &targets_, &places_}) {
-    vectors->resize(3, starts_.cols());
-  }
-  for_nodes([&](int begin, int count) {
-    const auto of = [&](Matrix3X<btScalar>& vectors) { return vectors.middleCols(begin, count); };
-    if (uses_history) {
-      of(origins_) = (4 * of(starts_) - of(last_starts_)) / 3;
-      of(targets_) = of(origins_) +
-                     inertia_step_ * ((4 * of(start_velocities_) - of(last_velocities_)) / 3 +
-                                      (of(predicted_) - of(start_velocities_)) * btScalar(2) / 3);
-    } else {
-      of(origins_) = of(starts_);
-      of(targets_) = of(origins_) + inertia_step_ * of(predicted_);
-    }
-    of(places_) = of(starts_) + time_step * of(start_velocities_);
-    // Springs may hold back at once what a force would do alone.
-    if (impulses_.cols() > 0) of(places_) -= time_step * of(impulses_);
-  });
-  for (const int pin : pins_) {
-    targets_.col(pin) = from_bullet<btScalar>(body.m_nodes[pin].m_x) - origin_;
-  }
+  pushed_.begin_solve(pushed);
+  set_targets(body, choose_method(body, time_step), time_step);
   if (!bending_.empty()) bending_.begin_step(starts_);
   solve(body, time_step, settings_.effort, false);
+}
+
+void FastBody::solve_anew_if_it_gains(btSoftBody& body, btScalar time_step) {
+  if (method_ != Method::kForces) return;
+  const TraceScope trace("fast body");
+  const fast::ThreadTeam::Scope scope(team_, team_size());
+  find_velocities();
+  const EnergyBalance balance = energy_balance(time_step, pushed_.energy_to_come(time_step));
+  if (balance.kinetic <= balance.most) return;
+  set_targets(body, Method::kEuler, time_step);
+  solve(body, time_step, settings_.effort, true);
 }
 
 void FastBody::look_again(btSoftBody& body, btScalar time_step) {
@@ -418,7 +343,7 @@ void FastBody::look_again(btSoftBody& body, btScalar time_step) {
   const fast::ThreadTeam::Scope scope(team_, team_size());
   follow_obstacles(true);
   is_contact_missing_ = find_missed_contacts(body, time_step);
-  is_support_missing_ = are_supports_wrong(time_step);
+  is_support_missing_ = pushed_.are_supports_wrong(time_step);
 }
 
 bool FastBody::looks_alone() const {
@@ -431,7 +356,7 @@ void FastBody::solve_again(btSoftBody& body, btScalar time_step,
                            std::span<const btRigidBody* const> pushed) {
   const TraceScope trace("fast body");
   const fast::ThreadTeam::Scope scope(team_, team_size());
-  all_pushed_.assign(pushed.begin(), pushed.end());
+  pushed_.begin_solve(pushed);
   solve(body, time_step, settings_.effort, true);
 }
 

@@ -12,8 +12,11 @@
 #include <weft/bridge/bending_forces.hpp>
 #include <weft/bridge/body_sleep.hpp>
 #include <weft/bridge/fast_settings.hpp>
+#include <weft/bridge/force_history.hpp>
 #include <weft/bridge/node_normals.hpp>
+#include <weft/bridge/node_team.hpp>
 #include <weft/bridge/precision.hpp>
+#include <weft/bridge/pushed_bodies.hpp>
 #include <weft/bridge/rigid_contacts.hpp>
 #include <weft/bridge/rigid_motion.hpp>
 #include <weft/bridge/rigid_parts.hpp>
@@ -21,8 +24,6 @@
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
 #include <weft/fast_solver/implicit_solver.hpp>
-#include <weft/fast_solver/node_parts.hpp>
-#include <weft/fast_solver/thread_team.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -35,7 +36,7 @@ inline namespace WEFT_BULLET_PRECISION {
 /// shapes and Coulomb friction. Contacts with cloth (m_scontacts) are projected afterwards, as Bullet
 /// does it. A dynamic body takes part with its inertia; at the end of the step it gets the impulses, and is moved by them.
 /// Bullet's own links are not looked at.
-class FastBody {
+class FastBody : public NodeTeam {
  public:
   /// laws: all of the body's; those that are not implicit only lend their stiffness. masses: n [kg].
   /// Throws InvalidArgument as make_network() and for an effort below 1.
@@ -60,21 +61,6 @@ class FastBody {
   void set_laws(const forces::LawSet<btScalar>& laws, const VectorX<btScalar>& masses) {
     bending_.set_laws(laws, masses);
   }
-  /// That may work on this body at a time, with the one that calls.
-  void set_num_threads(int num_threads) { num_threads_ = num_threads; }
-  /// They stay as long as the scope has them: between the stages of a step too.
-  [[nodiscard]] fast::ThreadTeam::Scope hold_threads() { return {team_, team_size()}; }
-  void hold_threads(std::optional<fast::ThreadTeam::Scope>& scope) {
-    scope.emplace(team_, team_size());
-  }
-
-  /// work(first node, number of nodes) for each part of the nodes, by them.
-  template <class Work>
-  void for_nodes(const Work& work) {
-    fast::run_parts(team_, static_cast<int>(masses_.size()),
-                    [&](int, int begin, int end) { work(begin, end - begin); });
-  }
-
   /// A body that sleeps is not to be stepped: only these are called.
   [[nodiscard]] bool is_asleep() const { return sleep_.is_asleep(); }
   [[nodiscard]] bool is_at_rest() const { return sleep_.is_at_rest(settings_); }
@@ -114,7 +100,7 @@ class FastBody {
   void detect_contacts(const btSoftBody& body, btScalar time_step);
   /// In how many parts the step is to be taken, after detect_contacts(): in one the surface of a dynamic body that comes far
   /// would have turned away from the nodes that it meets.
-  [[nodiscard]] int num_parts(const btSoftBody& body) const;
+  [[nodiscard]] int num_parts(const btSoftBody& body, btScalar time_step) const;
   /// Appends the dynamic bodies that this one is near to or hangs on, each once.
   void list_dynamic(const btSoftBody& body, std::vector<btRigidBody*>& list) const;
   /// Around all parts; each is then a step of its own, from detect_contacts() to end_solve().
@@ -135,6 +121,9 @@ class FastBody {
   [[nodiscard]] bool is_unfinished() const { return is_contact_missing_ || is_support_missing_; }
   void solve_again(btSoftBody& body, btScalar time_step,
                    std::span<const btRigidBody* const> pushed);
+  /// A step of the method of ForceHistory that has more energy than there was is solved by implicit Euler instead, which
+  /// cannot.
+  void solve_anew_if_it_gains(btSoftBody& body, btScalar time_step);
   /// Writes the solution to m_x, if anybody looks at it before end_solve(). Contacts with cloth are projected then, over all bodies, as often as
   /// kClothContactSweeps says, for what one body does to another would be lost otherwise.
   void place(btSoftBody& body, btScalar time_step, bool is_looked_at);
@@ -148,7 +137,7 @@ class FastBody {
   void update_normals(btSoftBody& body);
   [[nodiscard]] bool has_normals() const { return has_normals_; }
   /// [s] What the end of this step's velocity counts of a rate: BDF2 takes two thirds of the step, and the rest from the steps before.
-  [[nodiscard]] btScalar velocity_step() const { return inertia_step_; }
+  [[nodiscard]] btScalar velocity_step() const { return velocity_step_; }
   /// How often look_again() is called.
   static constexpr int kMostLooks = 2;
 
@@ -158,12 +147,23 @@ class FastBody {
   [[nodiscard]] double residual() const { return solver_ ? solver_->residual() : 0.0; }
 
  private:
+  enum class Method { kEuler, kBdf2, kForces };
+  /// Kinetic energy of a solution, and the most that what was there and was put in leaves to it [J].
+  struct EnergyBalance {
+    double kinetic;
+    double most;
+  };
   void solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort, bool is_again);
-  [[nodiscard]] int team_size() const;
   [[nodiscard]] bool take_pushed_places(const btSoftBody& body);
   void prepare_solver(const btSoftBody& body);
   void set_free(const std::vector<bool>& is_free);
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
+  [[nodiscard]] bool may_use_forces(const btSoftBody& body, btScalar time_step);
+  [[nodiscard]] Method choose_method(const btSoftBody& body, btScalar time_step);
+  void set_targets(const btSoftBody& body, Method method, btScalar time_step);
+  void find_velocities();
+  void keep_forces(btScalar time_step);
+  [[nodiscard]] bool are_places_kept();
   void list_known(const btSoftBody& body);
   [[nodiscard]] RigidContact* known_contact(const RigidContact& found);
   void follow_obstacles(bool to_solution);
@@ -178,21 +178,13 @@ class FastBody {
   void read_prediction(const btSoftBody& body);
   [[nodiscard]] btVector3 in_world(int node) const;
   void write_places(btSoftBody& body);
-  [[nodiscard]] RigidWay way_of(const btRigidBody& rigid) const;
-  void remember_ways();
-  [[nodiscard]] int number_of(const btSoftBody& body, const btRigidBody& rigid, btScalar time_step,
-                              bool is_again);
-  [[nodiscard]] const std::vector<Support>& supports_of(const btSoftBody& body,
-                                                        const btRigidBody& rigid,
-                                                        btScalar time_step);
-  [[nodiscard]] bool are_supports_wrong(btScalar time_step);
-  void forget_supports();
   void read_constraints(const btSoftBody& body, btScalar time_step, bool is_again);
   void give_impulses(btSoftBody& body, btScalar time_step);
   void keep_out_of_missed(btSoftBody& body, btScalar time_step);
   void leave_depths();
   void stay_outside(btSoftBody& body) const;
   [[nodiscard]] bool gets_work_from_outside() const;
+  [[nodiscard]] EnergyBalance energy_balance(btScalar time_step, double for_bodies);
   void keep_energy(btScalar time_step);
 
   BendingForces bending_;
@@ -205,8 +197,6 @@ class FastBody {
   std::vector<int> solver_pins_;  ///< likewise
   std::vector<int> pins_;         ///< of the present step
 
-  fast::ThreadTeam team_;
-  int num_threads_ = 1;
   BodySleep sleep_;
   Vector3<btScalar> origin_ = Vector3<btScalar>::Zero();  ///< that places are counted from [m]
   // Of the present step, 3 x n.
@@ -225,10 +215,16 @@ class FastBody {
   // Of the step before.
   Matrix3X<btScalar> last_starts_;
   Matrix3X<btScalar> last_velocities_;
+  btScalar last_spacing_ = 0;           ///< [s] from last_starts_ to starts_
   Matrix3X<btScalar> impulses_;         ///< of the present step, over masses [m/s]; empty: none
   Matrix3X<btScalar> left_velocities_;  ///< at its end, after damping
-  btScalar inertia_step_ = 0;           ///< [s] of the present step
-  btScalar last_step_ = 0;              ///< [s]; 0: no history
+  ForceHistory force_history_;
+  btScalar inertia_step_ = 0;       ///< [s] of the present step
+  btScalar velocity_step_ = 0;      ///< [s] likewise: from origins_ to places_
+  int parts_ = 1;                   ///< of the present step
+  int last_parts_ = 1;              ///< of the last one
+  Method method_ = Method::kEuler;  ///< of the present step
+  btScalar last_step_ = 0;          ///< [s]; 0: no history
   bool is_predicted_ = false;
   bool has_normals_ = false;         ///< of the places at the end of the present step
   bool is_placed_ = false;           ///< before end_solve()
@@ -248,18 +244,8 @@ class FastBody {
   std::vector<int> contact_before_;
   std::vector<fast::PlaneContact<btScalar>> plane_contacts_;
   std::vector<fast::LedNode<btScalar>> led_;
-  std::vector<const btRigidBody*>
-      pushed_;  ///< those that the body may push, and what they are to the solver
-  std::vector<fast::RigidInertia<btScalar>> inertias_;
-  std::vector<btTransform> pushed_places_;  ///< where they were in the last solution
-  std::vector<std::pair<btVector3, btVector3>> velocities_before_;  ///< of pushed_, and angular
-  std::vector<Support> supports_;  ///< of supported_, of the present step
-  std::vector<const btRigidBody*> supported_;
-  std::vector<const btRigidBody*> last_held_;    ///< with a loaded support in the step before
-  std::vector<int> scratch_;                     ///< kept for its memory
-  std::vector<const btRigidBody*> all_pushed_;   ///< by all bodies, in order
-  std::vector<const btRigidBody*> last_pushed_;  ///< in the last solution, and how far
-  std::vector<RigidWay> last_ways_;
+  PushedBodies pushed_;
+  std::vector<int> scratch_;  ///< kept for its memory
 };
 
 }  // namespace WEFT_BULLET_PRECISION

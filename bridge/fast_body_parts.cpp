@@ -12,6 +12,8 @@ namespace {
 
 /// Of a shape's smallest half extent: how far it may come towards a node in one part.
 constexpr btScalar kPartShare = btScalar(0.2);
+/// Likewise: how far springs may push it back in one.
+constexpr btScalar kPushShare = btScalar(0.05);
 constexpr int kMostParts = 32;
 
 btScalar smallest_half_extent(const btCollisionShape& shape) {
@@ -24,17 +26,25 @@ btScalar smallest_half_extent(const btCollisionShape& shape) {
 
 }  // namespace
 
-int FastBody::num_parts(const btSoftBody& body) const {
+int FastBody::num_parts(const btSoftBody& body, btScalar time_step) const {
   btScalar most = 1;
+  bool touches_dynamic = false;
   for (const RigidContact& contact : contacts_) {
-    if (movable(contact.object) == nullptr) continue;
+    const btRigidBody* const rigid = movable(contact.object);
+    if (rigid == nullptr) continue;
+    touches_dynamic = true;
     const Obstacle& obstacle = obstacles_[static_cast<std::size_t>(contact.obstacle)];
     const btVector3 normal = obstacle.object_place.getBasis() * contact.normal_by_object;
     const btScalar way = btDot(normal, body.m_nodes[contact.node].m_q - contact.met);
+    // By what cloth has done to it in the last solve: so it will go on.
+    const btScalar weight = 2 * time_step * time_step * rigid->getGravity().length();
+    const btScalar pushed = pushed_.push_in(*rigid, time_step) - weight;
     const btScalar size =
         std::max(smallest_half_extent(*obstacle.shape), body.getCollisionShape()->getMargin());
-    most = std::max(most, way / (kPartShare * size));
+    most = std::max({most, way / (kPartShare * size), pushed / (kPushShare * size)});
   }
+  // Not much fewer than before: what short steps have begun goes on.
+  if (touches_dynamic) most = std::max(most, static_cast<btScalar>(last_parts_) / 2);
   return std::min(kMostParts, static_cast<int>(std::ceil(most)));
 }
 
@@ -59,6 +69,8 @@ void FastBody::begin_parts(const btSoftBody& body, btScalar time_step) {
 void FastBody::begin_part(btSoftBody& body, const RigidParts& rigid, int part, int num_parts,
                           btScalar part_step) {
   if (part > 0) {
+    last_starts_ = starts_;
+    last_spacing_ = part_step;
     for (int i = 0; i < body.m_nodes.size(); ++i) {
       starts_.col(i) = from_bullet<btScalar>(body.m_nodes[i].m_x) - origin_;
     }
@@ -66,6 +78,7 @@ void FastBody::begin_part(btSoftBody& body, const RigidParts& rigid, int part, i
     impulses_.resize(3, 0);
   }
   last_step_ = 0;  // BDF2 knows no parts
+  parts_ = num_parts;
   const btScalar reached = static_cast<btScalar>(part + 1) / static_cast<btScalar>(num_parts);
   predicted_ = start_velocities_ + part_step * accelerations_;
   for (int i = 0; i < body.m_nodes.size(); ++i) {
@@ -80,7 +93,7 @@ void FastBody::begin_part(btSoftBody& body, const RigidParts& rigid, int part, i
         part + 1 == num_parts ? pin_places_[k] : start.lerp(pin_places_[k], reached);
   }
   contacts_.clear();
-  forget_supports();
+  pushed_.begin_step();
   is_support_missing_ = false;
   ways_.outdate();
   for (Obstacle& obstacle : obstacles_) {
@@ -99,7 +112,7 @@ void FastBody::end_parts(btSoftBody& body, btScalar time_step) {
     if (node.m_im <= 0) node.m_v = (node.m_x - node.m_q) / time_step;
   }
   starts_ = whole_starts_;
-  inertia_step_ = time_step;  // rates of damping count for the whole step
+  velocity_step_ = time_step;  // rates of damping count for the whole step
   last_step_ = 0;
 }
 

@@ -130,8 +130,8 @@ void SoftBodySolver::detect_contacts(btScalar time_step) {
 void SoftBodySolver::solve_in_parts() {
   std::vector<Attachment*>& bodies = attachments_->stepped;
   if (may_meet_cloth()) return;
-  const auto wants_parts = [](const Attachment* one) {
-    return one->fast->num_parts(*one->body) > 1;
+  const auto wants_parts = [this](const Attachment* one) {
+    return one->fast->num_parts(*one->body, time_step_) > 1;
   };
   while (true) {
     const auto first = std::find_if(bodies.begin(), bodies.end(), wants_parts);
@@ -140,7 +140,7 @@ void SoftBodySolver::solve_in_parts() {
     std::vector<btRigidBody*> reached;
     int num_parts = 1;
     for (std::size_t g = 0; g < group.size(); ++g) {
-      num_parts = std::max(num_parts, group[g]->fast->num_parts(*group[g]->body));
+      num_parts = std::max(num_parts, group[g]->fast->num_parts(*group[g]->body, time_step_));
       group[g]->fast->list_dynamic(*group[g]->body, reached);
       for (Attachment* other : bodies) {
         if (std::find(group.begin(), group.end(), other) != group.end()) continue;
@@ -217,7 +217,8 @@ void SoftBodySolver::solve_listed_bodies(btScalar time_step) {
     in_parallel(asked,
                 [&](Attachment& one) { one.fast->solve_again(*one.body, time_step, pushed); });
   }
-  drop_stopped(bodies);
+  in_parallel(bodies,
+              [&](Attachment& one) { one.fast->solve_anew_if_it_gains(*one.body, time_step); });
 }
 
 void SoftBodySolver::place_listed_bodies(btScalar time_step, bool may_meet) {

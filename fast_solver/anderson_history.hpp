@@ -19,7 +19,7 @@ namespace weft::fast {
 template <class Scalar>
 class AndersonHistory {
  public:
-  static constexpr int kMemory = 3;
+  static constexpr int kMemory = 2;
   using Nodes = NodeArrays<Scalar>;
   using Floats = NodeArrays<float>;
   /// The products of the changes of steps with each other, and those with the present step.
@@ -74,13 +74,13 @@ class AndersonHistory {
   /// How much of each change of results is to be taken away.
   [[nodiscard]] Weights weights(const Products& products) const {
     constexpr double kRegularization = 1e-8;
-    Weights result = Weights::Zero();
-    Eigen::MatrixXd system = products.topLeftCorner(count_, count_);
-    system.diagonal() += kRegularization * system.diagonal();
-    if (!(system.diagonal().minCoeff() > 0)) return result;
-    const Eigen::VectorXd solved = system.partialPivLu().solve(products.col(kMemory).head(count_));
-    if (solved.allFinite()) result.head(count_) = solved;
-    return result;
+    Eigen::Matrix<double, kMemory, kMemory> system = products.template leftCols<kMemory>();
+    for (int k = 0; k < kMemory; ++k) {
+      system(k, k) = k < count_ ? (1 + kRegularization) * system(k, k) : 1;
+      if (!(system(k, k) > 0)) return Weights::Zero();
+    }
+    const Weights result = system.partialPivLu().solve(products.col(kMemory));
+    return result.allFinite() ? result : Weights(Weights::Zero());
   }
   /// places -= what the weights say.
   void combine(NodeRange nodes, const Weights& weights, Nodes& places) const {

@@ -15,7 +15,7 @@ std::size_t at(int i) {
 template <class Scalar>
 void ImplicitSolver<Scalar>::load_bodies(const StepProblem<Scalar>& problem) {
   bodies_.resize(problem.bodies.size());
-  const Scalar per_square = 1 / (problem.time_step * problem.time_step);
+  const Scalar per_square = 1 / (problem.inertia_step * problem.inertia_step);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const RigidInertia<Scalar>& given = problem.bodies[b];
     Body& body = bodies_[b];

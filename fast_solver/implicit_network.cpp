@@ -26,7 +26,8 @@ void check_size(const std::vector<bool>& is_free, Eigen::Index num_nodes) {
 template <class Scalar>
 ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const VectorX<double>& masses,
                                        const std::vector<bool>& is_free)
-    : parts_(static_cast<int>(masses.size())), forces_(network, static_cast<int>(masses.size())) {
+    : forces_(network, static_cast<int>(masses.size())) {
+  parts_ = NodeParts(static_cast<int>(masses.size()));
   check_size(is_free, masses.size());
   set_nodes(masses, is_free);
   std::vector<int> all(at(num_nodes()));

@@ -107,7 +107,8 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     const double limited = std::min(kSlowest, shrinks);
     const double left = last_gain_.left + last_gain_.total * limited / (1 - limited);
     num_stalled = !are_holds_new && !(shrinks < kStalled) ? num_stalled + 1 : 0;
-    const bool is_rounding = last_gain_.total <= rounding;
+    // What is stiff goes on to gain by rounding alone, while what is soft may have some way to go.
+    const bool is_rounding = last_gain_.total <= rounding && !(shrinks < kStalled);
     const bool is_solved = (left <= asked || is_rounding) && !last_gain_.is_broken;
     const bool is_over = is_solved || (num_stalled >= kMostStalled && effort.tolerance > 0);
     // With these contacts. Whether they are the right ones is asked of a solution: on the way there forces say little.

@@ -373,7 +373,12 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const Sol
   const std::optional<Vector3<Scalar>> shift = find_balance(problem);
   for_each_part([&](NodeRange nodes) {
     const int end = std::min(nodes.end, num_nodes());
-    if (shift) places_.middleRows(nodes.begin, end - nodes.begin).rowwise() += shift->transpose();
+    if (shift) {
+      const int count = end - nodes.begin;
+      places_.middleRows(nodes.begin, count).rowwise() += shift->transpose();
+      unbalanced_.middleRows(nodes.begin, count) -=
+          weights_.segment(nodes.begin, count) * shift->transpose();
+    }
     find_remainders(nodes);
     from_arrays<Scalar>(places_, nodes, places);
   });
@@ -404,6 +409,15 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::add_remainders(int first_node, Matrix3XRef<Scalar> ways) const {
   for (Eigen::Index i = 0; i < ways.cols(); ++i)
     ways.col(i) += at_node(remainders_, first_node + i);
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::get_forces(int first_node, Matrix3XRef<Scalar> forces) const {
+  for (Eigen::Index i = 0; i < forces.cols(); ++i) {
+    const Eigen::Index node = first_node + i;
+    const Vector3<Scalar> without = at_node(targets_, node) - at_node(places_, node);
+    forces.col(i) = at_node(unbalanced_, node) - weights_[node] * without;
+  }
 }
 
 template <class Scalar>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include <weft/fast_solver/solver_effort.hpp>
 #include <weft/fast_solver/spring_network.hpp>
 #include <weft/fast_solver/step_problem.hpp>
+#include <weft/fast_solver/team_loops.hpp>
 #include <weft/fast_solver/thread_team.hpp>
 
 namespace weft::fast {
@@ -34,7 +34,7 @@ namespace weft::fast {
 /// Deterministic: the same bits for any number of threads. No allocation in solve(), except for more
 /// contacts than ever before, and where other nodes are led than in the step before.
 template <class Scalar>
-class ImplicitSolver {
+class ImplicitSolver : TeamLoops {
  public:
   using Vector6 = Eigen::Matrix<Scalar, 6, 1>;
 
@@ -69,6 +69,8 @@ class ImplicitSolver {
   /// After solve(): ways of some nodes in a row, 3 x their number [m] += what places would need to be on top, if they had more digits; at most the
   /// rounding of each. Of a slow motion in short steps it is a good part.
   void add_remainders(int first_node, Matrix3XRef<Scalar> ways) const;
+  /// After solve(): forces of springs and of the step's own forces on some nodes in a row, 3 x their number [N].
+  void get_forces(int first_node, Matrix3XRef<Scalar> forces) const;
   /// After solve(): the contact of the problem that holds a node, or -1.
   [[nodiscard]] int contact_of(int node) const {
     return contact_of_[static_cast<std::size_t>(node)];
@@ -106,20 +108,6 @@ class ImplicitSolver {
   void change_correction(const std::vector<int>& changed);
   [[nodiscard]] std::vector<bool> have_hats(const std::vector<int>& nodes) const;
   void follow_led(const StepProblem<Scalar>& problem);
-  /// work(nodes) for each part of the nodes. What it has by value goes to helpers with it (ThreadTeam::run).
-  template <class Work>
-  void for_each_part(const Work& work) {
-    team_->run(parts_.count(), [parts = parts_, work](int part) { work(parts[part]); });
-  }
-  /// Sum of term(nodes), which is a Sum, over the parts in order.
-  template <class Sum = double, class Term>
-  [[nodiscard]] Sum sum_over_parts(const Term& term) {
-    std::array<Sum, ThreadTeam::kMostParts> sums;
-    team_->run(parts_.count(), [parts = parts_, sums = sums.data(), term](int part) {
-      sums[part] = term(parts[part]);
-    });
-    return std::accumulate(sums.begin() + 1, sums.begin() + parts_.count(), sums[0]);
-  }
   void load(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> guess);
   void evaluate(bool linearises = true);
   void evaluate_step_forces();
@@ -196,9 +184,7 @@ class ImplicitSolver {
   void find_remainders(NodeRange nodes);
   void clamp(const StepProblem<Scalar>& problem);
 
-  ThreadTeam* team_ = nullptr;                          ///< during solve()
   const StepForces<Scalar>* more_forces_of_ = nullptr;  ///< likewise
-  NodeParts parts_;
   NetworkForces<Scalar> forces_;
   CoarseCorrection coarse_correction_;
   VectorX<Scalar> masses_;  ///< [kg], filled up with zeros

@@ -30,8 +30,8 @@ template <class Scalar>
 struct StepProblem {
   Eigen::Ref<const Matrix3X<Scalar>> targets;  ///< y, 3 x n [m]; of pinned nodes: where they go
   Eigen::Ref<const Matrix3X<Scalar>> starts;   ///< q, 3 x n [m] at the start of the step
-  Scalar time_step;                            ///< h [s]: of dampers and of rigid bodies
-  Scalar inertia_step;                         ///< h' [s]
+  Scalar time_step;                            ///< h [s]: of dampers
+  Scalar inertia_step;                         ///< h' [s]: of nodes and rigid bodies
   std::span<const PlaneContact<Scalar>> contacts = {};
   std::span<const LedNode<Scalar>> led = {};
   std::span<const RigidInertia<Scalar>> bodies = {};
