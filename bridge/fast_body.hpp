@@ -4,7 +4,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <BulletSoftBody/btSoftBody.h>
@@ -238,9 +237,8 @@ class FastBody : public NodeTeam {
   NodeNormals normals_;
   std::vector<RigidContact> contacts_;
   std::vector<RigidContact> found_;  ///< of a second look
-  std::vector<RigidContact>
-      deep_;  ///< of it, with what does not give way, where the solution is well inside
-  std::vector<int> last_contact_;  ///< of each node, or -1; contact_before_: the one before it
+  std::vector<RigidContact> deep_;   ///< of it, with what is immovable, where it is far inside
+  std::vector<int> last_contact_;    ///< of each node, or -1; contact_before_: the one before it
   std::vector<int> contact_before_;
   std::vector<fast::PlaneContact<btScalar>> plane_contacts_;
   std::vector<fast::LedNode<btScalar>> led_;
