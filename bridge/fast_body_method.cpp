@@ -14,7 +14,7 @@ namespace {
 /// Of m |y - q|^2 / (2 h^2), what a step may gain: rounding.
 constexpr double kEnergySlack = 0.01;
 
-/// Of all energy: what methods of second order may seem to gain, whose velocities are not those of Euler's step.
+/// Of all energy: what a method may seem to gain whose velocities are those of the middle of a step.
 constexpr double kBalanceSlack = 3e-2;
 /// Of what gravity does in a step: how fast a dynamic body is that springs throw back, or what they have done to it.
 constexpr btScalar kLively = btScalar(2.5);
@@ -159,8 +159,8 @@ FastBody::EnergyBalance FastBody::energy_balance(btScalar time_step, double for_
     stored += static_cast<double>(share) * (start - solver_->spring_energy(last_starts_, team_));
     stored /= 2;
   }
-  const double slack = method_ == Method::kEuler ? kEnergySlack * solver_->step_energy()
-                                                 : kBalanceSlack * (given + start);
+  const double slack =
+      !is_between ? kEnergySlack * solver_->step_energy() : kBalanceSlack * (given + start);
   return {kinetic_energy(weights_, velocities_, team_),
           given - for_bodies - stored - excess_ + slack};
 }

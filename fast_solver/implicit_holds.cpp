@@ -15,8 +15,8 @@ std::size_t at(int i) {
 
 /// Of friction: what it takes to stop the slip that is left of a node that sticks from now on.
 constexpr double kStopped = 0.01;
-/// Over what resists the motion of a node: a drag.
-constexpr double kStiffestDrag = 1e4;
+/// Over what resists the motion of a node: a drag. Much more, and conjugate gradients would see nothing else.
+constexpr double kStiffestDrag = 30;
 /// [N/m] Of a node that moves: what keeps a quotient finite.
 constexpr double kLeastInertia = 1e-30;
 

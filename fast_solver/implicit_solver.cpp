@@ -288,7 +288,7 @@ LinearGain ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& probl
     last_gains[at(k % kGainDelay)] = now;
     sum.total += now;
     sum.left = std::accumulate(last_gains.begin(), last_gains.end(), 0.0);
-    const bool is_done = now <= kLastGain * sum.total || now <= least_gain ||
+    const bool is_done = now <= kLastGain * sum.total || (k > 0 && sum.left <= least_gain) ||
                          (k >= kGainDelay && sum.left <= kForcing * sum.total);
     if (k + 1 == iterations || is_done) break;
     team_->run(parts_.count(),
