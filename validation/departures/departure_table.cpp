@@ -108,10 +108,6 @@ const StatedDeparture kDampedContact{
     "a step of 1/100 s",
     {
 
-        {"drop_ground", "bullet_weft float32", "stays near the reference",
-         "RMS node distance / cloth size, 0 to 0.5 s", 0.15},
-        {"drop_ground", "bullet_weft float64", "stays near the reference",
-         "RMS node distance / cloth size, 0 to 0.5 s", 0.148},
     }};
 
 const StatedDeparture kSinglePrecision{
