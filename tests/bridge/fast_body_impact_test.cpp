@@ -1,0 +1,81 @@
+// Dynamic bodies on fast cloth: at rest, thrown back, and in steps in which they come far.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <gtest/gtest.h>
+
+#include "tests/bridge/fast_scene.hpp"
+
+namespace weft::bridge {
+namespace {
+
+ClothMesh trampoline() {
+  ClothMesh mesh = cloth(21, 1, 0, 0.2);
+  for (int i = 0; i < 21; ++i) {
+    for (int node : {i, 420 + i, 21 * i, 21 * i + 20}) {
+      if (i > 0 && i < 20) mesh.pinned.push_back(node);
+    }
+  }
+  mesh.pinned.insert(mesh.pinned.end(), {0, 20, 420, 440});
+  return mesh;
+}
+
+// Planes that stay where a body would be without its weight, or with its last turn, drive it aside within a few seconds.
+TEST(FastBodyImpact, ABallLiesStillOnATrampoline) {
+  Scene scene(trampoline(),
+              {kGravity, law("tension", "stiffness", 200), law("velocity_damping", "rate", 20)});
+  btRigidBody& ball =
+      scene.add(std::make_shared<btSphereShape>(btScalar(0.12)), 1.0, at(0, 0.13, 0));
+  ball.setFriction(0);
+  scene.step(600);
+  const btVector3 place = ball.getCenterOfMassPosition();
+  EXPECT_LT(place.y(), 0.08);  // it has sunk in
+  EXPECT_LT(std::hypot(place.x(), place.z()), 1e-3);
+  EXPECT_LT(ball.getLinearVelocity().length(), 1e-3);
+  EXPECT_LT(ball.getAngularVelocity().length(), 1e-2);
+}
+
+// It comes 17 cm in a step, through a sheet of its own mass that nothing holds.
+TEST(FastBodyImpact, KeepsMomentumAndGainsNoEnergy) {
+  Scene scene(cloth(21, 0.8, 0, 0.2), {law("tension", "stiffness", 2000)});
+  btRigidBody& ball =
+      scene.add(std::make_shared<btSphereShape>(btScalar(0.1)), 0.2, at(0.03, 0.3, 0.02));
+  ball.setGravity(btVector3(0, 0, 0));
+  ball.setLinearVelocity(btVector3(0, -10, 0));
+  for (int step = 0; step < 20; ++step) {
+    scene.step();
+    const double of_ball = 0.1 * static_cast<double>(ball.getLinearVelocity().length2());
+    EXPECT_LT(of_ball + scene.mechanical_energy(0) - 9.81 * 0.2 * scene.positions().row(1).mean(),
+              10.01)
+        << step;
+  }
+  const btVector3 velocity = ball.getLinearVelocity();
+  EXPECT_GT(velocity.y(), -7);  // they have met
+  EXPECT_NEAR(scene.momentum().y() + 0.2 * static_cast<double>(velocity.y()), -2, 2e-4);
+}
+
+// Implicit Euler takes nine tenths of the bounce.
+TEST(FastBodyImpact, ABallIsThrownBackByATrampoline) {
+  Scene scene(trampoline(), {kGravity, law("tension", "stiffness", 2000)});
+  btRigidBody& ball =
+      scene.add(std::make_shared<btSphereShape>(btScalar(0.12)), 1.0, at(0, 0.33, 0));
+  double lowest = 1;
+  double highest = 0;  // after that
+  for (int step = 0; step < 45; ++step) {
+    scene.step();
+    const auto height = static_cast<double>(ball.getCenterOfMassPosition().y());
+    if (height < lowest) {
+      lowest = height;
+      highest = height;
+    }
+    highest = std::max(highest, height);
+  }
+  EXPECT_LT(lowest, 0.06);
+  EXPECT_GT(highest, 0.22);  // 0.33 in short steps
+  EXPECT_LT(highest, 0.34);
+}
+
+}  // namespace
+}  // namespace weft::bridge
