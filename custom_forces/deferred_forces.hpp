@@ -63,7 +63,7 @@ class DeferredForces {
   ForceReport report_;
   bool is_in_flight_ = false;
   long num_recomputed_ = 0;
-  /// Of its own, so that the caller's other TBB work in between neither waits for the forces nor
+  /// An arena of its own, so that the caller's other TBB work in between neither waits for the forces nor
   /// picks them up.
   tbb::task_arena arena_;
   tbb::task_group group_;

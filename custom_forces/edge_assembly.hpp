@@ -48,7 +48,7 @@ class EdgeAssembly {
   static constexpr int kDefaultGrain = 4096;
 
  private:
-  /// Of the stack: the same cache lines for every chunk of a thread, where scratch memory would be
+  /// Memory on the stack: the same cache lines for every chunk of a thread, where scratch memory would be
   /// walked through from end to end.
   static constexpr Eigen::Index kStackBytes = 128 * 1024;
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 #include <weft/custom_forces/core/tangent.hpp>
 #include <weft/custom_forces/element_assembly.hpp>
@@ -74,6 +76,19 @@ class ElementForce {
                            ConstMatrix3XRef<Scalar> changes, Matrix3XRef<Scalar> scratch,
                            Matrix3XRef<Scalar> product) const {
     add_product<Argument::kVelocities>(state, kernel, changes, scratch, product);
+  }
+
+  /// Appends each pair of corners of element e, tied by stiffness(corner, other) [N/m].
+  template <class Stiffness>
+  void add_pairs(Eigen::Index e, const Stiffness& stiffness,
+                 std::vector<PairStiffness<Scalar>>& pairs) const {
+    for (int corner = 0; corner < kNodes; ++corner) {
+      for (int other = corner + 1; other < kNodes; ++other) {
+        pairs.push_back(
+            {elements()(corner, e), elements()(other, e),
+             stiffness(static_cast<std::size_t>(corner), static_cast<std::size_t>(other))});
+      }
+    }
   }
 
   /// Sum of value(e, element), in the order of the elements.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/core/types.hpp>
 #include <weft/custom_forces/law_info.hpp>
@@ -13,6 +15,14 @@ struct State {
   Eigen::Ref<const Matrix3X<Scalar>> velocities;  ///< v, 3 x n [m/s]
   Eigen::Ref<const VectorX<Scalar>> masses;       ///< m, n [kg]; a pinned node has its mass too
   double time = 0.0;                              ///< t [s], for laws with targets that move
+};
+
+/// How strongly a law ties two nodes at the rest shape.
+template <class Scalar>
+struct PairStiffness {
+  int first;
+  int second;
+  Scalar trace;  ///< of the 3 x 3 block (first, second) of -df/dx [N/m]
 };
 
 /// A force law: a pure function of State. It holds its topology and parameters, checked when it was
@@ -50,6 +60,11 @@ class ForceLaw {
                                    ConstMatrix3XRef<Scalar> /*velocity_changes*/,
                                    Matrix3XRef<Scalar> /*scratch*/,
                                    Matrix3XRef<Scalar> /*product*/) const {}
+
+  /// Appends the pairs of different nodes that each element ties at the rest shape, each pair once an element. rest: the
+  /// positions that the law was made with. Only for laws of bending, which no product would show as cheaply.
+  virtual void add_rest_stiffness(const State<Scalar>& /*rest*/,
+                                  std::vector<PairStiffness<Scalar>>& /*pairs*/) const {}
 
   /// Stored energy [J]; 0 for a law that stores none.
   [[nodiscard]] virtual Scalar potential_energy(const State<Scalar>& /*state*/) const {

@@ -217,6 +217,23 @@ void HingeTorsion<Scalar>::add_stiffness_product(const State<Scalar>& state,
 }
 
 template <class Scalar>
+void HingeTorsion<Scalar>::add_rest_stiffness(const State<Scalar>& rest,
+                                              std::vector<PairStiffness<Scalar>>& pairs) const {
+  for (Eigen::Index h = 0; h < hinges_.size(); ++h) {
+    HingeAngle<Scalar> angle;
+    if (!hinge_angle(hinges_.at(rest, h).x, smallest_normals_(0, h), smallest_normals_(1, h),
+                     angle)) {
+      continue;
+    }
+    // Without a moment only the gradient's square is left of the second derivative.
+    const auto stiffness = [&](std::size_t corner, std::size_t other) -> Scalar {
+      return stiffness_[h] * angle.gradient[corner].dot(angle.gradient[other]);
+    };
+    hinges_.add_pairs(h, stiffness, pairs);
+  }
+}
+
+template <class Scalar>
 Scalar HingeTorsion<Scalar>::potential_energy(const State<Scalar>& state) const {
   return hinges_.sum(state, [this](Eigen::Index h, const auto& hinge) -> Scalar {
     HingeAngle<Scalar> angle;

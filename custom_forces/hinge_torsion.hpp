@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <weft/custom_forces/core/dual.hpp>
 #include <weft/custom_forces/element_force.hpp>
 #include <weft/custom_forces/force_law.hpp>
@@ -45,6 +47,8 @@ class HingeTorsion final : public ForceLaw<Scalar> {
   void add_stiffness_product(const State<Scalar>& state, ConstMatrix3XRef<Scalar> displacements,
                              Matrix3XRef<Scalar> scratch,
                              Matrix3XRef<Scalar> product) const override;
+  void add_rest_stiffness(const State<Scalar>& rest,
+                          std::vector<PairStiffness<Scalar>>& pairs) const override;
   [[nodiscard]] Scalar potential_energy(const State<Scalar>& state) const override;
 
   /// Smallest triangle whose normal is still trusted, as a fraction of its rest area [-].

@@ -243,6 +243,39 @@ void Torsion<Scalar>::add_stiffness_product(const State<Scalar>& state,
 }
 
 template <class Scalar>
+void Torsion<Scalar>::add_rest_stiffness(const State<Scalar>& rest,
+                                         std::vector<PairStiffness<Scalar>>& pairs) const {
+  for (Eigen::Index e = 0; e < lines_.size(); ++e) {
+    Turn<Scalar> turn;
+    if (!turn_of(lines_.at(rest, e).x, shortest_(0, e), shortest_(1, e), turn)) continue;
+    // Unit vectors along which moving either end makes the turn grow.
+    Vector3<Scalar> across_first = turn.second - turn.first * turn.cosine;
+    Vector3<Scalar> across_second = turn.second * turn.cosine - turn.first;
+    Scalar directions(1);
+    if (rest_angles_[e] == Scalar(0)) {
+      // A straight line turns about either of two axes alike.
+      across_first = Vector3<Scalar>(Scalar(1), Scalar(0), Scalar(0));
+      across_second = across_first;
+      directions = Scalar(2);
+    } else {
+      using std::sqrt;
+      if (!(turn.squared_sine > Scalar(kOppositeSquaredSine))) continue;
+      const Scalar sine = sqrt(turn.squared_sine);
+      across_first = across_first / sine;
+      across_second = across_second / sine;
+    }
+    ElementForces<Scalar, 3> gradient;
+    gradient[0] = across_first / turn.first_length;
+    gradient[2] = across_second / turn.second_length;
+    gradient[1] = -gradient[0] - gradient[2];
+    const auto stiffness = [&](std::size_t corner, std::size_t other) -> Scalar {
+      return stiffness_[e] * directions * gradient[corner].dot(gradient[other]);
+    };
+    lines_.add_pairs(e, stiffness, pairs);
+  }
+}
+
+template <class Scalar>
 Scalar Torsion<Scalar>::potential_energy(const State<Scalar>& state) const {
   return lines_.sum(state, [&](Eigen::Index e, const auto& line) -> Scalar {
     using std::atan2;

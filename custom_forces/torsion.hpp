@@ -45,6 +45,8 @@ class Torsion final : public ForceLaw<Scalar> {
   void add_stiffness_product(const State<Scalar>& state, ConstMatrix3XRef<Scalar> displacements,
                              Matrix3XRef<Scalar> scratch,
                              Matrix3XRef<Scalar> product) const override;
+  void add_rest_stiffness(const State<Scalar>& rest,
+                          std::vector<PairStiffness<Scalar>>& pairs) const override;
   [[nodiscard]] Scalar potential_energy(const State<Scalar>& state) const override;
 
  private:

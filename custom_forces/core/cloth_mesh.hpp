@@ -54,7 +54,7 @@ struct ClothMesh {
   std::vector<NodeSet> node_sets = {};
   VectorX<double> masses;   ///< n [kg], > 0 for every node, also for pinned ones
   std::vector<int> pinned;  ///< sorted node indices that no force moves
-  /// Of the pinned nodes, 3 x pinned.size() [m/s]: they keep moving so. Empty: they stand still.
+  /// Velocities of the pinned nodes, 3 x pinned.size() [m/s]: they keep moving so. Empty: they stand still.
   Matrix3X<double> pinned_velocities = {};
   /// Place of each node in a picture, 2 x n [-]: (0, 0) is its lower left, (1, 1) its upper right
   /// corner, and the picture repeats beyond. Empty: none.

@@ -250,7 +250,7 @@ int triangle_along(const ClothMesh& mesh, const Neighbourhood& near, int from, i
   return -1;
 }
 
-/// Of each node: whether it has a triangle in common with one that falls apart.
+/// Flags each node that has a triangle in common with one that falls apart.
 std::vector<bool> near_splits(const ClothMesh& mesh, const Neighbourhood& near, const Fans& fans) {
   std::vector<bool> is_near(static_cast<std::size_t>(mesh.num_nodes()), false);
   for (const auto& [node, copies] : fans.split_nodes()) {

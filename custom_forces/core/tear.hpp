@@ -11,7 +11,7 @@ class Neighbourhood;
 /// A mesh after a cut, and where its new nodes come from.
 struct Tear {
   ClothMesh mesh;
-  /// Of each node that was added, in order: the node before the cut whose place and velocity it has.
+  /// For each node that was added, in order: the node before the cut whose place and velocity it has.
   /// Nodes that were there keep their numbers. Empty: nothing has come apart.
   std::vector<int> origins;
   /// The nodes, ascending, of every triangle, crossed triangle, edge and line that has come, has gone or

@@ -68,7 +68,7 @@ class Tearing {
  private:
   void find_threads(ConstMatrix3XRef<double> positions, const TearRule& rule);
   void sum_strains(ConstMatrix3XRef<double> positions, const Edges& edges);
-  /// Of the thread between two nodes [-].
+  /// Strain of the thread between two nodes [-].
   [[nodiscard]] double strain_of(ConstMatrix3XRef<double> positions, int i, int j) const;
   /// The inner edges at a node between triangles on different sides of the plane across a thread.
   [[nodiscard]] std::vector<int> parting(const Thread& thread, int end) const;
@@ -148,7 +148,7 @@ double Tearing::strain_of(ConstMatrix3XRef<double> positions, int i, int j) cons
          1.0;
 }
 
-/// Of all threads at the ends of those that may tear.
+/// Sums up the strains of all threads at the ends of those that may tear.
 void Tearing::sum_strains(ConstMatrix3XRef<double> positions, const Edges& edges) {
   if (threads_.empty()) return;
   std::vector<char> is_end(strain_sum_.size(), 0);
