@@ -16,7 +16,7 @@ struct MotionBox {
   std::array<btScalar, 4> low;
   std::array<btScalar, 4> high;
 
-  /// Of the way of a node in this step, from m_q + shift to m_x.
+  /// Bounds the way of a node in this step, from m_q + shift to m_x.
   static MotionBox of(const btSoftBody::Node& node, const btVector3& shift);
   static MotionBox nowhere();
   void include(const MotionBox& other);

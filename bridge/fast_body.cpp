@@ -21,7 +21,7 @@ namespace {
 /// [m] Places are counted from a multiple of this near the body.
 constexpr btScalar kOriginGrid = btScalar(0.25);
 constexpr btScalar kFarFromOrigin = 2;  // [m] from which on another one is chosen
-/// [s] Of a program that can still be played.
+/// The longest step of a program that can still be played [s].
 constexpr btScalar kLongestStep = btScalar(1) / 15;
 void include_in_bounds(const Matrix3X<btScalar>& positions, btSoftBody& body) {
   body.m_bounds[0].setMin(to_bullet(positions.rowwise().minCoeff()));
@@ -151,7 +151,7 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
   has_normals_ = false;
 }
 
-// Of now: somebody may have pushed or pinned nodes since predict().
+// Reads the present velocities, because somebody may have pushed or pinned nodes since predict().
 void FastBody::read_prediction(const btSoftBody& body) {
   predicted_.resize(3, body.m_nodes.size());
   std::array<bool, fast::ThreadTeam::kMostParts> has_pins{};
@@ -262,6 +262,7 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
   const bool is_pushed = is_placed_ && take_pushed_places(body);
   const bool meets_cloth = body.m_scontacts.size() > 0 || is_pushed;
   find_velocities();
+  step_error_.include(solver_->report(), static_cast<double>(inertia_step_), masses_.sum());
   keep_forces(time_step);
   if (meets_cloth) {
     excess_ = 0;

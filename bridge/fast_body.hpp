@@ -19,6 +19,7 @@
 #include <weft/bridge/rigid_contacts.hpp>
 #include <weft/bridge/rigid_motion.hpp>
 #include <weft/bridge/rigid_parts.hpp>
+#include <weft/bridge/step_error.hpp>
 #include <weft/bridge/stiffness_limit.hpp>
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
@@ -68,6 +69,7 @@ class FastBody : public NodeTeam {
     last_step_ = 0;
   }
   void begin_step(const btSoftBody& body) {
+    step_error_ = {};
     if (sleep_.begin_step(body)) last_step_ = 0;
   }
   void meet(const btCollisionObject& object, const btTransform& place) {
@@ -128,8 +130,7 @@ class FastBody : public NodeTeam {
   void place(btSoftBody& body, btScalar time_step, bool is_looked_at);
   void project_cloth_contacts(btSoftBody& body);
   static constexpr int kClothContactSweeps = 16;
-  /// Velocities from m_x.
-  void end_solve(btSoftBody& body, btScalar time_step);
+  void end_solve(btSoftBody& body, btScalar time_step);  ///< velocities, from m_x
   /// The velocities that this step leaves: what differs at the start of the next one has come from outside.
   void note_velocities(const btSoftBody& body);
   /// btSoftBody::updateNormals, once no node moves any more in this step.
@@ -137,13 +138,12 @@ class FastBody : public NodeTeam {
   [[nodiscard]] bool has_normals() const { return has_normals_; }
   /// [s] What the end of this step's velocity counts of a rate: BDF2 takes two thirds of the step, and the rest from the steps before.
   [[nodiscard]] btScalar velocity_step() const { return velocity_step_; }
-  /// How often look_again() is called.
-  static constexpr int kMostLooks = 2;
+  static constexpr int kMostLooks = 2;  ///< how often look_again() is called
 
   /// With rigid objects, of the last step.
   [[nodiscard]] const std::vector<RigidContact>& contacts() const { return contacts_; }
-  /// Unbalanced forces that the last step left, over those that it began with [-].
-  [[nodiscard]] double residual() const { return solver_ ? solver_->residual() : 0.0; }
+  /// The largest over the parts of a step.
+  [[nodiscard]] const StepError& step_error() const { return step_error_; }
 
  private:
   enum class Method { kEuler, kBdf2, kForces };
@@ -173,7 +173,7 @@ class FastBody : public NodeTeam {
   /// nodes. True if there are any.
   [[nodiscard]] bool find_missed_contacts(btSoftBody& body, btScalar time_step);
   void choose_origin(const btSoftBody& body);
-  [[nodiscard]] bool was_pushed() const;
+  [[nodiscard]] bool was_pushed();
   void read_prediction(const btSoftBody& body);
   [[nodiscard]] btVector3 in_world(int node) const;
   void write_places(btSoftBody& body);
@@ -195,10 +195,9 @@ class FastBody : public NodeTeam {
   std::vector<bool> is_free_;     ///< that solver_ knows
   std::vector<int> solver_pins_;  ///< likewise
   std::vector<int> pins_;         ///< of the present step
-
   BodySleep sleep_;
   Vector3<btScalar> origin_ = Vector3<btScalar>::Zero();  ///< that places are counted from [m]
-  // Of the present step, 3 x n.
+  // The present step, 3 x n.
   Matrix3X<btScalar> weights_;           ///< masses, each thrice [kg]; 0 for pins
   Matrix3X<btScalar> starts_;            ///< q [m]
   Matrix3X<btScalar> start_velocities_;  ///< v [m/s]
@@ -207,11 +206,11 @@ class FastBody : public NodeTeam {
   Matrix3X<btScalar> targets_;           ///< y [m]
   Matrix3X<btScalar> places_;            ///< solution [m]
   Matrix3X<btScalar> velocities_;        ///< solution [m/s]
-  // Of the whole step, while it is taken in parts.
+  // The whole step, while it is taken in parts.
   Matrix3X<btScalar> whole_starts_;    ///< [m]
   Matrix3X<btScalar> accelerations_;   ///< without springs [m/s^2]
   std::vector<btVector3> pin_places_;  ///< of pins_, at the end [m]
-  // Of the step before.
+  // The step before.
   Matrix3X<btScalar> last_starts_;
   Matrix3X<btScalar> last_velocities_;
   btScalar last_spacing_ = 0;           ///< [s] from last_starts_ to starts_
@@ -225,9 +224,10 @@ class FastBody : public NodeTeam {
   Method method_ = Method::kEuler;  ///< of the present step
   btScalar last_step_ = 0;          ///< [s]; 0: no history
   bool is_predicted_ = false;
-  bool has_normals_ = false;         ///< of the places at the end of the present step
-  bool is_placed_ = false;           ///< before end_solve()
-  bool is_projected_ = false;        ///< out of what the solution let a node into
+  bool has_normals_ = false;   ///< of the places at the end of the present step
+  bool is_placed_ = false;     ///< before end_solve()
+  bool is_projected_ = false;  ///< out of what the solution let a node into
+  StepError step_error_;
   double given_to_bodies_ = 0;       ///< kinetic energy, in the present step [J]
   double excess_ = 0;                ///< energy in springs that projections have put in [J]
   bool is_contact_missing_ = false;  ///< in the present solution, for all that is known

@@ -13,9 +13,9 @@ void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& place) 
   rigid.applyImpulse(impulse, place - rigid.getCenterOfMassPosition());
 }
 
-/// Of the margin: how far below its plane a node may end a step.
+/// How far below its plane a node may end a step, as a share of the margin [-].
 constexpr btScalar kDepthShare = btScalar(0.5);
-/// Of the margin: by how much a plane may be wrong where the node has come to.
+/// By how much a plane may be wrong where the node has come to, as a share of the margin [-].
 constexpr btScalar kPlaneShare = btScalar(0.02);
 }  // namespace
 
@@ -109,7 +109,7 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
   return is_any_wrong || contacts_.size() > num_known;
 }
 
-// What the last solution needs too: nodes that slide from one facet into the next. Not out of dynamic objects, which would have
+// Contacts that only the last solution shows: nodes that slide from one facet into the next. Not out of dynamic objects, which would have
 // to be pushed for that: a node that is left inside of one comes out in the next step.
 void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
   if (!is_unfinished()) return;

@@ -11,22 +11,24 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-/// Of m |y - q|^2 / (2 h^2), what a step may gain: rounding.
+/// How much a step may gain by rounding, as a share of m |y - q|^2 / (2 h^2) [-].
 constexpr double kEnergySlack = 0.01;
 
-/// Of all energy: what a method may seem to gain whose velocities are those of the middle of a step.
+/// How much a method may seem to gain whose velocities are those of the middle of a step, as a share of all energy [-].
 constexpr double kBalanceSlack = 3e-2;
-/// Of what gravity does in a step: how fast a dynamic body is that springs throw back, or what they have done to it.
+/// How fast a dynamic body is that springs throw back, or what they have done to it, over what gravity does in a step [-].
 constexpr btScalar kLively = btScalar(2.5);
 
 }  // namespace
 
 // BDF2 takes a change of velocity between steps for the beginning of a trend, and makes 4/3 of it: such a step is implicit
-// Euler, which counts it once. The steps after it have a history that has had that velocity.
-bool FastBody::was_pushed() const {
+// Euler, which counts it once. The steps after it have a history that has had that velocity. Velocities of pins belong to
+// whoever leads them, and are part of no history.
+bool FastBody::was_pushed() {
   if (impulses_.cols() > 0) return true;
-  return left_velocities_.cols() == start_velocities_.cols() &&
-         left_velocities_ != start_velocities_;
+  if (left_velocities_.cols() != start_velocities_.cols()) return false;
+  for (const int pin : pins_) left_velocities_.col(pin) = start_velocities_.col(pin);
+  return left_velocities_ != start_velocities_;
 }
 
 bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
@@ -119,7 +121,7 @@ void FastBody::find_velocities() {
   });
 }
 
-// What does that work is not known: pins and anchors that lead, obstacles that are led, other cloth.
+// Pins and anchors that lead, led obstacles and other cloth do work that nobody knows.
 bool FastBody::gets_work_from_outside() const {
   if (!led_.empty()) return true;
   for (const RigidContact& contact : contacts_) {
@@ -173,7 +175,7 @@ void FastBody::keep_energy(btScalar time_step) {
     excess_ = 0;
     return;
   }
-  if (solver_->is_converged() && !is_projected_ && pushed_.empty() && excess_ == 0) return;
+  if (solver_->report().is_converged && !is_projected_ && pushed_.empty() && excess_ == 0) return;
   const EnergyBalance balance = energy_balance(time_step, given_to_bodies_);
   if (balance.kinetic > balance.most) {
     limit_energy(weights_, balance.most, pins_.empty(), velocities_, team_);

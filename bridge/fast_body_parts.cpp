@@ -10,7 +10,7 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-/// Of a shape's smallest half extent: how far it may come towards a node in one part.
+/// How far a shape may come towards a node in one part, as a share of its smallest half extent [-].
 constexpr btScalar kPartShare = btScalar(0.2);
 /// Likewise: how far springs may push it back in one.
 constexpr btScalar kPushShare = btScalar(0.05);

@@ -7,7 +7,7 @@ namespace weft::bridge {
 /// How a body with implicit springs is stepped.
 struct FastSettings {
   fast::SolverEffort effort = {};  ///< work per step, against error (docs/fast_solver.md)
-  /// Of second order (BDF2) while nothing touches the body; implicit Euler with contacts and at
+  /// Second order (BDF2) while nothing touches the body; implicit Euler with contacts and at
   /// changes. Off: always implicit Euler, which takes much more energy out of a motion.
   bool is_second_order = true;
   /// A body of which no node has been faster than sleep_speed [m/s] for sleep_time [s] is not stepped any

@@ -29,7 +29,7 @@ class ForceHistory {
   }
   /// Before the next step, of time_step [s]: what is known of the step before one of another length counts as that of now.
   void begin_step(btScalar time_step);
-  /// Of a node [N].
+  /// The known force on a node [N].
   [[nodiscard]] Vector3<btScalar> known(Eigen::Index node) const;
   /// Room for the forces at the end of a step [N], of all nodes, each part of which is to be written to coming() and then added.
   void resize(Eigen::Index num_nodes, btScalar time_step);

@@ -14,7 +14,7 @@ inline namespace WEFT_BULLET_PRECISION {
 
 namespace {
 
-/// Of the mass: what a program loses that takes it from m_im, or through a file.
+/// What a program that takes a mass from m_im, or through a file, loses of it by rounding [-].
 constexpr btScalar kMassTolerance = btScalar(1e-4);
 
 std::size_t at(int i) {

@@ -13,11 +13,11 @@ namespace {
 
 /// Steps that boxes look ahead when all of them are made anew.
 constexpr btScalar kCoveredSteps = 8;
-/// Of the nodes: so many may be put into the tree one by one.
+/// One in so many nodes may be put into the tree one by one.
 constexpr int kFewShare = 50;
 /// A tree's depth is some 20; one that nodes were put into in a row is made anew.
 constexpr int kMostDepth = 200;
-/// Of the parts of a tree that threads share.
+/// Depth down to which threads share the parts of a tree.
 constexpr int kSharedDepth = 4;
 
 btVector3 vector_of(const Four& v) {
@@ -33,7 +33,7 @@ struct Box {
   Four high;
 };
 
-/// Of the nodes begin ... end - 1; the box that they start from and end in.
+/// Moves the nodes begin ... end - 1 and returns the box that they start from and end in.
 Box integrate(btSoftBody& body, btScalar time_step, int begin, int end) {
   const btVector3 gravity = body.m_worldInfo->m_gravity * time_step;
   const Four fall(gravity.x(), gravity.y(), gravity.z(), 0);

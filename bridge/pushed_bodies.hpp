@@ -23,7 +23,7 @@ class PushedBodies {
   }
   /// The next solve names its bodies anew.
   void clear();
-  /// Of a body in the solver; one that is pushed for the first time in this solve gets the next number. is_again: from where the
+  /// The number of a body in the solver; one that is pushed for the first time in this solve gets the next number. is_again: from where the
   /// last solution has moved it to.
   [[nodiscard]] int number_of(const btRigidBody& rigid, btDispatcher* dispatcher,
                               btScalar time_step, bool is_again);

@@ -21,7 +21,7 @@ MotionBox box_of(const btVector3& low, const btVector3& high) {
   return {{low.x(), low.y(), low.z(), 0}, {high.x(), high.y(), high.z(), 0}};
 }
 
-/// Of the ways of some nodes, at least one.
+/// Bounds the ways of some nodes, at least one.
 MotionBox box_of(const btSoftBody& body, std::span<const int> nodes) {
   Four low = four(body.m_nodes[nodes[0]].m_x);
   Four high = low;
@@ -82,7 +82,7 @@ class ExactObstacle {
     if (end.distance >= reach) return std::nullopt;
     RigidContact contact;
     contact.normal = to_bullet((turn_ * end.out).eval());
-    // Of the normal as it is rounded, so that the plane is where it should be for this place.
+    // With the normal as it is rounded, so that the plane is where it should be for this place.
     contact.offset = static_cast<btScalar>(from_bullet(contact.normal).dot(from_bullet(to)) -
                                            end.distance + margin_);
     return contact;

@@ -15,7 +15,7 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// Of an object that impulses move, without its const; nullptr for others.
+/// The object without its const if impulses move it, nullptr otherwise.
 [[nodiscard]] btRigidBody* movable(const btCollisionObject* object);
 
 /// A node in front of a rigid surface: normal . x >= offset at the end of the step.
@@ -26,7 +26,7 @@ struct RigidContact {
   btVector3 motion{0, 0, 0};  ///< of the surface during the step [m]
   const btCollisionObject* object = nullptr;
   int obstacle = 0;  ///< Obstacle::number
-  // Of a dynamic object, which carries the plane with it: the node's place as seen from the object, in the world where the
+  // A dynamic object carries the plane with it: the node's place as seen from the object, in the world where the
   // step began, and as the object has it; the normal as the object has it.
   btVector3 met{0, 0, 0};
   btVector3 met_by_object{0, 0, 0};
@@ -42,7 +42,7 @@ struct Obstacle {
   const HullFacets* facets;  ///< of a hull, or nullptr
   int number = 0;            ///< to tell the parts of an object from each other
   btTransform object_place = btTransform::getIdentity();  ///< of the whole object, as place
-  /// Of a dynamic object: takes its points from where the step begins to where it ends.
+  /// Takes the points of a dynamic object from where the step begins to where it ends.
   btTransform motion = btTransform::getIdentity();
 };
 

@@ -9,9 +9,9 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-/// Of the margin: contacts are visited until none moves its node farther [-].
+/// Contacts are visited until none moves its node farther, as a share of the margin [-].
 constexpr btScalar kRest = btScalar(1e-5);
-/// Of the depth of a pinned node in an object that impulses move: what a step takes away [-], as Bullet's own contacts of
+/// The share of a pinned node's depth in an object that impulses move that a step takes away [-], as Bullet's own contacts of
 /// rigid bodies do. All of it would come back as speed.
 constexpr btScalar kDepthShare = btScalar(0.2);
 

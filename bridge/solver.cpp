@@ -123,13 +123,22 @@ std::optional<std::string> SoftBodySolver::attach_fast(
   return std::nullopt;
 }
 
-void SoftBodySolver::set_fast_settings(btSoftBody& body, const FastSettings& settings) {
+FastBody& SoftBodySolver::fast_body(const btSoftBody& body) const {
   Attachment* attachment = find(body);
   if (!attachment || !attachment->fast) {
     throw InvalidArgument("soft body solver: the body is not fast, expected attach_fast() first");
   }
+  return *attachment->fast;
+}
+
+void SoftBodySolver::set_fast_settings(btSoftBody& body, const FastSettings& settings) {
+  FastBody& fast = fast_body(body);
   check(settings);
-  attachment->fast->set_settings(settings);
+  fast.set_settings(settings);
+}
+
+StepError SoftBodySolver::step_error(const btSoftBody& body) const {
+  return fast_body(body).step_error();
 }
 
 bool SoftBodySolver::is_asleep(const btSoftBody& body) const {

@@ -12,6 +12,7 @@
 #include <weft/bridge/cloth_contact.hpp>
 #include <weft/bridge/fast_settings.hpp>
 #include <weft/bridge/law_attachment.hpp>
+#include <weft/bridge/step_error.hpp>
 #include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/core/position_limits.hpp>
 #include <weft/custom_forces/law_set.hpp>
@@ -24,6 +25,7 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
 struct ContactEntry;
+class FastBody;
 struct TornLaws;
 
 /// Where the damping laws of a body act in Bullet's step: velocity-level laws (rotation_damping and
@@ -127,6 +129,8 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   [[nodiscard]] bool is_asleep(const btSoftBody& body) const;
   /// Steps the body again. Only needed after changes that it cannot see: a law of the application's own.
   void wake(btSoftBody& body);
+  /// How far the last step was solved. Throws InvalidArgument for a body without attach_fast().
+  [[nodiscard]] StepError step_error(const btSoftBody& body) const;
   /// Contacts with rigid bodies and with cloth that the last step looked at.
   [[nodiscard]] int num_contacts(const btSoftBody& body) const;
   /// Those with rigid bodies, also of a body without laws. Bodies with laws leave btSoftBody::m_rcontacts empty;
@@ -198,6 +202,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   struct Attachment;
   struct Attachments;
   [[nodiscard]] Attachment* find(const btSoftBody& body) const;
+  [[nodiscard]] FastBody& fast_body(const btSoftBody& body) const;
   [[nodiscard]] ContactEntry* find_contact_entry(const btSoftBody& body) const;
   [[nodiscard]] ClothContact* find_contact(const btSoftBody& body) const;
   void settle_contact_velocities();

@@ -8,7 +8,7 @@
 namespace weft::fast {
 namespace {
 
-/// Of the diagonal: a pivot below is rounding.
+/// A pivot below this share of the diagonal is rounding [-].
 constexpr float kLeastPivot = 1e-6F;
 
 using Neighbours = std::vector<std::vector<int>>;
@@ -21,7 +21,7 @@ int filled_up(int count) {
   return (count + kRowPad - 1) / kRowPad * kRowPad;
 }
 
-/// Of a piece that are looked at.
+/// How many ends of a piece are looked at.
 constexpr int kMostEnds = 8;
 
 /// Walks from pair to pair. Takes time for what it reaches, not for all unknowns.

@@ -11,15 +11,17 @@ namespace {
 /// Hats are at least so many, or 2.5 sqrt(nodes): what it takes to factorise grows slower than the network then.
 constexpr int kLeastHats = 24;
 constexpr double kHatsPerRoot = 2.5;
-/// Of a spring's largest one, terms that are left out.
-constexpr float kLeastTerm = 0.1F;
-/// Of the largest one of each of two hats: a tie that is taken for none.
-constexpr float kLeastTie = 0.03F;
+/// Terms below this share of a spring's largest one are left out [-]. Where springs are much stiffer than inertia, what is
+/// left out is all that holds some mode back, and the correction would overshoot it: with ten times as much left out here and
+/// below, up to 1e5 times.
+constexpr float kLeastTerm = 0.01F;
+/// A tie below this share of the largest one of each of its two hats is taken for none [-].
+constexpr float kLeastTie = 0.003F;
 /// Sum of the numbers of a spring's hats, from which on it ties them to what does not move: these springs all count.
 constexpr float kLeastBound = 0.05F;
 /// Springs of a hat that are enough to know the stiffness between it and its neighbours, about.
 constexpr int kSpringsOfHat = 60;
-/// Of a network no fewer than one in so many: about one at each node.
+/// At least one spring in so many of a network is looked at: about one at each node.
 constexpr double kMostForOne = 6;
 
 std::size_t at(int i) {
@@ -159,7 +161,7 @@ bool CoarseCorrection::counts(int hat, int other, float tie) const {
   return std::abs(tie) > kLeastTie * std::min(largest_ties_[at(hat)], largest_ties_[at(other)]);
 }
 
-// Of hats that springs tie together, but for those that others tie much more: patches that are not next to each other.
+// Pairs of hats that springs tie together, but for those that others tie much more: patches that are not next to each other.
 void CoarseCorrection::find_pairs(const Ties& ties) {
   largest_ties_.assign(at(num_hats_), 0.0F);
   for (int hat = 0; hat < num_hats_; ++hat) {
@@ -189,7 +191,7 @@ bool CoarseCorrection::add_pairs(const Ties& ties) {
   return true;
 }
 
-/// Of the hats of two nodes.
+/// The difference between the rows of two nodes.
 CoarseCorrection::Row CoarseCorrection::difference(int node, int other) const {
   Row row = row_of(node);
   for (const auto& [hat, weight] : row_of(other)) row.add(hat, -weight);
@@ -245,7 +247,7 @@ void CoarseCorrection::add_copies(const std::vector<int>& origins) {
   }
 }
 
-// Of the slots of a node one in springs_for_one_, so that each node has its part; which ones is a multiple of the golden
+// One slot of a node in springs_for_one_ is taken, so that each node has its part; which ones is a multiple of the golden
 // section: even over nodes in a row, and over rows of whatever length.
 bool CoarseCorrection::is_in_sample(int node, int slot) const {
   constexpr double kGolden = 0.6180339887498949;

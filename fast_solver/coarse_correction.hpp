@@ -38,7 +38,7 @@ class CoarseCorrection {
   CoarseCorrection(CoarseCorrection&&) = default;
   CoarseCorrection& operator=(CoarseCorrection&&) = default;
   ~CoarseCorrection() = default;
-  /// Of all nodes, which are free. slots: of the same springs. set_masses() is due then.
+  /// network: all nodes, which are free. slots: of the same springs. set_masses() is due then.
   CoarseCorrection(const IsotropicNetwork& network, const EdgeSlots& slots);
 
   /// The nodes of ring 0 are free if they were not, and the other way round: hats anew for all within kHatReach springs.
@@ -68,7 +68,7 @@ class CoarseCorrection {
   void interpolate(int part, const std::vector<int>& held, NodeArrays<float>& correction) const;
 
  private:
-  /// Of a block of nodes.
+  /// The springs of a block of nodes.
   struct Block {
     std::vector<CoarseSpring> springs;
     std::vector<CoarseTerm> terms;
@@ -100,7 +100,7 @@ class CoarseCorrection {
     void add(int hat, float number);
   };
 
-  /// Of each hat to higher ones, ascending [N/m].
+  /// The ties of each hat to higher ones, ascending [N/m].
   using Ties = std::vector<std::vector<std::pair<int, float>>>;
 
   [[nodiscard]] Row row_of(int node) const;

@@ -14,7 +14,7 @@ class DirectionWeights {
  public:
   /// Corrections that are kept; then step and direction are summed up.
   static constexpr int kMost = 4;
-  /// Of c_0, c_1, ... and, at count(), of the direction before c_0.
+  /// Weights of c_0, c_1, ... and, at count(), of the direction before c_0.
   using Weights = std::array<float, kMost + 1>;
 
   void clear() { count_ = 0; }
@@ -34,7 +34,7 @@ class DirectionWeights {
   }
 
  private:
-  /// Of the sum of factors_k d_k.
+  /// The weights of the sum of factors_k d_k.
   [[nodiscard]] Weights sum_of(const std::array<float, kMost>& factors) const {
     Weights weights{};
     float of_next = 0;  // of d_(k+1), times -share_(k+1)

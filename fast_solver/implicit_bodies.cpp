@@ -38,7 +38,7 @@ void ImplicitSolver<Scalar>::link(int node, int body, const Vector3<Scalar>& arm
   links_.push_back({node, body, arm.template cast<float>(), normal.template cast<float>()});
 }
 
-// Of the present state; none of what is no body.
+// The motion in the present state; none for what is no body.
 template <class Scalar>
 Vector3<Scalar> ImplicitSolver<Scalar>::motion_with(int body, const Vector3<Scalar>& arm) const {
   if (body < 0) return Vector3<Scalar>::Zero();
@@ -147,7 +147,7 @@ void ImplicitSolver<Scalar>::move_bodies(Scalar share) {
   for (Body& body : bodies_) body.motion += share * body.step.template cast<Scalar>();
 }
 
-/// Of the forces that are left with the last step [J].
+/// The work of the forces that are left with the last step [J].
 template <class Scalar>
 double ImplicitSolver<Scalar>::work_of_bodies() {
   find_unbalanced(&Body::unbalanced);

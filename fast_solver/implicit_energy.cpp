@@ -6,14 +6,14 @@
 namespace weft::fast {
 namespace {
 
-/// Of a step that is taken at least.
+/// The share of a step that is taken at least [-].
 constexpr double kSmallestShare = 0.1;
-/// Of that energy, what rounding may make of a step that changes nothing.
+/// The share of that energy that rounding may make of a step that changes nothing [-].
 constexpr double kRoundingShare = 0.01;
 /// Rounds of a step that the budget has left with more energy than it began with.
 constexpr int kSafeRounds = 8;
 constexpr int kHalvings = 6;
-/// Of the energy of the motion without springs: more than it began with by so much has gone astray, and is begun anew.
+/// A motion with so many times the energy of the motion without springs has gone astray, and is begun anew [-].
 constexpr double kFarUp = 10;
 
 std::size_t at(int i) {

@@ -13,11 +13,11 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Of friction: what it takes to stop the slip that is left of a node that sticks from now on.
+/// A node sticks once the slip that is left would take this share of its friction to stop [-].
 constexpr double kStopped = 0.01;
 /// Over what resists the motion of a node: a drag. Much more, and conjugate gradients would see nothing else.
 constexpr double kStiffestDrag = 30;
-/// [N/m] Of a node that moves: what keeps a quotient finite.
+/// A moving node's least inertia [N/m], which keeps a quotient finite.
 constexpr double kLeastInertia = 1e-30;
 
 /// The part along the normal, of one node's vector.
@@ -158,7 +158,7 @@ void ImplicitSolver<Scalar>::decide_hold(const PlaneContact<Scalar>& contact,
   set_friction(contact, expected);
 }
 
-// Of a node that slides on what does not give way, at its present place.
+// The friction of a node that slides on what does not give way, at its present place.
 template <class Scalar>
 void ImplicitSolver<Scalar>::set_friction(const PlaneContact<Scalar>& contact, Scalar expected) {
   const int i = contact.node;

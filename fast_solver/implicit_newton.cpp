@@ -1,5 +1,6 @@
 // Newton's method on the energy that an implicit step minimises (Gast et al. 2015), with a line search on it.
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include <weft/fast_solver/implicit_solver.hpp>
@@ -15,6 +16,8 @@ constexpr int kMostDecisions = 8;
 /// How much a round's gain is of that of the one before: assumed of the first, and at most.
 constexpr double kFirstShrink = 0.1;
 constexpr double kSlowest = 0.9;
+/// Rounds whose shrinking tells how much the last one may have left.
+constexpr std::size_t kShrinksSeen = 4;
 /// From this share of the gain of the round before on, so many times, a round gains rounding only.
 constexpr double kStalled = 0.9;
 constexpr int kMostStalled = 3;
@@ -22,11 +25,11 @@ constexpr int kMostStalled = 3;
 /// enough: with 1 no round gains any.
 constexpr double kFirstAcross = 0.02;
 constexpr double kMoreAcross = 7;
-/// Of an energy.
+/// The share of an energy that is rounding [-].
 constexpr double kEnergyRounding = 2e-7;
-/// Of what places gain by their rounding alone: where there is no more to be gained.
+/// There is no more to be gained than so many times what places gain by their rounding alone [-].
 constexpr double kRoundings = 4;
-/// Of the gain that is asked for: what a single iteration may leave.
+/// A single iteration may leave this share of the gain that is asked for [-].
 constexpr double kLastShare = 0.02;
 
 std::size_t at(int i) {
@@ -69,14 +72,16 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
   const double asked = 2 * effort.tolerance * effort.tolerance * step_energy_;
   double before = 0;
   double energy_before = 0;
+  std::array<double, kShrinksSeen> last_shrinks{};
   double across = 0;
   double rounding = 0;
   int num_stalled = 0;
   int num_decisions = 0;
   bool decides = true;
-  is_converged_ = false;
+  report_ = {.is_converged = false};
   anderson_.forget();
-  for (int round = 0; round < effort.rounds && !is_converged_; ++round) {
+  for (int round = 0; round < effort.rounds && !report_.is_converged; ++round) {
+    report_.rounds = round + 1;
     remember_places();
     do_round(problem, {.iterations = effort.iterations,
                        .is_first = round == 0,
@@ -90,8 +95,10 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     const double now = energy(problem, places_, &Body::motion);
     if (!are_holds_new && !(now <= energy_before * (1 + kEnergyRounding) + asked)) {
       if (across == 1) {
+        // With this linearisation any step gains, but for rounding.
         recall_places();
-        break;  // rounding
+        report_.is_converged = !last_gain_.is_broken;
+        break;
       }
       across = std::min(1.0, std::max(kFirstAcross, kMoreAcross * across));
       forces_.set_least_across(static_cast<Scalar>(across));
@@ -106,6 +113,11 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     const double shrinks = before > 0 ? last_gain_.total / before : kFirstShrink;
     const double limited = std::min(kSlowest, shrinks);
     const double left = last_gain_.left + last_gain_.total * limited / (1 - limited);
+    // Accelerated rounds gain little now and then, with some way to go. That is known here, but too late to stop by.
+    last_shrinks[at(round) % last_shrinks.size()] = shrinks;
+    const double slowest =
+        std::min(kSlowest, *std::max_element(last_shrinks.begin(), last_shrinks.end()));
+    report_.energy_left = (last_gain_.left + last_gain_.total * slowest / (1 - slowest)) / 2;
     num_stalled = !are_holds_new && !(shrinks < kStalled) ? num_stalled + 1 : 0;
     // What is stiff goes on to gain by rounding alone, while what is soft may have some way to go.
     const bool is_rounding = last_gain_.total <= rounding && !(shrinks < kStalled);
@@ -113,14 +125,15 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     const bool is_over = is_solved || (num_stalled >= kMostStalled && effort.tolerance > 0);
     // With these contacts. Whether they are the right ones is asked of a solution: on the way there forces say little.
     const bool can_decide = has_contacts && num_decisions < kMostDecisions;
-    is_converged_ = is_solved && (!has_contacts || (decides && !are_holds_new) || !can_decide);
-    if (is_over && !is_converged_ && !can_decide) break;
+    report_.is_converged =
+        is_solved && (!has_contacts || (decides && !are_holds_new) || !can_decide);
+    if (is_over && !report_.is_converged && !can_decide) break;
     decides = can_decide && ((round < kFirstDecisions && !problem.continues) || is_over);
     if (decides) num_stalled = 0;
     before = last_gain_.total;
     if (are_holds_new) {
       anderson_.forget();
-    } else if (!is_converged_ && round + 1 < effort.rounds) {
+    } else if (!report_.is_converged && round + 1 < effort.rounds) {
       energy_before = accelerate(problem, now);
     }
   }

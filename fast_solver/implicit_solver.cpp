@@ -22,7 +22,7 @@ constexpr double kLinkedResidual = 0.02;
 /// An iteration that gains no more than this share of what its round has gained is the last of that round: with short steps
 /// inertia outweighs springs.
 constexpr double kLastGain = 1e-4;
-/// Of a correction's curvature, what is left of it across the direction before: less is rounding.
+/// Less than this share of a correction's curvature, left across the direction before, is rounding [-].
 constexpr float kLeastCurvature = 1e-4F;
 /// Iterations whose gains together tell what is left to gain, and the share of the whole that may be left.
 constexpr int kGainDelay = 4;
@@ -366,7 +366,7 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const Sol
     if (left_over() <= kLinkedResidual * first) break;
     do_round(problem, {.iterations = effort.iterations});
   }
-  if (!is_converged_ || !held_.empty()) descend(problem, effort.iterations);
+  if (!report_.is_converged || !held_.empty()) descend(problem, effort.iterations);
   update_friction(problem);
   find_holding_forces();
   residual_ = first > 0 ? left_over() / first : 0.0;

@@ -15,6 +15,7 @@
 #include <weft/fast_solver/node_arrays.hpp>
 #include <weft/fast_solver/node_parts.hpp>
 #include <weft/fast_solver/solver_effort.hpp>
+#include <weft/fast_solver/solver_report.hpp>
 #include <weft/fast_solver/spring_network.hpp>
 #include <weft/fast_solver/step_problem.hpp>
 #include <weft/fast_solver/team_loops.hpp>
@@ -86,8 +87,8 @@ class ImplicitSolver : TeamLoops {
   [[nodiscard]] double spring_energy(ConstMatrix3XRef<Scalar> places, ThreadTeam& team);
   /// After solve(): whether a node was put in front of a plane that the last linear system did not know.
   [[nodiscard]] bool was_clamped() const { return was_clamped_; }
-  /// After solve(): whether it ended by its tolerance, and not by its budget of rounds.
-  [[nodiscard]] bool is_converged() const { return is_converged_; }
+  /// After solve().
+  [[nodiscard]] const SolverReport& report() const { return report_; }
   /// After solve(): root mean square of the unbalanced forces over that of the step's first guess [-].
   [[nodiscard]] double residual() const { return residual_; }
 
@@ -128,7 +129,7 @@ class ImplicitSolver : TeamLoops {
   void smooth(int part);
   void load_bodies(const StepProblem<Scalar>& problem);
   void link(int node, int body, const Vector3<Scalar>& arm, const Vector3<Scalar>& normal);
-  /// Of what is at the end of an arm, to first order.
+  /// The motion of what is at the end of an arm, to first order.
   [[nodiscard]] static Vector3<Scalar> motion_at(const Vector6& motion,
                                                  const Vector3<Scalar>& arm) {
     return motion.template head<3>() + motion.template tail<3>().cross(arm);
@@ -152,7 +153,7 @@ class ImplicitSolver : TeamLoops {
   void start_linear(const StepProblem<Scalar>& problem);
   [[nodiscard]] LinearGain solve_linear(const StepProblem<Scalar>& problem, int iterations,
                                         double least_gain);
-  /// Of a correction c and the direction d before it, with their products: c . r, c . A d and c . A c.
+  /// The products of a correction c and the direction d before it: c . r, c . A d and c . A c.
   using Overlaps = VectorKernel::Products;
   [[nodiscard]] Overlaps precondition(Floats& correction, bool is_first);
   void sum_up(NodeRange nodes, bool keeps_direction);
@@ -175,7 +176,7 @@ class ImplicitSolver : TeamLoops {
   /// Only part of the last step, if it went too far; evaluate() is due then. num_held: of the linear system, not of clamp().
   bool hold_back(double work_before, std::size_t num_held);
   void move_bodies(Scalar share);
-  /// Of the forces that are left with the step, at nodes with a hold [J].
+  /// The work of the forces that are left with the step, at nodes with a hold [J].
   [[nodiscard]] double work_of_held(std::size_t num_held) const;
   void find_holding_forces();
   [[nodiscard]] double left_over();
@@ -202,7 +203,7 @@ class ImplicitSolver : TeamLoops {
   VectorX<Scalar> drag_;             ///< of each sliding node [N/m]
   VectorX<Scalar> friction_bounds_;  ///< likewise, by Coulomb's law [N]
   VectorX<Scalar> weights_;          ///< the same in Scalar
-  // Of the present problem [m].
+  // The present problem [m].
   Nodes targets_;
   Nodes starts_;
   Nodes places_;
@@ -230,8 +231,8 @@ class ImplicitSolver : TeamLoops {
   double unbalanced_squares_ = 0;  ///< of unbalanced_ [N^2]
   double work_done_ = 0;           ///< the same before the step was taken [J]
   double residual_ = 0;
-  LinearGain last_gain_;       ///< of the last round
-  bool is_converged_ = false;  ///< the last step, to its tolerance
+  LinearGain last_gain_;  ///< of the last round
+  SolverReport report_;
   double step_energy_ = 0;
   bool has_holding_forces_ = false;
   bool was_clamped_ = false;

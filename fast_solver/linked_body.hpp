@@ -17,7 +17,7 @@ struct BodyLink {
   Vector3<float> arm;     ///< [m]
   Vector3<float> normal;  ///< zero: in all directions
 
-  /// Of the node's place, with the body's motion: of its centre, and about it.
+  /// The motion of the node's place with the body's motion: of its centre, and about it.
   [[nodiscard]] Vector3<float> motion_with(const Eigen::Matrix<float, 6, 1>& motion) const {
     return along_link(motion.head<3>() + motion.tail<3>().cross(arm));
   }
@@ -48,7 +48,7 @@ struct LinkedBody {
   Vector6 motion_alone = Vector6::Zero();
   Matrix6 inertia = Matrix6::Zero();  ///< over h^2
   Eigen::LLT<Matrix6> stiffness;      ///< with what is linked to it
-  // Of conjugate gradients, as those of nodes.
+  // Vectors of conjugate gradients, as those of nodes.
   Floats6 step, residual, direction, direction_product;
   Floats6 correction, correction_product, coarse_product;
   Floats6 unbalanced;

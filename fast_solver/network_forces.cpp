@@ -83,7 +83,7 @@ void NetworkForces<Scalar>::choose_scale(double time_step) {
   }
 }
 
-/// Of the lanes that slots_ has: new ones are empty.
+/// Gives arrays the lanes that slots_ has: new ones are empty.
 template <class Scalar>
 void NetworkForces<Scalar>::resize_arrays() {
   const std::size_t block = kNodeBlock;

@@ -17,7 +17,7 @@
 namespace weft::fast {
 namespace {
 
-/// Of Jacobi's method.
+/// The relaxation of Jacobi's method [-].
 constexpr double kRelaxation = 2.0 / 3;
 constexpr int kSweeps = kHatReach;
 /// Between seeds, over that of springs and the root of a patch's unknowns: what gives about as many as are wanted on a grid.
@@ -29,7 +29,7 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-/// Of each unknown: the nearest seed so far, along springs, and how far it is [m]; those that are farther than `most` have
+/// For each unknown: the nearest seed so far, along springs, and how far it is [m]; those that are farther than `most` have
 /// none.
 class NearestSeeds {
  public:
@@ -73,7 +73,7 @@ class NearestSeeds {
   int num_seeds_ = 0;
 };
 
-/// Of unknowns with springs, corners and edges first: hats are flat behind their last seeds, a free edge is what swings
+/// Unknowns with springs, corners and edges first: hats are flat behind their last seeds, a free edge is what swings
 /// most, and round a corner that is held they are steep.
 std::vector<int> corners_first(const SymmetricMatrix& matrix) {
   std::vector<int> order;

@@ -35,7 +35,7 @@ struct SpringNetwork {
 [[nodiscard]] SpringNetwork make_network(const ClothMesh& mesh,
                                          const std::vector<forces::LawSpecification>& laws);
 
-/// Of that network, only what has an end among these nodes (flags): in time that goes by what it is.
+/// Only the part of that network that has an end among these nodes (flags), in a time that goes by its size.
 [[nodiscard]] SpringNetwork make_network_at(const std::vector<char>& is_wanted,
                                             const ClothMesh& mesh,
                                             const std::vector<forces::LawSpecification>& laws);

@@ -16,7 +16,7 @@ constexpr int kLooks = 400;
 /// The same that the caller spends on waiting for helpers that are still to come, before it begins what is theirs: some
 /// 10 us. What they find in its cache later takes as long again.
 constexpr int kLooksForArrival = 200;
-/// Of the time that a team is open: what helpers gain. Two threads take some .6 of the time of one.
+/// The share of the time that a team is open that helpers gain. Two threads take about 0.6 of the time of one.
 constexpr double kGain = 0.5;
 /// [s] What a team may lose right after it has come back.
 constexpr double kLeastCredit = 2e-3;
@@ -151,7 +151,7 @@ void ThreadTeam::run_shared(int num_parts, Call call, const Job& job, int num_wo
   note_away(num_parts, taken);
 }
 
-// Of helpers that are there, or whose arrival is worth waiting for.
+// The parts of helpers that are there, or whose arrival is worth waiting for.
 std::uint64_t ThreadTeam::awaited_parts(int num_parts) {
   const int num_present = this->num_present();
   std::uint64_t awaited = flags(first_part(1, num_parts), first_part(num_present, num_parts));

@@ -126,7 +126,7 @@ class ThreadTeam {
     std::array<std::atomic<std::uint64_t>, std::tuple_size_v<Job>> job{};
   };
   static_assert(sizeof(Loop) == 128);
-  /// Of a part: the last loop in which somebody has taken it. Each has a cache line.
+  /// The last loop in which somebody has taken a part. Each has a cache line.
   struct alignas(64) Ticket {
     std::atomic<std::uint64_t> loop{0};
   };
@@ -139,7 +139,7 @@ class ThreadTeam {
   void help();
   void help_with(std::uint64_t loop, int member);
   bool take_part(std::uint64_t loop, int part);
-  /// Of those that a member begins with. The caller is number 0, whose parts nobody else takes; it has the odd one, for
+  /// The first of the parts that a member begins with. The caller is number 0, whose parts nobody else takes; it has the odd one, for
   /// it is there first.
   [[nodiscard]] int first_part(int member, int num_parts) const {
     return (num_parts * member + num_threads_ - 1) / num_threads_;

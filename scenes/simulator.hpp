@@ -22,6 +22,14 @@ struct BlowUp {
   std::string reason;  ///< "position is not finite", "speed 3.1e8 m/s is over 1e6 m/s"
 };
 
+/// How far an implicit step was solved, where the engine iterates.
+struct SolveReport {
+  /// Largest over the cloths: root mean square distance of the nodes from where the equations of the step put them [m], a bound
+  /// by estimate (bridge::StepError).
+  double error = 0.0;
+  bool is_within_tolerance = true;  ///< of all cloths; if not, the budget of rounds ended first
+};
+
 /// What one step did.
 struct StepReport {
   int step = 0;            ///< counted from 1
@@ -31,6 +39,7 @@ struct StepReport {
   int num_contacts = 0;
   /// Largest step [s] at which no mode grows, where the engine knows it (the reference).
   std::optional<double> stable_time_step;
+  std::optional<SolveReport> solve;
   std::optional<BlowUp> blow_up;  ///< once set, further steps do nothing
 };
 

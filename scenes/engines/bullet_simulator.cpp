@@ -31,6 +31,7 @@ class BulletSimulator final : public Simulator {
                                          const forces::LawSpecification& law) const;
   void set_freedom(const Steering& steering);
   [[nodiscard]] std::optional<BlowUp> find_blow_up() const;
+  [[nodiscard]] SolveReport solve_report() const;
 
   Tension tension_;
   double links_time_step_ = 0.0;
@@ -131,6 +132,16 @@ std::optional<BlowUp> BulletSimulator::find_blow_up() const {
   return first_blow_up(state(), report_.step, report_.time, reach_);
 }
 
+SolveReport BulletSimulator::solve_report() const {
+  SolveReport report;
+  for (const btSoftBody* cloth : bodies_.cloths()) {
+    const bridge::StepError error = world_->solver().step_error(*cloth);
+    report.error = std::max(report.error, error.distance);
+    report.is_within_tolerance = report.is_within_tolerance && error.is_within_tolerance;
+  }
+  return report;
+}
+
 StepReport BulletSimulator::step(double time_step) {
   if (report_.blow_up) return report_;
   if (tension_ == Tension::kLinks && time_step != links_time_step_) {
@@ -155,6 +166,7 @@ StepReport BulletSimulator::step(double time_step) {
   report_.num_contacts = 0;
   for (const btSoftBody* cloth : bodies_.cloths())
     report_.num_contacts += world_->solver().num_contacts(*cloth);
+  if (tension_ == Tension::kImplicit) report_.solve = solve_report();
   bodies_.read_state(report_.time);
   report_.blow_up = find_blow_up();
   if (!report_.blow_up && tears_.tear(world_->solver(), bodies_)) bodies_.read_state(report_.time);

@@ -1,8 +1,10 @@
 #include <weft/scenes/recording/run.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -49,6 +51,26 @@ void write_frame(const Simulator& simulator, double time, RecordingWriter& write
   ++summary.frames;
 }
 
+/// The steps of an engine that iterates, since the frame before.
+class SolveOfFrame {
+ public:
+  void add(const SolveReport& report, RunSummary& summary) {
+    error_ = std::max(error_, report.error);
+    summary.largest_error = std::max(summary.largest_error.value_or(0.0), report.error);
+    if (report.is_within_tolerance) return;
+    ++unfinished_steps_;
+    ++summary.unfinished_steps;
+  }
+  void write(double time, RecordingWriter& writer) {
+    writer.add_metric("solver_error_m", time, std::exchange(error_, 0.0));
+    writer.add_metric("unfinished_steps_1", time, std::exchange(unfinished_steps_, 0));
+  }
+
+ private:
+  double error_ = 0.0;        ///< [m]
+  int unfinished_steps_ = 0;  ///< ended by their budget
+};
+
 }  // namespace
 
 RunSummary record_run(Simulator& simulator, const Scene& scene, RecordingWriter& writer,
@@ -61,12 +83,14 @@ RunSummary record_run(Simulator& simulator, const Scene& scene, RecordingWriter&
   write_frame(simulator, written, writer, summary);
   using Clock = std::chrono::steady_clock;
   Clock::duration engine{};
+  SolveOfFrame solve;
   while (summary.steps < num_steps && !summary.blow_up) {
     const Clock::time_point start = Clock::now();
     const StepReport report = simulator.step(scene.world.time_step);
     engine += Clock::now() - start;
     ++summary.steps;
     summary.blow_up = report.blow_up;
+    if (report.solve) solve.add(*report.solve, summary);
     // The last state too where the duration is no whole number of intervals.
     const bool is_last = summary.steps == num_steps || summary.blow_up;
     // A state that has exploded already is not stepped: it is in the frame before.
@@ -74,6 +98,7 @@ RunSummary record_run(Simulator& simulator, const Scene& scene, RecordingWriter&
     if (is_new && (summary.steps % frame_steps == 0 || is_last)) {
       written = report.time;
       write_frame(simulator, written, writer, summary);
+      if (report.solve) solve.write(written, writer);
     }
     if (progress) {
       progress(report);
