@@ -27,7 +27,7 @@ struct CommandLine {
   std::filesystem::path executable;  ///< the file that runs
 };
 
-/// What to say of an error: its text, or what the standard library's word for it means.
+/// The reason that an error gives: its text, or the standard library's word for its kind.
 [[nodiscard]] std::string reason_of(const std::exception& error);
 
 [[nodiscard]] Action add_list_command(CLI::App& parser);

@@ -216,7 +216,7 @@ void add_threads(const Name& name, ResultFile& times, ResultFile& phases) {
     for (int step = 0; step < kWarmUp; ++step) world->step();
   }
   std::vector<double> ms[3];
-  // Of rounds with two processors that share a cache, or do not.
+  // The first: rounds with two processors that share a cache; the second: the other rounds.
   std::array<std::vector<double>, 2> speed_ups;
   std::array<std::vector<double>, 2> limits;
   std::array<std::vector<double>, 2> transfers;

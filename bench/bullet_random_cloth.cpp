@@ -21,7 +21,7 @@ constexpr int kNodes = 8;          // along an edge
 constexpr double kGravity = 9.81;  // [m/s^2]
 constexpr double kDuration = 0.5;  // [s]
 constexpr int kLeastSteps = 60;
-/// Of the energy that a fall from the cloth's own size gives: below, a start at rest has no scale.
+/// A share of the energy that a fall from the cloth's own size gives. Below it a start at rest has no scale.
 constexpr double kSmallShare = 1e-3;
 
 forces::LawSpecification law(const std::string& id, const std::string& parameter, double value) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kTimeStep = 1.0 / 60;  // [s]
 
-/// Of this process, in memory [bytes].
+/// The process's resident memory [bytes].
 double resident() {
   std::ifstream file("/proc/self/statm");
   double pages = 0;

@@ -56,7 +56,7 @@ void take_turn(Contender& c, std::vector<double>& times) {
   }
 }
 
-/// Of each effort; all in turns, so that the machine is the same for all.
+/// Measures each effort, all in turns, so that the machine is the same for all.
 std::vector<Measured> measured(const Workload& workload) {
   std::vector<Measured> results(std::size(kEfforts));
   std::vector<std::vector<Contender>> runs(results.size());

@@ -152,7 +152,7 @@ std::vector<Frame> run(Torn& torn) {
   return frames;
 }
 
-/// Of each frame the least time of several runs, which are alike to the last bit: what takes longer is the machine's.
+/// The least time of each frame over several runs, which are alike to the last bit: the machine takes the rest.
 std::vector<Frame> run(const std::function<std::unique_ptr<Torn>()>& make) {
   std::vector<Frame> least = run(*make());
   for (int again = 1; again < kRuns; ++again) {

@@ -44,7 +44,7 @@ class WorkloadRun {
 
   /// Simulates this much time [s].
   void step(double time);
-  /// Of all bodies, 3 x n [m].
+  /// Positions of all bodies, 3 x n [m].
   [[nodiscard]] const Matrix3X<double>& positions() const { return positions_; }
   /// Largest and mean change of length of the structural springs [1].
   [[nodiscard]] std::pair<double, double> stretch() const;

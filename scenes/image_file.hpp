@@ -14,7 +14,7 @@ struct Image {
 };
 
 inline constexpr int kMaxImageSize = 8192;  ///< of an image file, per axis [pixel]
-/// Of an image file [pixel]: 100 MB when it is decoded.
+/// The most pixels of an image file: 100 MB when it is decoded.
 inline constexpr long long kMaxImagePixels = 33'554'432;
 
 /// Whether a name ends as those of files that decode_image() reads: .png, .jpg, .jpeg.

@@ -24,7 +24,7 @@ struct SolidMoments {
   Vector3<double> inertia{0, 0, 0};  ///< [m^2] per mass, about axes through the centre along the
                                      ///< frame's; products of inertia are left out
 };
-/// Of a sphere and a box exact; of other round shapes that of a polyhedron of 96 sides, 0.3 % less.
+/// Exact for a sphere and a box; for other round shapes that of a polyhedron of 96 sides, 0.3 % less.
 /// Parts of a compound that overlap count twice. Throws InvalidArgument for a plane, a height field
 /// and a mesh: they have no inside, or need not have one.
 [[nodiscard]] SolidMoments solid_moments(const Shape& shape);

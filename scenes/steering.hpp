@@ -43,9 +43,9 @@ struct Push {
 /// What shall happen in the step that begins, in the order of the scene's cloths and colliders.
 struct Steering {
   std::vector<ClothSteering> cloths;
-  /// Of the colliders that are led: where they are at the end of the step. The others: none.
+  /// Where the colliders that are led are at the end of the step. The others: none.
   std::vector<std::optional<Pose>> colliders;
-  /// Of every collider; those without a mass feel nothing.
+  /// The push on every collider; those without a mass feel nothing.
   std::vector<Push> pushes;
 };
 

@@ -33,7 +33,7 @@ class TornCloth {
   std::shared_ptr<const ClothTopology> topology_;
 };
 
-/// Of a scene's mesh and a state's topology (may be null), what can be said without the engine:
+/// The part of a scene's mesh and a state's topology (may be null) that is known without the engine:
 /// rest positions, triangles, places in pictures and the edges "stretch", for pictures and strains. No masses, no other
 /// sets. Throws InvalidArgument if the two do not fit.
 [[nodiscard]] ClothMesh drawn_mesh(const ClothMesh& mesh, const ClothTopology* topology);

@@ -21,7 +21,7 @@ class Director {
   /// Whether anything of the scene is led: if not, engines need not ask.
   [[nodiscard]] bool is_needed() const { return !controllers_.empty(); }
 
-  /// Of a step from state to end_time [s]. The result lives until the next call.
+  /// What controllers do in a step from state to end_time [s]. The result lives until the next call.
   [[nodiscard]] const Steering& steer(const SceneState& state, double end_time);
 
  private:

@@ -25,7 +25,7 @@ double angle_between(const Vector3<double>& a, const Vector3<double>& b) {
 
 }  // namespace
 
-/// Of the region, about the vertical.
+/// The motion of the region, about the vertical.
 struct SeekController::Motion {
   Vector3<double> center{0, 0, 0};    ///< [m]
   Vector3<double> velocity{0, 0, 0};  ///< [m/s]

@@ -21,7 +21,7 @@ class ReferenceTears {
   void make_first_cuts(reference::SpringSolver& solver);
   /// Tears what is beyond its limit now.
   void tear(reference::SpringSolver& solver);
-  /// Of each cloth of the scene; null for one that is whole.
+  /// The topology of each cloth of the scene; null for one that is whole.
   [[nodiscard]] std::shared_ptr<const ClothTopology> topology(std::size_t cloth) const;
 
  private:

@@ -13,7 +13,7 @@ class TornLayout {
   explicit TornLayout(const ClothMesh& mesh);
 
   [[nodiscard]] const ClothLayout& whole() const { return whole_; }
-  /// Of a state; made anew only if the topology is another one than last time.
+  /// The layout of a state; made anew only if the topology is another one than last time.
   [[nodiscard]] const ClothLayout& of(const ClothMesh& mesh, const ClothState& cloth);
 
  private:

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMass = 2;  // [kg]
 
-/// Of ten seconds.
+/// The extremes of ten seconds.
 struct Extremes {
   double energy = -1;  ///< beyond that of the start [J]
   double gap = 0;      ///< between an anchor and its node [m]
@@ -57,7 +57,7 @@ TEST(FastBody, HoldsABoxOnAnchors) {
   }
   std::cout << WEFT_NUM_BOXES << " boxes: " << num_gains << " gain energy, most " << most.energy
             << " J; largest gap " << most.gap << " m\n";
-  // Of 480 none does. An anchor leads to first order in the turn of a step, the box is turned by all of it.
+  // None of 480 does. An anchor leads to first order in the turn of a step, the box is turned by all of it.
   EXPECT_EQ(num_gains, 0);
   // Without any turn eight boxes have a gap of 1 cm, with it of 1.3 mm; 480 of 1.1 cm in some flinging.
   EXPECT_LT(most.gap, WEFT_NUM_BOXES > 100 ? 0.02 : 0.004);

@@ -61,7 +61,7 @@ TEST(FastBody, TurnsNoBoxThatIsLocked) {
   EXPECT_EQ(load.getAngularVelocity().length(), 0);
 }
 
-/// Of a box on strips of cloth, each held at its upper end and anchored to the box with its lower one.
+/// The highest speed of a box on strips of cloth, each held at its upper end and anchored to the box with its lower one.
 double highest_speed_on_strips(int num_strips) {
   SoftWorld world(SoftWorldSettings{});
   btRigidBody& load = add_rigid(world, box(0.2, 0.2, 0.2), 0.5, at(0, 0, 0));

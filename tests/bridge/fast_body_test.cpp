@@ -50,7 +50,7 @@ TEST(FastBody, IsSlowedDownAtTheRateOfItsDrag) {
                 {.is_second_order = is_second_order, .may_sleep = false});
     scene.step(200, 1.0 / 200);
     const double exact = -9.81 / kRate * (1 - std::exp(-kRate));
-    // Of first order: rate times step.
+    // First order: rate times step.
     EXPECT_NEAR(scene.mean_velocity().y() / exact, 1, kRate / 200) << is_second_order;
   }
 }

@@ -64,7 +64,7 @@ class Scene {
     return velocities() * masses_ / masses_.sum();
   }
   [[nodiscard]] Vector3<double> momentum() const { return velocities() * masses_; }
-  /// Of the cloth without its springs, from a height on [J].
+  /// The energy of the cloth without its springs, from a height on [J].
   [[nodiscard]] double mechanical_energy(double height) const {
     const VectorX<double> squared_speeds = velocities().colwise().squaredNorm().transpose();
     const VectorX<double> heights = positions().row(1).transpose().array() - height;

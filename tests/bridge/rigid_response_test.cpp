@@ -65,7 +65,7 @@ class Slope {
   void step(int num_steps) {
     for (int i = 0; i < num_steps; ++i) world_.step(kTimeStep);
   }
-  /// Of the middle, [m] and [m/s].
+  /// How far the middle has come [m], and how fast it is [m/s].
   [[nodiscard]] double way() const { return down_.dot(mean(0)); }
   [[nodiscard]] double speed() const { return down_.dot(mean(1)); }
   /// Largest speed of a node away from the slope [m/s].
@@ -187,7 +187,7 @@ TEST(RigidResponse, IsNotPushedByABallThatSomethingElseStops) {
   EXPECT_NEAR(scene.depth(), before, 0.001);
 }
 
-// Of 0.1 kg of cloth a twentieth meets 10 g: the pair goes on together, and a push that is counted twice would part it.
+// A twentieth of 0.1 kg of cloth meets 10 g: the pair goes on together, and a push that is counted twice would part it.
 TEST(RigidResponse, DoesNotBounceOffALightBall) {
   Slope scene(0, 0.4, 1.0, ContactResponse::kCoulomb);
   btRigidBody& ball = scene.throw_ball(0.01, at(0.05, 0.885, 0.05), vector(0, 2, 0), kGravity);

@@ -130,7 +130,7 @@ struct Bounds {
   double low, high;  ///< [m]
 };
 
-/// Of the distance from a place outside to the hull of points, by Frank and Wolfe with steps away: a point of the hull is
+/// Bounds of the distance from a place outside to the hull of points, by Frank and Wolfe with steps away: a point of the hull is
 /// no nearer than the nearest, and a plane across the way to it has all points behind.
 Bounds distance_bounds(const std::vector<Vector3<double>>& points, const Vector3<double>& place) {
   std::vector<double> weights(points.size(), 0.0);

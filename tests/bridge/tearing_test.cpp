@@ -108,7 +108,7 @@ double stored_energy(const Banner& banner) {
   Matrix3X<btScalar> x;
   Matrix3X<btScalar> v;
   read_nodes(*banner.body, x, v);
-  // Of the springs, whoever computes them; in double, so that only the split can change it.
+  // The forces of the springs, whoever computes them; in double, so that only the split can change it.
   forces::LawSet<double> laws;
   laws.add(forces::make_law<double>(kLaws[0], banner.mesh));
   laws.add(forces::make_law<double>(kLaws[2], banner.mesh));

@@ -14,7 +14,7 @@
 namespace weft::scenes {
 namespace {
 
-/// Of a run [s]: each leg and each arm swings back into the cape once.
+/// The length of a run [s]: each leg and each arm swings back into the cape once.
 constexpr double kDuration = 1.0;
 /// A little more than one round of the clip [s], so that its seam is in it.
 constexpr double kClipDuration = 2.2;
@@ -31,7 +31,7 @@ struct CapeNumbers {
   int looked = 0;
 };
 
-/// Of the skin at a time, by central differences over a step of the scene [m/s].
+/// Velocities of the skin at a time, by central differences over a step of the scene [m/s].
 Matrix3X<double> skin_velocities(const SkinSource& source, double time, double time_step) {
   const double half = 0.5 * time_step;
   return (skin_positions(source, time + half) - skin_positions(source, time - half)) / time_step;

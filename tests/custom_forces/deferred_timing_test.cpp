@@ -17,7 +17,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Laws = LawSet<float>;
 
-/// Of the time that one thread takes for the forces [-]: the claim of the documentation.
+/// A share of the time that one thread takes for the forces [-]: the claim of the documentation.
 constexpr double kLargestShare = 0.1;
 constexpr int kNumFrames = 400;
 constexpr auto kOtherWork = std::chrono::milliseconds(8);

@@ -21,7 +21,7 @@ void begin_step(NetworkForces<Scalar>& network, const Matrix3X<Scalar>& starts, 
   network.begin_step(network.all_nodes(), arrays_of(starts));
 }
 
-/// Of a network at places x, 3 x n [N].
+/// The forces of a network at places x, 3 x n [N].
 template <class Scalar>
 [[nodiscard]] Matrix3X<Scalar> forces_at(NetworkForces<Scalar>& network, const Matrix3X<Scalar>& x,
                                          bool linearises = true) {

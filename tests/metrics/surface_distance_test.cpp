@@ -112,7 +112,7 @@ TEST(SurfaceDistance, IsSymmetricThoughItsHalvesAreNot) {
   EXPECT_LT(d.a_to_b.largest, kRoundoff);  // the small square lies in the large one
   EXPECT_NEAR(d.b_to_a.largest, std::sqrt(2.0), kRoundoff);
   EXPECT_EQ(d.b_to_a.largest_node, 0);
-  // Of 25 nodes at spacing 1: 4 corners sqrt 2 away, 12 edge nodes 1 away, 9 on the small square.
+  // There are 25 nodes at spacing 1: 4 corners sqrt 2 away, 12 edge nodes 1 away, 9 on the small square.
   EXPECT_NEAR(d.b_to_a.mean, (4 * std::sqrt(2.0) + 12.0) / 25.0, kRoundoff);
   EXPECT_NEAR(d.chamfer, 0.5 * (4 * std::sqrt(2.0) + 12.0) / 25.0, kRoundoff);
   EXPECT_NEAR(d.b_to_a.percentile_95, std::sqrt(2.0), kRoundoff);

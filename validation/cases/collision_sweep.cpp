@@ -15,7 +15,7 @@
 namespace weft::validation {
 namespace {
 
-/// Of the cloth's size: what is asked, while the cloth moves, of an engine whose step damps.
+/// The gap that is asked, while the cloth moves, of an engine whose step damps, as a share of the cloth's size [-].
 constexpr double kDampedGap = 0.03;
 /// [m/s] RMS. The slowest swing has a period of half a second: it goes 0.5 mm to each side, a tenth of 1 % of the size.
 constexpr double kRestSpeed = 0.006;

@@ -35,7 +35,7 @@ class ReferenceLevels {
   /// 4h, 2h, h.
   [[nodiscard]] const std::vector<Frames>& all() const { return levels_; }
   [[nodiscard]] double finest_step() const { return finest_step_; }  ///< [s]
-  /// Of velocity Verlet in this scene: 2 of smooth motion, from 1 on with contact.
+  /// The order of velocity Verlet in this scene: 2 of smooth motion, from 1 on with contact.
   [[nodiscard]] const MethodOrder& order() const { return order_; }
 
   struct OwnError {

@@ -135,7 +135,7 @@ void check_forces(const CaseInfo& info, const RestRun& run, const History& histo
   add("mean force left over / (m g)", &UnbalancedForces::mean, kMean, end.rounding_mean);
 }
 
-/// Of a hammock: from explicit integration; there is one state of rest.
+/// Compares a hammock with explicit integration; there is one state of rest.
 void check_place(const CaseInfo& info, const RestRun& run, const History& history,
                  const History& exact, Report& report) {
   const auto apart = [&](const Matrix3X<double>& places) {

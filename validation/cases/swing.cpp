@@ -19,7 +19,7 @@ constexpr double kMass = 0.25;      // [kg]
 constexpr double kStep = 1.0 / 60;  // [s]
 constexpr int kNumSteps = 180;      // 3 s
 constexpr double kMiddle = 1.0;     // [s]
-/// Of kinetic energy over what is right 0.9 to 1.05 is allowed: so far from the middle of both.
+/// Kinetic energy may be 0.9 to 1.05 times what is right: so far from the middle of both.
 constexpr double kEnergyMiddle = 0.975;
 constexpr double kEnergyGate = 0.075;
 constexpr double kTurnGate = 0.1;  // right ones are as far apart, for the cloth waves

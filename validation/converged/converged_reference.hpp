@@ -53,7 +53,7 @@ struct ConvergedReference {
   double size = 0.0;       ///< [m] largest extent of the cloths at rest
   double gate = 0.0;       ///< [-]
   std::vector<ConvergenceStudy> studies;  ///< velocity Verlet, TR-BDF2
-  /// Of the finest levels of both integrators, rms as a part of the size [-].
+  /// The agreement of the finest levels of both integrators, RMS as a share of the size [-].
   std::optional<double> agreement;
 
   /// Every GCI below a tenth of the gate, and the integrators agree within a third of it.

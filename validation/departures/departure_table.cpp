@@ -1,12 +1,8 @@
 // What is known to fail, by cause. tools/state_departures.py prints the rows of a report; causes are written by hand.
-#include <limits>
-
 #include <weft/validation/departures/stated_departures.hpp>
 
 namespace weft::validation {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 const StatedDeparture kLedNodes{
     "bullet_weft",

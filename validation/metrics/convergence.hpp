@@ -66,7 +66,7 @@ struct MethodOrder {
 struct NormStudy {
   std::optional<double> order;  ///< observed [-]
   bool is_confirmed = false;    ///< the observed order is one of the method's, within 0.5
-  /// Of the finest level, in the unit of the differences: Fs |x_h - x_rh| / (r^p - 1). With a confirmed order Fs = 1.25
+  /// Uncertainty of the finest level, in the unit of the differences: Fs |x_h - x_rh| / (r^p - 1). With a confirmed order Fs = 1.25
   /// and p the lesser of the observed and the method's lowest; else Fs = 3 and p the lowest. NaN if a difference is not finite.
   double uncertainty = 0.0;
 };

@@ -115,7 +115,7 @@ MotionScene free_scene() {
            energy_figure()}};
 }
 
-/// Of the energy that everything has at the start [-].
+/// The energy gained as a share of the energy that everything has at the start [-].
 double energy_share_gained(const Scene& scene, const MotionFrames& frames) {
   if (frames.empty()) return kNaN;
   return energy_gained(scene, frames) / SceneEnergy(scene).evaluate(frames.front()).kinetic();
@@ -136,7 +136,7 @@ MotionScene impact_scene(const FreeImpact& impact) {
            {"energy gained", "1", &energy_share_gained, 1e-3, true, WrongMotion::kPushed}}};
 }
 
-/// Of the ball, after it has come down for the first time [m]; not a number if it does not come up again.
+/// How high the ball comes after it has come down for the first time [m]; not a number if it does not come up again.
 double height_of_bounce(const Scene&, const MotionFrames& frames) {
   std::size_t n = 1;
   const auto height = [&](std::size_t k) { return frames[k].rigids[0].position.y(); };

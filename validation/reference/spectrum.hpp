@@ -7,7 +7,7 @@ namespace weft::reference {
 
 using forces::Spectrum;
 
-/// Of a body at its present state.
+/// The spectrum of a body at its present state.
 [[nodiscard]] Spectrum spectrum(Body& body);
 
 }  // namespace weft::reference

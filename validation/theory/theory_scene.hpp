@@ -19,7 +19,7 @@ struct TheoryGate {
   std::string source;
   /// From the frames of a whole run. The relative error of the first one is gated; others are shown beside it.
   std::function<std::vector<ComparedValue>(const Frames&)> values;
-  /// Of that relative error, for an engine that takes steps of this length [s].
+  /// The tolerance of that relative error, for an engine that takes steps of this length [s].
   std::function<Tolerance(double time_step)> tolerance;
   std::vector<Sabotage>
       sabotages;  ///< of the scene, run by the reference: each must break the bound

@@ -74,7 +74,7 @@ class SelfContacts {
 /// Part of the distance at the start of a step, or of the thickness if that is less, below which a
 /// path must not come [-].
 inline constexpr double kNearestPart = 0.2;
-/// Of the gap that may be missing at the end of a step [-].
+/// The share of the gap that may be missing at the end of a step [-].
 inline constexpr double kGapTolerance = 0.05;
 /// The same as kNearestPart for what is stopped in the end.
 inline constexpr double kStopPart = 0.02;

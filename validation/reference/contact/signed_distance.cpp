@@ -45,7 +45,7 @@ struct ProfileDistance {
   double radial, axial;  // unit gradient
 };
 
-/// Of a solid of revolution about y.
+/// The distance from a solid of revolution about y.
 template <class Profile>
 SurfaceDistance revolved(const Vector3<double>& point, const Profile& profile) {
   const double radius = std::hypot(point.x(), point.z());

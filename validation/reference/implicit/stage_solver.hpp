@@ -45,7 +45,7 @@ class StageSolver {
   std::unique_ptr<Preconditioner> preconditioner_;
 };
 
-/// Of the largest coordinate of the body [-].
+/// Newton's last step as a share of the largest coordinate of the body [-].
 inline constexpr double kNewtonStep = 1e-11;
 inline constexpr int kMaxNewtonIterations = 50;
 /// Residual of the linear systems, relative [-]: with kNewtonStep, an error of 1e-19.
