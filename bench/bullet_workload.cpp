@@ -116,6 +116,7 @@ WorkloadRun::WorkloadRun(const Workload& workload, int iterations, bool has_link
   for (const ClothMesh& mesh : meshes_) {
     bodies_.push_back(&world_.add(bridge::make_cloth_body(world_.info(), mesh, settings)));
   }
+  read();
   std::shared_ptr<btCollisionShape> ground = ground_of(kind_);
   if (!ground) return;
   btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, ground.get());
@@ -134,6 +135,10 @@ std::vector<forces::LawSpecification> WorkloadRun::laws_of(bool has_tension) con
 
 void WorkloadRun::step(double time) {
   for (int s = 0; s < substeps_; ++s) world_.step(time / substeps_);
+  read();
+}
+
+void WorkloadRun::read() {
   Eigen::Index num_nodes = 0;
   for (const ClothMesh& mesh : meshes_) num_nodes += mesh.num_nodes();
   positions_.resize(3, num_nodes);

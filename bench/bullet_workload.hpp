@@ -50,6 +50,7 @@ class WorkloadRun {
   [[nodiscard]] std::pair<double, double> stretch() const;
 
  private:
+  void read();
   [[nodiscard]] std::vector<forces::LawSpecification> laws_of(bool has_tension) const;
 
   const Workload::Kind kind_;

@@ -70,6 +70,7 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
   ways_.outdate();
   excess_ = 0;
   force_history_.forget();
+  last_step_ = 0;
   wake();
 }
 

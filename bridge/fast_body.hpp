@@ -65,8 +65,8 @@ class FastBody : public NodeTeam {
   [[nodiscard]] bool is_asleep() const { return sleep_.is_asleep(); }
   [[nodiscard]] bool is_at_rest() const { return sleep_.is_at_rest(settings_); }
   void wake() {
+    if (is_asleep()) last_step_ = 0;
     sleep_.wake();
-    last_step_ = 0;
   }
   void begin_step(const btSoftBody& body) {
     step_error_ = {};
