@@ -23,8 +23,6 @@ void bench_bullet(const Settings& settings);
 void bench_fast(const Settings& settings);
 /// Where damped cloths come to rest at several time steps and efforts.
 void bench_drape(const Settings& settings);
-/// How exactly a hanging sheet is stretched, by effort.
-void bench_stretch(const Settings& settings);
 /// One cloth of 1 thousand to 1 million nodes: time and memory per node.
 void bench_scaling(const Settings& settings);
 /// Whole worlds on one and two threads, and what a step is made of.

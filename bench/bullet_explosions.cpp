@@ -54,7 +54,7 @@ void bench_explosions(const Settings& settings) {
        "99_percent_energy_ratio", "largest_energy_ratio", "fastest_node_m_per_s"});
   using Kind = RandomClothSolver::Kind;
   for (const Contender& contender :
-       {Contender{"bullet_weft 2x3", {}}, Contender{"bullet 10", {Kind::kLinks, 10}},
+       {Contender{"bullet_weft", {}}, Contender{"bullet 10", {Kind::kLinks, 10}},
         Contender{"bullet 50", {Kind::kLinks, 50}}, Contender{"bullet_forces", {Kind::kLaws}}}) {
     std::vector<Explosion> runs(kNumCloths);
     tbb::parallel_for(0, kNumCloths, [&](int i) {

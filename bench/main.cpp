@@ -28,7 +28,6 @@ int run(int argc, char** argv) {
   benches["scenes_truth"] = bench_scenes_truth;
   benches["swing_truth"] = bench_swing_truth;
   benches["scaling"] = bench_scaling;
-  benches["stretch"] = bench_stretch;
   benches["tear"] = bench_tear;
   benches["threads"] = bench_threads;
   benches["explosions"] = bench_explosions;

@@ -169,13 +169,15 @@ FastBody::EnergyBalance FastBody::energy_balance(btScalar time_step, double for_
 
 // A node that is put out of a surface after the solution stretches springs, and a very stiff sheet would throw it back with
 // energy that nobody has given to it. What is stored in springs cannot be taken away without another step: it is kept in mind
-// until it comes out as motion. Solutions that stay as they are gain nothing and are not looked at.
+// until it comes out as motion. Solutions without contacts that stay as they are gain nothing and are not looked at; a plane may
+// have a node's start behind it, where the surface is curved and the node fast.
 void FastBody::keep_energy(btScalar time_step) {
   if (gets_work_from_outside()) {
     excess_ = 0;
     return;
   }
-  if (solver_->report().is_converged && !is_projected_ && pushed_.empty() && excess_ == 0) return;
+  const bool is_free = contacts_.empty() && pushed_.empty() && !is_projected_;
+  if (solver_->report().is_converged && is_free && excess_ == 0) return;
   const EnergyBalance balance = energy_balance(time_step, given_to_bodies_);
   if (balance.kinetic > balance.most) {
     limit_energy(weights_, balance.most, pins_.empty(), velocities_, team_);

@@ -103,7 +103,7 @@ def write(name, panels, legend):
 
 
 def work_precision(results):
-    rows = [row for row in read(results / "fast_float32.csv") if row["rms_error_m"]]
+    rows = [row for row in read(results / "fast_float32.csv") if "-" not in (row["rms_error_m"], row["median_ms"])]
     panels, known = [], {}
     for workload in dict.fromkeys(row["workload"] for row in rows):
         here = [row for row in rows if row["workload"] == workload]
@@ -124,7 +124,7 @@ def scaling(results):
     nodes = [float(row["nodes"]) for row in rows]
     least = [1e-3 * float(row["least_ns_per_node"]) for row in rows]
     memory = [1e-3 * (float(row["bullet_bytes_per_node"]) + float(row["solver_bytes_per_node"])) for row in rows]
-    first = Panel(0, "one step of 2 x 3", nodes, least + [2 * max(least), min(least) / 2], "nodes", "us per node")
+    first = Panel(0, "one step", nodes, least + [2 * max(least), min(least) / 2], "nodes", "us per node")
     second = Panel(WIDTH, "memory, Bullet's and the solver's", nodes, memory + [2 * max(memory), min(memory) / 2],
                    "nodes", "kB per node")
     first.series(list(zip(nodes, least)), COLORS["weft"], joins_all=True)

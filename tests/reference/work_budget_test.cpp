@@ -73,6 +73,20 @@ TEST(WorkBudget, EndsAnImplicitStageThatDoesNotConverge) {
   EXPECT_THAT(reason, HasSubstr("an implicit stage is not solved after 5000 iterations of GMRES"));
 }
 
+TEST(WorkBudget, EndsSweepsOverContactsThatCannotAllHold) {
+  // A ceiling below the floor: no sweep of any of some thousand substeps converges.
+  System system = system_of(make_chain(4, 1.0, 0.001, 1000.0));
+  system.colliders.push_back({.name = "floor", .shape = Plane{}});
+  Collider ceiling{.name = "ceiling", .shape = Plane{}, .position = {0, -0.002, 0}};
+  ceiling.orientation = Eigen::AngleAxisd(M_PI, Vector3<double>::UnitX());
+  system.colliders.push_back(std::move(ceiling));
+  SpringSolver solver(std::move(system), {.guard = GuardPolicy::kSubstep});
+  std::string reason;
+  for (int n = 0; n < 5 && reason.empty(); ++n) reason = reason_of(solver.step(1.0));
+  EXPECT_THAT(reason, HasSubstr("chain: the contact search visited contacts "));
+  EXPECT_THAT(reason, HasSubstr(" times, more than the budget of 2000000"));
+}
+
 TEST(WorkBudget, RefusesSubstepsThatAreTooMany) {
   SpringSolver solver(system_of(make_chain(2, 1.0, 1e-6, 1e8)), {.guard = GuardPolicy::kSubstep});
   try {

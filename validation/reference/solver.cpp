@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <weft/custom_forces/core/error.hpp>
+#include <weft/validation/reference/contact/search_budget.hpp>
 
 namespace weft::reference {
 
@@ -97,6 +98,11 @@ void SpringSolver::substep(double time, double time_step, StepOutcome& outcome) 
     if (contact.exhausted) {
       blow_up_ =
           BlowUp{system_->bodies[contact.exhausted->body].name, 0, contact.exhausted->reason};
+    }
+    const std::int64_t budget = contact_visit_budget(*system_);
+    if (!blow_up_ && outcome.contact.visits > budget) {
+      blow_up_ = BlowUp{system_->bodies[0].name, 0,
+                        over_budget("visited contacts", outcome.contact.visits, "times", budget)};
     }
   }
   write(time_step);

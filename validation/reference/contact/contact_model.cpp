@@ -21,6 +21,7 @@ ContactOutcome combined(const ContactOutcome& first, const ContactOutcome& secon
   ContactOutcome sum = first;
   sum.num_contacts = std::max(first.num_contacts, second.num_contacts);
   sum.sweeps += second.sweeps;
+  sum.visits += second.visits;
   sum.passes += second.passes;
   sum.converged = first.converged && second.converged;
   sum.num_stopped_nodes += second.num_stopped_nodes;

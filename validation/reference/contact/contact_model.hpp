@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,10 +28,11 @@ struct Exhausted {
 };
 
 struct ContactOutcome {
-  int num_contacts = 0;   ///< pairs of node and collider that exchanged an impulse
-  int sweeps = 0;         ///< Gauss-Seidel sweeps in all
-  int passes = 0;         ///< how often the surface was linearised anew
-  bool converged = true;  ///< sweeps and passes both ended before their limits
+  int num_contacts = 0;     ///< pairs of node and collider that exchanged an impulse
+  int sweeps = 0;           ///< Gauss-Seidel sweeps in all
+  std::int64_t visits = 0;  ///< of a contact by a sweep, in all
+  int passes = 0;           ///< how often the surface was linearised anew
+  bool converged = true;    ///< sweeps and passes both ended before their limits
   /// Nodes that stood still for a step because contact between layers did not converge: 0 in a
   /// result that shall count.
   int num_stopped_nodes = 0;

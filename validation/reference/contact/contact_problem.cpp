@@ -141,6 +141,8 @@ SweepReport solve_contacts(ContactProblem& problem, const SweepLimits& limits) {
     ++report.sweeps;
     report.converged = largest_change <= limits.tolerance * scale;
   }
+  report.visits =
+      static_cast<std::int64_t>(report.sweeps) * static_cast<std::int64_t>(problem.contacts.size());
   return report;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include <weft/custom_forces/core/types.hpp>
@@ -61,8 +62,9 @@ struct ContactProblem {
                                                 const Contact& contact);
 
 struct SweepReport {
-  int sweeps = 0;         ///< passes over all contacts
-  bool converged = true;  ///< the last one changed no velocity by more than kSweepTolerance
+  int sweeps = 0;           ///< passes over all contacts
+  std::int64_t visits = 0;  ///< of a contact by a sweep
+  bool converged = true;    ///< the last one changed no velocity by more than kSweepTolerance
 };
 
 /// Change of a relative velocity in one visit at which sweeps stop, relative to the largest

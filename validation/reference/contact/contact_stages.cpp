@@ -216,23 +216,27 @@ ContactOutcome run_position_stage(const System& system, const PositionStage& opt
   };
   int passes = 0;
   int sweeps = 0;
+  std::int64_t visits = 0;
+  const std::int64_t visit_budget = contact_visit_budget(system);
   bool converged = true;
   bool changed = look(false);
   while (changed && passes < kMaxPasses) {
     const SweepReport report = solve_contacts(stage.problem, limits);
     ++passes;
     sweeps += report.sweeps;
+    visits += report.visits;
     converged = report.converged;
     if (pairs.is_needed()) {
-      pairs.count_visits(static_cast<std::int64_t>(report.sweeps) *
-                         static_cast<std::int64_t>(stage.problem.contacts.size()));
+      pairs.count_visits(report.visits);
       if (pairs.exhausted()) break;
     }
+    if (visits > visit_budget) break;
     changed = look(passes >= kSmoothPasses);
   }
   ContactOutcome outcome = outcome_of(stage.problem);
   outcome.passes = passes;
   outcome.sweeps = sweeps;
+  outcome.visits = visits;
   outcome.converged = converged && !changed;
   outcome.exhausted = pairs.exhausted();
   if (outcome.exhausted) return outcome;
@@ -276,6 +280,7 @@ ContactOutcome run_velocity_stage(const System& system, bool friction, const Tou
       solve_contacts(stage.problem, is_shared ? kSharedLimits : SweepLimits{});
   ContactOutcome outcome = outcome_of(stage.problem);
   outcome.sweeps = report.sweeps;
+  outcome.visits = report.visits;
   outcome.converged = report.converged;
   for (const ContactPoint& point : stage.problem.points) {
     step.bodies[point.body].end_velocities.col(point.node) = point.velocity;

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include <weft/validation/reference/system.hpp>
+
 namespace weft::reference {
 
 /// What the search for contacts between layers of cloth may cost in one step. Cloth that explodes
@@ -21,6 +23,15 @@ struct SearchBudget {
   constexpr std::int64_t kMaxPairs = 50'000'000;  // 1 GB
   const auto elements = static_cast<std::int64_t>(num_elements);
   return {std::min(500 * elements, kMaxPairs), 20'000 * elements, 50'000 * elements};
+}
+
+/// Visits of contacts by sweeps in one step, over all of its substeps. A node that is wedged between two colliders may keep
+/// every sweep from converging. Ten times what a ball takes that a net catches.
+[[nodiscard]] inline std::int64_t contact_visit_budget(const System& system) {
+  std::int64_t num_nodes = 0;
+  for (const Body& body : system.bodies) num_nodes += body.positions.cols();
+  constexpr std::int64_t kMostVisits = 500'000'000;
+  return std::min(500'000 * num_nodes, kMostVisits);
 }
 
 /// "the contact search found 31 candidate pairs, more than the budget of 30"
