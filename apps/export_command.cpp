@@ -81,8 +81,7 @@ int poster_frame(const scenes::RecordingReader& reader) {
 std::string poster(const scenes::RecordingReader& reader, int frame) {
   scenes::RenderOptions options;
   options.samples = 3;
-  return scenes::encode_jpeg(
-      scenes::Renderer(reader.scene()).render(reader.frame(frame), options));
+  return scenes::encode_jpeg(scenes::Renderer(reader.scene()).render(reader.frame(frame), options));
 }
 
 scenes::PageRecording packed(const std::string& file, const ExportOptions& options) {

@@ -141,8 +141,7 @@ class CopyWriter {
     times_.clear();
   }
 
-  void write_metric(const std::string& name,
-                    const std::vector<RecordingReader::Sample>& samples) {
+  void write_metric(const std::string& name, const std::vector<RecordingReader::Sample>& samples) {
     Statement insert = database_.prepare("INSERT INTO metric VALUES (?, ?, ?, ?)");
     for (const RecordingReader::Sample& sample : samples) {
       insert.bind(1, ++num_metrics_).bind(2, std::string_view(name)).bind(3, sample.time);
@@ -164,8 +163,7 @@ class CopyWriter {
 
   void write_meta(double position_error) {
     Meta meta;
-    meta["precision"] =
-        reader_.precision() == StoredPrecision::kFloat64 ? "float64" : "float32";
+    meta["precision"] = reader_.precision() == StoredPrecision::kFloat64 ? "float64" : "float32";
     meta["byte_order"] = "little";
     meta["finished"] = reader_.finished() ? "yes" : "no";
     meta["num_frames"] = std::to_string(num_frames_);
@@ -205,8 +203,8 @@ class CopyWriter {
 
 std::string playback_copy(const RecordingReader& reader, const PlaybackCopyOptions& options) {
   if (!std::isfinite(options.position_error) || !(options.position_error > 0.0)) {
-    throw InvalidArgument(fmt::format("playback copy: position error = {} [m], expected > 0 and finite",
-                                      options.position_error));
+    throw InvalidArgument(fmt::format(
+        "playback copy: position error = {} [m], expected > 0 and finite", options.position_error));
   }
   PlaybackCopyOptions all = options;
   if (all.scene == nullptr) all.scene = &reader.scene();

@@ -18,7 +18,7 @@ struct PlaybackMetric {
 struct PlaybackCopyOptions {
   /// The scene to be drawn, with the bodies of the recording's.
   const Scene* scene = nullptr;
-  double position_error = 1e-5;  ///< [m] by which rounding may move a coordinate, > 0
+  double position_error = 1e-5;              ///< [m] by which rounding may move a coordinate, > 0
   std::vector<PlaybackMetric> metrics = {};  ///< beside those of the recording
   std::function<void(double)> on_progress = {};  ///< part that is done, 0 to 1
 };
