@@ -33,11 +33,16 @@ export function icosphere(
     return directions.length - 1;
   };
   const triangles: number[] = [];
+  // Nodes are numbered as they are met: the last corner of a triangle first.
+  const add = (face: readonly [number, number, number], corners: [number, number][]): void => {
+    const [c, b, a] = [...corners].reverse().map(([i, j]) => node(face, i, j)) as [number, number, number];
+    triangles.push(a, b, c);
+  };
   for (const face of FACES) {
     for (let i = 0; i < frequency; ++i) {
       for (let j = 0; i + j < frequency; ++j) {
-        triangles.push(node(face, i, j), node(face, i + 1, j), node(face, i, j + 1));
-        if (i + j + 1 < frequency) triangles.push(node(face, i + 1, j), node(face, i + 1, j + 1), node(face, i, j + 1));
+        add(face, [[i, j], [i + 1, j], [i, j + 1]]);
+        if (i + j + 1 < frequency) add(face, [[i + 1, j], [i + 1, j + 1], [i, j + 1]]);
       }
     }
   }

@@ -63,6 +63,10 @@ async function start(page: HTMLElement): Promise<void> {
   acceptChoice(layout.open, (files) => void open(files));
   acceptChoice(layout.choose, (files) => void open(files));
   layout.help.addEventListener("click", showHelp);
+  // Who clicks a button wants the space key to play; who comes by keyboard wants it to press the button.
+  page.addEventListener("click", (event) => {
+    if (event.detail > 0 && event.target instanceof Element) event.target.closest("button")?.blur();
+  });
   connectKeys(player);
   showStills(player, posters);
   const given: GivenFile[] = embeddedFiles();

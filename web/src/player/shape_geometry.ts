@@ -57,7 +57,8 @@ function partOf(entry: TomlTable): BufferGeometry | null {
   const geometry = shapeGeometry(entry);
   const [w = 1, x = 0, y = 0, z = 0] = numbers(table(entry["orientation"])?.["quaternion"]);
   const pose = new Matrix4().compose(new Vector3(...vector(entry["position"])), new Quaternion(x, y, z, w), new Vector3(1, 1, 1));
-  return geometry?.applyMatrix4(pose).toNonIndexed() ?? null;
+  geometry?.applyMatrix4(pose);
+  return geometry?.getIndex() ? geometry.toNonIndexed() : geometry;
 }
 
 /** null for a plane, which is the ground. Parts that differ in their attributes keep place and normal alone. */
@@ -84,7 +85,7 @@ export function shapeGeometry(entry: TomlTable): BufferGeometry | null {
     case "compound": {
       const parts = tables(entry["part"]).map(partOf).filter((part) => part !== null);
       for (const part of parts) part.deleteAttribute("uv");
-      return mergeGeometries(parts.map((part) => part.toNonIndexed()));
+      return mergeGeometries(parts);
     }
     default:
       return null;
