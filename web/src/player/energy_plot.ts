@@ -76,12 +76,24 @@ export class EnergyPlot {
       const left = this.chart?.cursor.left;
       if (this.chart && left !== undefined && left !== null && left >= 0) this.seek(this.chart.posToVal(left, "x"));
     });
+    this.chart.over.addEventListener("mouseleave", () => window.setTimeout(() => this.showValues()));
     return true;
   }
 
   setTime(time: number): void {
     this.time = time;
     this.chart?.redraw(false, false);
+    this.showValues();
+  }
+
+  /** The legend has the values at the time that is shown, unless the mouse asks for others. */
+  private showValues(): void {
+    const { chart } = this;
+    if (!chart || chart.over.matches(":hover")) return;
+    chart.setCursor({ left: chart.valToPos(this.time, "x"), top: 0 });
+    const times = Array.from(chart.data[0]);
+    const nearest = times.reduce((best, time, i) => (Math.abs(time - this.time) < Math.abs(times[best]! - this.time) ? i : best), 0);
+    chart.setLegend({ idx: nearest });
   }
 
   redraw(): void {
@@ -106,7 +118,7 @@ export class EnergyPlot {
       height: HEIGHT,
       scales: { x: { time: false } },
       axes: [axis("time [s]", 36), axis("energy [J]", 52)],
-      cursor: { drag: { x: false, y: false } },
+      cursor: { y: false, drag: { x: false, y: false } },
       series: [
         { label: "t [s]", value: number },
         ...lines.map((line): uPlot.Series => ({

@@ -18,7 +18,7 @@ export interface Hook {
   triangles: (body: string, recording?: number) => number[];
   /** Times [s] and values of a metric. */
   metric: (name: string, recording?: number) => { times: number[]; values: number[] };
-  /** [ms] that opening took, from the bytes to the first picture. */
+  /** [ms] from the drop, or the first byte of a page with recordings, to the first picture. */
   openingTime: () => number;
   notes: () => string[];
 }

@@ -31,7 +31,7 @@ export function makeLayout(page: HTMLElement, transport: HTMLElement, panel: HTM
   const legend = h(
     "div",
     { class: "legend", hidden: true },
-    h("span", { class: "small" }, "strain [%]: shorter ‹ 0 › longer"),
+    h("span", { class: "small" }, "strain [%], + is longer"),
     bar,
     h("span", { class: "scale-marks small" }, marks),
   );

@@ -55,7 +55,8 @@ async function start(page: HTMLElement): Promise<void> {
   const player = new Player(page);
   const open = async (files: File[]): Promise<void> => {
     page.classList.add("busy");
-    await player.open(await readFiles(files));
+    const began = performance.now();
+    await player.open(await readFiles(files), began);
     page.classList.remove("busy");
   };
   const { layout } = player;
@@ -70,7 +71,8 @@ async function start(page: HTMLElement): Promise<void> {
   connectKeys(player);
   showStills(player, posters);
   const given: GivenFile[] = embeddedFiles();
-  const ready = given.length > 0 ? player.open(given) : Promise.resolve();
+  player.layout.invitation.hidden ||= given.length > 0;
+  const ready = given.length > 0 ? player.open(given, 0) : Promise.resolve();
   window.weft = makeHook(player, ready);
   await ready;
 }

@@ -34,7 +34,7 @@ export class Player {
   readonly layout;
   readonly viewer: Viewer | null;
   exhibits: Exhibit[] = [];
-  /** [ms] from the bytes to the first picture. */
+  /** [ms] from the drop, or the first byte of a page with recordings, to the first picture. */
   openingTime = NaN;
   private stages: Stage[] = [];
   private range = 0;
@@ -53,10 +53,9 @@ export class Player {
     this.update([], []);
   }
 
-  /** Shows these in place of what is shown; what cannot be read is said, and does not keep others from being shown. */
-  async open(files: GivenFile[]): Promise<void> {
+  /** began: when the opening did, as performance.now() counts [ms]. Shows these in place of what is shown; what cannot be read is said, and does not keep others from being shown. */
+  async open(files: GivenFile[], began = performance.now()): Promise<void> {
     this.clock.pause();
-    const began = performance.now();
     const notes: Note[] = [];
     const exhibits: Exhibit[] = [];
     const tools = await engines();
@@ -201,6 +200,7 @@ export class Player {
 
   private note(notes: Note[]): void {
     showNotes(this.panel, notes);
+    this.panel.element.hidden = this.exhibits.length === 0 && notes.length === 0;
   }
 
   private fillIn(): void {

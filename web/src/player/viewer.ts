@@ -9,7 +9,7 @@ import type { Stage } from "./stage";
 export type Arrangement = "beside" | "over";
 
 /** Screens narrower than this see the scene from farther away. */
-const DESIGNED_ASPECT = 1.5;
+const DESIGNED_ASPECT = 1.05;
 const MAX_PIXEL_RATIO = 2;
 
 /** null where there is no WebGL. Asked first, since three.js complains on the console where there is none. */
