@@ -142,6 +142,7 @@ export class EnergyPlot {
     ctx.save();
     ctx.strokeStyle = variable("--accent");
     ctx.lineWidth = 2 * uPlot.pxRatio;
+    ctx.setLineDash([]);
     ctx.beginPath();
     ctx.moveTo(x, bbox.top);
     ctx.lineTo(x, bbox.top + bbox.height);
