@@ -389,6 +389,26 @@ const tests = {
     assert.deepEqual(complaints, []);
   },
 
+  async "a forged recording is refused, whatever its numbers ask for"() {
+    const sql = await require("sql.js")();
+    const { page, complaints } = await open("player.html");
+    for (const [change, reason] of [
+      ["UPDATE chunk SET raw_bytes = 1000000000000", /would have 1000000000000 bytes/],
+      ["UPDATE chunk SET raw_bytes = raw_bytes - 8", /the file is damaged/],
+      ["UPDATE body SET nodes = 700 WHERE kind = 'cloth'", /numbers in a chunk, expected/],
+      ["UPDATE chunk SET codec = 'other'", /codec “other”, which this page does not know/],
+      ["UPDATE scene SET text = 'no scene'", /cannot|expected|Invalid|invalid/],
+      ["DROP TABLE chunk", /the file is damaged/],
+    ]) {
+      const database = new sql.Database(bytesOf(hang()));
+      database.run(change);
+      await drop(page, [["forged.weftrec", Buffer.from(database.export())]]);
+      assert.match((await notes(page)).join(), reason, change);
+      assert(await page.getByText("Drop a recording here").isVisible());
+    }
+    assert.deepEqual(complaints, []);
+  },
+
   async "300 frames of 2,500 nodes are below 5 MB"() {
     const name = record(join(scenes, "many_frames.toml"), "bullet_forces");
     const { page: file, error } = exported(name);

@@ -22,14 +22,18 @@ export interface Layout {
 
 export class DamagedChunk extends Error {}
 
+/** Before compression, as Weft has it: a forged number cannot ask for all memory. */
+const MAX_BYTES = 130 * 2 ** 20;
+
 function decompressed(data: Uint8Array, rawBytes: number): Uint8Array {
+  if (!(rawBytes >= 0 && rawBytes <= MAX_BYTES)) throw new DamagedChunk(`would have ${rawBytes} bytes: the file is damaged`);
   let bytes: Uint8Array;
   try {
     bytes = decompress(data, new Uint8Array(rawBytes));
   } catch (error) {
-    throw new DamagedChunk(`cannot be decompressed (${String(error)})`);
+    throw new DamagedChunk(`has frames that cannot be decompressed (${String(error)})`);
   }
-  if (bytes.length !== rawBytes) throw new DamagedChunk(`has not ${rawBytes} bytes`);
+  if (bytes.length !== rawBytes) throw new DamagedChunk(`has frames of another size than ${rawBytes} bytes: the file is damaged`);
   return bytes;
 }
 
@@ -56,7 +60,7 @@ export function decodeFull(data: Uint8Array, rawBytes: number, scalarBytes: numb
   const buffer = unshuffled(data, rawBytes, scalarBytes);
   const values = scalarBytes === 8 ? new Float64Array(buffer) : new Float32Array(buffer);
   const expected = sum(layouts.map((layout) => 6 * sum(layout.clothNodes) + RIGID_SCALARS * layout.rigids));
-  if (expected !== values.length) throw new DamagedChunk(`has ${values.length} numbers, expected ${expected}`);
+  if (expected !== values.length) throw new DamagedChunk(`has ${values.length} numbers in a chunk, expected ${expected}: the file is damaged`);
   let at = 0;
   const take = (count: number): Float32Array | Float64Array => values.subarray(at, (at += count));
   return layouts.map((layout) => {
@@ -101,7 +105,7 @@ export function decodeRounded(data: Uint8Array, rawBytes: number, step: number, 
   const poseBytes = 4 * POSE_SCALARS * layout.rigids;
   const values = 3 * nodes * frames;
   const begin = 4 + poseBytes * frames;
-  if (begin + PLANES * values !== rawBytes) throw new DamagedChunk(`has ${rawBytes} bytes, expected ${begin + PLANES * values}`);
+  if (begin + PLANES * values !== rawBytes) throw new DamagedChunk(`has ${rawBytes} bytes in a chunk, expected ${begin + PLANES * values}: the file is damaged`);
   const residuals = new Int32Array(values);
   for (let i = 0; i < values; ++i) {
     const at = begin + i;

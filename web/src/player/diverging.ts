@@ -20,9 +20,9 @@ const COLOURS: [number, number, number][] = [
   [165, 40, 40],
 ];
 
-/** The colour of a value between -1 and 1; channels 0 to 255. Grey-green where there is none. */
+/** The colour of a value between -1 and 1; channels 0 to 255. Grey where there is none. */
 export function divergingColour(value: number): [number, number, number] {
-  if (!Number.isFinite(value)) return [80, 120, 70];
+  if (!Number.isFinite(value)) return [150, 150, 150];
   const at = Math.min(Math.max(0.5 + 0.5 * value, 0), 1) * (COLOURS.length - 1);
   const left = Math.min(Math.floor(at), COLOURS.length - 2);
   const [a, b] = [COLOURS[left]!, COLOURS[left + 1]!];

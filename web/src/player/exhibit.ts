@@ -11,6 +11,8 @@ export interface Exhibit {
   scene: Scene;
   /** Of each cloth; null where the scene does not say, as for parts of characters. */
   meshes: (ClothMesh | null)[];
+  /** The largest strain [-] of the last frame, where most scenes carry their full load: one scale for all frames. */
+  strainRange: number;
   notes: string[];
 }
 
@@ -29,18 +31,17 @@ export function makeExhibit(recording: Recording): Exhibit {
       );
       return null;
     });
-  return { recording, scene, meshes, notes };
+  return { recording, scene, meshes, strainRange: strainRange(recording, meshes), notes };
 }
 
-/** The largest strain [-] of the last frame, where most scenes carry their full load: one scale for all frames. */
-export function strainRange(exhibit: Exhibit): number {
-  const last = exhibit.recording.times.length - 1;
+function strainRange(recording: Recording, meshes: (ClothMesh | null)[]): number {
+  const last = recording.times.length - 1;
   if (last < 0) return 0;
-  const frame: Frame = exhibit.recording.frame(last);
+  const frame: Frame = recording.frame(last);
   let largest = 0;
-  exhibit.meshes.forEach((mesh, c) => {
+  meshes.forEach((mesh, c) => {
     if (!mesh) return;
-    for (const value of nodeStrain(springsOf(mesh, exhibit.recording.topology(c, last)), frame.positions[c]!)) {
+    for (const value of nodeStrain(springsOf(mesh, recording.topology(c, last)), frame.positions[c]!)) {
       if (Math.abs(value) > largest) largest = Math.abs(value);
     }
   });

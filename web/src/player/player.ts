@@ -8,7 +8,7 @@ import { Clock } from "./clock";
 import type { Look } from "./cloth_view";
 import { engines } from "./engines";
 import { EnergyPlot } from "./energy_plot";
-import { makeExhibit, startEnergies, strainRange, type Exhibit } from "./exhibit";
+import { makeExhibit, startEnergies, type Exhibit } from "./exhibit";
 import type { GivenFile } from "./files";
 import { makeLayout } from "./layout";
 import { makePanel, showFacts, showNotes, showRecordings } from "./panel";
@@ -50,7 +50,7 @@ export class Player {
     const renderer = makeRenderer(this.layout.canvas);
     this.viewer = renderer && new Viewer(this.layout.canvas, renderer);
     this.connect();
-    this.update([], []);
+    this.update([], [], []);
   }
 
   /** began: when the opening did, as performance.now() counts [ms]. Shows these in place of what is shown; what cannot be read is said, and does not keep others from being shown. */
@@ -58,17 +58,23 @@ export class Player {
     this.clock.pause();
     const notes: Note[] = [];
     const exhibits: Exhibit[] = [];
+    const stages: Stage[] = [];
     const tools = await engines();
     for (const { name, main, log } of files) {
+      let recording: Recording | null = null;
       try {
-        exhibits.push(makeExhibit(new Recording(name, tools, main, log)));
+        recording = new Recording(name, tools, main, log);
+        const exhibit = makeExhibit(recording);
+        if (this.viewer) stages.push(new Stage(exhibit, () => this.viewer?.drawSoon(), stages[0]?.origin ?? null));
+        exhibits.push(exhibit);
       } catch (error) {
+        recording?.close();
         notes.push({ name, text: (error as Error).message, isError: true });
       }
     }
     // A file that cannot be read does not end what plays.
     if (exhibits.length === 0 && this.exhibits.length > 0) return this.note([...notes, ...this.ownNotes()]);
-    this.update(exhibits, notes);
+    this.update(exhibits, stages, notes);
     if (exhibits.length > 0) {
       this.viewer?.draw();
       this.openingTime = performance.now() - began;
@@ -169,19 +175,14 @@ export class Player {
     return [times[0] ?? 0, times.at(-1) ?? 0];
   }
 
-  private update(exhibits: Exhibit[], notes: Note[]): void {
+  private update(exhibits: Exhibit[], stages: Stage[], notes: Note[]): void {
     for (const stop of this.stopEnergies.splice(0)) stop();
     for (const stage of this.stages) stage.dispose();
     for (const { recording } of this.exhibits) recording.close();
     this.exhibits = exhibits;
-    this.range = exhibits.reduce((range, exhibit) => Math.max(range, strainRange(exhibit)), 0);
-    this.stages = [];
-    if (this.viewer) {
-      for (const exhibit of exhibits) {
-        this.stages.push(new Stage(exhibit, () => this.viewer?.drawSoon(), this.stages[0]?.origin ?? null));
-      }
-      this.viewer.show(this.stages);
-    }
+    this.stages = stages;
+    this.range = exhibits.reduce((range, exhibit) => Math.max(range, exhibit.strainRange), 0);
+    this.viewer?.show(stages);
     this.note([...notes, ...this.ownNotes()]);
     this.fillIn();
     this.setTheme();
