@@ -34,11 +34,9 @@ json flat(const Matrix& matrix) {
 
 json cloth_json(const scenes::Cloth& cloth, const scenes::ClothState& state) {
   const weft::ClothMesh mesh = scenes::drawn_mesh(scenes::make_mesh(cloth), state.topology.get());
-  json result = {{"positions", flat(state.positions)}, {"triangles", flat(mesh.triangles)}};
-  if (mesh.has_edge_set("stretch")) {
-    result["strain"] = flat(scenes::node_strain(mesh, state.positions));
-  }
-  return result;
+  return {{"positions", flat(state.positions)},
+          {"triangles", flat(mesh.triangles)},
+          {"strain", flat(scenes::node_strain(mesh, state.positions))}};
 }
 
 json frame_json(const scenes::RecordingReader& reader, int frame) {

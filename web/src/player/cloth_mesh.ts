@@ -3,7 +3,7 @@ import type { TomlTable } from "smol-toml";
 
 import { icosphere } from "./icosphere";
 import { storedMesh } from "./stored_mesh";
-import { quantity, table, text, vector } from "./scene";
+import { quantity, table, tables, text, vector } from "./scene";
 
 export interface ClothMesh {
   /** [m], x y z of each node: where lengths are taken from. */
@@ -182,6 +182,13 @@ function ropeMesh(cloth: TomlTable, rope: TomlTable): ClothMesh {
   };
 }
 
+/** The skin of a character has no laws and no springs: its bones lead every node. */
+function isSkin(cloth: TomlTable, body: ClothMesh): boolean {
+  const pins = tables(cloth["pin"]);
+  const nodes = pins.length === 1 ? pins[0]!["nodes"] : null;
+  return !cloth["law"] && Array.isArray(nodes) && nodes.length === 1 && nodes[0] === `0-${body.rest.length / 3 - 1}`;
+}
+
 /** null: the scene does not say, as for a part of a character, which is in a glTF model. */
 export function makeClothMesh(cloth: TomlTable): ClothMesh | null {
   const grid = table(cloth["grid"]);
@@ -198,5 +205,6 @@ export function makeClothMesh(cloth: TomlTable): ClothMesh | null {
   if (!mesh) return null;
   const surface = storedMesh(text(mesh["data"]));
   place(surface.rest, cloth, "position");
-  return surfaceBody(surface, cloth, mesh);
+  const body = surfaceBody(surface, cloth, mesh);
+  return isSkin(cloth, body) ? { ...body, stretch: new Uint32Array() } : body;
 }
