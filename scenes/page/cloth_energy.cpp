@@ -1,6 +1,7 @@
 #include <weft/scenes/page/cloth_energy.hpp>
 
 #include <limits>
+#include <variant>
 
 namespace weft::scenes {
 namespace {
@@ -25,11 +26,17 @@ Energies energies_of(const SceneState& state, const std::vector<VectorX<double>>
   return sum;
 }
 
+VectorX<double> masses_of(const Cloth& cloth) {
+  const auto* skin = std::get_if<SkinSource>(&cloth.source);
+  if (skin != nullptr && !skin->is_cloth) return VectorX<double>::Zero(num_nodes(cloth.source));
+  return make_mesh(cloth).masses;
+}
+
 }  // namespace
 
 std::vector<PlaybackMetric> cloth_energies(const RecordingReader& reader) {
   std::vector<VectorX<double>> masses;
-  for (const Cloth& cloth : reader.scene().cloths) masses.push_back(make_mesh(cloth).masses);
+  for (const Cloth& cloth : reader.scene().cloths) masses.push_back(masses_of(cloth));
   PlaybackMetric kinetic{"cloth_kinetic_energy_J", {}};
   PlaybackMetric height{"cloth_height_energy_J", {}};
   double first = 0.0;

@@ -1,6 +1,10 @@
 #include <weft/scenes/page/cloth_energy.hpp>
 
+#include <variant>
+
 #include <gtest/gtest.h>
+
+#include <weft/scenes/catalog.hpp>
 
 #include "tests/recording/recording_samples.hpp"
 
@@ -40,6 +44,29 @@ TEST(ClothEnergy, OfAClothThatFallsFreely) {
     EXPECT_NEAR(energies[1].samples[f].value, -fallen, 1e-12);
     EXPECT_EQ(energies[1].samples[f].time, time);
   }
+}
+
+TEST(ClothEnergy, OfACharacterIsThatOfItsClothAlone) {
+  const samples::TemporaryFolder folder;
+  const Scene scene = load_scene("caped_figure");
+  SceneState state;
+  int num_skins = 0;
+  for (const Cloth& cloth : scene.cloths) {
+    const Matrix3X<double> places = make_mesh(cloth).rest_positions;
+    const bool is_cloth = std::get<SkinSource>(cloth.source).is_cloth;
+    num_skins += is_cloth ? 0 : 1;
+    const double speed = is_cloth ? 0.0 : 3.0;
+    state.cloths.push_back(
+        {cloth.name, places, Matrix3X<double>::Constant(3, places.cols(), speed)});
+  }
+  for (const Collider& collider : scene.colliders) state.rigids.push_back({collider.name});
+  {
+    RecordingWriter writer(folder / "walk.weftrec", scene, {}, StoredPrecision::kFloat64);
+    writer.add_frame(state);
+    writer.finish();
+  }
+  ASSERT_GT(num_skins, 0);
+  EXPECT_EQ(cloth_energies(RecordingReader(folder / "walk.weftrec"))[0].samples[0].value, 0.0);
 }
 
 }  // namespace

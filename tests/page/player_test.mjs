@@ -191,8 +191,6 @@ const SHORT_SCENES = [
 const OTHER_SCENES = ["drape_sphere", "drop_ground", "drop_box", "wind_hover", "heavy_strip", "ball_on_cloth", "curtain",
   "towel", "ghost", "ooze", "flying_carpet", "sock_puppet", "drape_torsion", "materials", "wind"];
 
-const isSkinned = (scene) => ["caped_figure", "sock_puppet"].includes(scene);
-
 function sceneTests() {
   // Every scene has an engine of its own that is the first it names.
   const list = isLong ? [...SHORT_SCENES, ...OTHER_SCENES.map((scene) => [scene, "", "0.06 s"])] : SHORT_SCENES;
@@ -213,13 +211,9 @@ function sceneTests() {
       const second = await open("player.html");
       await drop(second.page, [[name, bytesOf(name)]]);
       await second.page.evaluate((time) => window.weft.seek(time), expected.frame.time);
-      if (isSkinned(scene)) {
-        assert.match((await notes(second.page)).join(), /drawn as points.*in the model of a character/);
-      } else {
-        await compare(second.page, expected.frame, { position: 0, strain: 1e-12 });
-        await compareEnergies(second.page, expected.metrics);
-        assert.deepEqual(await notes(second.page), []);
-      }
+      await compare(second.page, expected.frame, { position: 0, strain: 1e-12 });
+      await compareEnergies(second.page, expected.metrics);
+      assert.deepEqual(await notes(second.page), []);
       assert.deepEqual(second.complaints, []);
       await second.page.close();
     },

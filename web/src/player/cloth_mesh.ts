@@ -72,7 +72,7 @@ function withCentre(surface: Surface, masses: Float64Array, share: number, total
 }
 
 /** Any triangles, with area or equal masses and possibly a node in the middle. */
-function surfaceBody(surface: Surface, cloth: TomlTable, source: TomlTable): ClothMesh {
+export function surfaceBody(surface: Surface, cloth: TomlTable, source: TomlTable): ClothMesh {
   const { rest, triangles } = surface;
   const total = quantity(cloth["mass"], 1);
   const share = source["center_node"] === true ? quantity(source["center_mass_share"]) : 0;
@@ -182,14 +182,19 @@ function ropeMesh(cloth: TomlTable, rope: TomlTable): ClothMesh {
   };
 }
 
-/** The skin of a character has no laws and no springs: its bones lead every node. */
+/** Of a character's skin, which its bones lead: no springs, and no mass that counts. */
+export function asSkin(body: ClothMesh): ClothMesh {
+  return { ...body, stretch: new Uint32Array(), masses: new Float64Array(body.masses.length) };
+}
+
+/** As a page has the skin of a character: without laws, every node led. */
 function isSkin(cloth: TomlTable, body: ClothMesh): boolean {
   const pins = tables(cloth["pin"]);
   const nodes = pins.length === 1 ? pins[0]!["nodes"] : null;
   return !cloth["law"] && Array.isArray(nodes) && nodes.length === 1 && nodes[0] === `0-${body.rest.length / 3 - 1}`;
 }
 
-/** null: the scene does not say, as for a part of a character, which is in a glTF model. */
+/** null: a source that this page does not know; parts of characters are made in character_mesh.ts. */
 export function makeClothMesh(cloth: TomlTable): ClothMesh | null {
   const grid = table(cloth["grid"]);
   if (grid) return gridMesh(cloth, grid);
@@ -206,5 +211,5 @@ export function makeClothMesh(cloth: TomlTable): ClothMesh | null {
   const surface = storedMesh(text(mesh["data"]));
   place(surface.rest, cloth, "position");
   const body = surfaceBody(surface, cloth, mesh);
-  return isSkin(cloth, body) ? { ...body, stretch: new Uint32Array() } : body;
+  return isSkin(cloth, body) ? asSkin(body) : body;
 }

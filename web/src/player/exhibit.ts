@@ -1,15 +1,16 @@
 // A recording with what is needed to show it: its scene and the meshes of its cloths.
+import { characterMeshes } from "./character_mesh";
 import { makeClothMesh, type ClothMesh } from "./cloth_mesh";
 import { computeEnergies, KINETIC } from "./energy";
 import type { Frame } from "./chunk_codec";
 import type { Recording } from "./recording";
-import { readScene, type Scene } from "./scene";
+import { readScene, text, type Scene } from "./scene";
 import { nodeStrain, springsOf } from "./strain";
 
 export interface Exhibit {
   recording: Recording;
   scene: Scene;
-  /** Of each cloth; null where the scene does not say, as for parts of characters. */
+  /** Of each cloth; null for a source that this page does not know. */
   meshes: (ClothMesh | null)[];
   /** The largest strain [-] of the last frame, where most scenes carry their full load: one scale for all frames. */
   strainRange: number;
@@ -19,16 +20,21 @@ export interface Exhibit {
 export function makeExhibit(recording: Recording): Exhibit {
   const scene = readScene(recording.sceneText);
   const notes = [...recording.notes];
+  const led = new Map<string, ClothMesh>();
+  for (const character of scene.characters) {
+    try {
+      for (const [name, mesh] of characterMeshes(character)) led.set(name, mesh);
+    } catch (error) {
+      notes.push(`The model of “${text(character["name"])}” cannot be read (${(error as Error).message}).`);
+    }
+  }
   const meshes = recording.bodies
     .filter((body) => body.isCloth)
     .map((body) => {
       const entry = scene.cloths.get(body.name);
-      const mesh = entry ? makeClothMesh(entry) : null;
+      const mesh = led.get(body.name) ?? (entry ? makeClothMesh(entry) : null);
       if (mesh && mesh.rest.length / 3 === body.nodes) return mesh;
-      notes.push(
-        `The nodes of “${body.name}” are drawn as points: its triangles are in the model of a character. ` +
-          "A page that weft export --html writes has them.",
-      );
+      notes.push(`The nodes of “${body.name}” are drawn as points: this page does not know the source of its triangles.`);
       return null;
     });
   return { recording, scene, meshes, strainRange: strainRange(recording, meshes), notes };

@@ -15,8 +15,9 @@ export interface Scene {
   name: string;
   summary: string;
   gravity: Vector;
-  /** By name. */
+  /** Also those of characters, by name. */
   cloths: Map<string, TomlTable>;
+  characters: TomlTable[];
   colliders: Map<string, TomlTable>;
   camera: SceneCamera;
 }
@@ -50,6 +51,12 @@ export function text(value: TomlValue | undefined): string {
   return typeof value === "string" ? value : "";
 }
 
+/** What the scene says of a cloth; a skin looks as its character. */
+export function clothEntry(scene: Scene, name: string): TomlTable {
+  const character = scene.characters.find((entry) => name.startsWith(`${text(entry["name"])}-`));
+  return scene.cloths.get(name) ?? character ?? {};
+}
+
 function byName(entries: TomlTable[]): Map<string, TomlTable> {
   return new Map(entries.map((entry) => [text(entry["name"]), entry]));
 }
@@ -63,6 +70,7 @@ export function readScene(toml: string): Scene {
     summary: text(root["summary"]),
     gravity: vector(table(root["world"])?.["gravity"], [0, -9.81, 0]),
     cloths: byName([...tables(root["cloth"]), ...characters.flatMap((c) => tables(c["cloth"]))]),
+    characters,
     colliders: byName([...tables(root["collider"]), ...characters.flatMap((c) => tables(c["collider"]))]),
     camera: {
       position: vector(camera["position"], [8, 6, 10]),

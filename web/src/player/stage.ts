@@ -20,7 +20,7 @@ import { ClothView, type Look } from "./cloth_view";
 import type { Exhibit } from "./exhibit";
 import { Ground } from "./ground";
 import { bodyPaint, clothPaint, colourOf, type Paint } from "./paint";
-import { quantity, text } from "./scene";
+import { clothEntry, quantity, text } from "./scene";
 import { shapeGeometry } from "./shape_geometry";
 
 /** Obstacles are drawn 0.2 % smaller: between its nodes a cloth is flat, and a ball would shine through it. */
@@ -102,7 +102,7 @@ export class Stage {
     const { recording, scene, meshes } = this.exhibit;
     const names = recording.bodies.filter((body) => body.isCloth).map((body) => body.name);
     names.forEach((name, c) => {
-      const entry = scene.cloths.get(name) ?? {};
+      const entry = clothEntry(scene, name);
       const rope = Math.max(quantity(entry["collision_margin"], 0.01), 0.004 * this.radius);
       const cloth = new ClothView(meshes[c] ?? null, clothPaint(entry, c, recording.assets, this.loaded), rope);
       this.cloths.push(cloth);
