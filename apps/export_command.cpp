@@ -11,7 +11,6 @@
 #include <weft/custom_forces/core/error.hpp>
 #include <weft/scenes/output/output_file.hpp>
 #include <weft/scenes/page/cloth_energy.hpp>
-#include <weft/scenes/page/drawn_scene.hpp>
 #include <weft/scenes/page/player_page.hpp>
 #include <weft/scenes/playback/image.hpp>
 #include <weft/scenes/playback/renderer.hpp>
@@ -88,10 +87,8 @@ scenes::PageRecording packed(const std::string& file, const ExportOptions& optio
   const scenes::RecordingReader reader(file);
   if (reader.num_frames() == 0) throw Error(file + ": has no frame to show");
   note_if_partial(reader, file);
-  const scenes::Scene drawn = scenes::drawn_scene(reader.scene());
   scenes::PlaybackCopyOptions copy;
-  copy.scene = &drawn;
-  copy.position_error = position_error(options, drawn);
+  copy.position_error = position_error(options, reader.scene());
   copy.metrics = scenes::cloth_energies(reader);
   const int frame = poster_frame(reader);
   scenes::PageRecording recording;

@@ -19,7 +19,7 @@ constexpr const char* kFooter = R"(Examples:
   weft run drape_sphere --engine bullet_forces --precision float64 -o drape.weftrec
   weft info drape.weftrec                    how far it goes, and whether it is whole
   weft render drape.weftrec -o drape.png     a picture of the last frame
-  weft export --html drape.html drape.weftrec   a page that plays it in any browser
+  weft export --html d.html drape.weftrec    a page that plays it in any browser
   weft check my_scene.toml                   is this scene file right?
   weft check-mesh shirt.obj                  can a body be made of this mesh?
   weft stability hang                        the largest stable step, over stiffness and inertia

@@ -29,25 +29,17 @@ class CopyWriter {
  public:
   CopyWriter(const RecordingReader& reader, const PlaybackCopyOptions& options)
       : reader_(reader),
-        scene_(*options.scene),
+        scene_(reader.scene()),
         step_(2.0 * options.position_error),
         database_(Database::in_memory("playback copy")) {
-    const std::vector<RecordedBody> bodies = recorded_bodies(reader.scene());
-    const std::vector<RecordedBody> drawn = recorded_bodies(scene_);
-    const auto is_same = [](const RecordedBody& a, const RecordedBody& b) {
-      return a.name == b.name && a.is_cloth == b.is_cloth && a.num_nodes == b.num_nodes;
-    };
-    if (!std::equal(bodies.begin(), bodies.end(), drawn.begin(), drawn.end(), is_same)) {
-      throw InvalidArgument("playback copy: the scene has not the bodies of the recording");
-    }
     database_.execute(fmt::format("PRAGMA application_id={}; PRAGMA user_version={}; BEGIN",
                                   kCopyApplicationId, kTornFormatVersion));
     database_.execute(std::string(kTableSchema) + std::string(kTopologySchema));
     database_.prepare("INSERT INTO scene VALUES (?)")
-        .bind(1, std::string_view(write_scene(scene_)))
+        .bind(1, std::string_view(reader.scene_text()))
         .run();
     if (!scene_.files.empty()) write_assets(database_, scene_.files);
-    write_bodies(bodies);
+    write_bodies(recorded_bodies(scene_));
   }
 
   void add(int frame) {
@@ -206,14 +198,12 @@ std::string playback_copy(const RecordingReader& reader, const PlaybackCopyOptio
     throw InvalidArgument(fmt::format(
         "playback copy: position error = {} [m], expected > 0 and finite", options.position_error));
   }
-  PlaybackCopyOptions all = options;
-  if (all.scene == nullptr) all.scene = &reader.scene();
-  CopyWriter writer(reader, all);
+  CopyWriter writer(reader, options);
   for (int frame = 0; frame < reader.num_frames(); ++frame) {
     writer.add(frame);
-    if (all.on_progress) all.on_progress((frame + 1.0) / reader.num_frames());
+    if (options.on_progress) options.on_progress((frame + 1.0) / reader.num_frames());
   }
-  return writer.finish(all);
+  return writer.finish(options);
 }
 
 }  // namespace weft::scenes

@@ -80,14 +80,5 @@ TEST_F(PlaybackCopy, RefusesAnErrorThatIsNoLength) {
   }
 }
 
-TEST_F(PlaybackCopy, RefusesASceneWithOtherBodies) {
-  const RecordingReader reader(write(2));
-  Scene other = reader.scene();
-  other.cloths.pop_back();
-  PlaybackCopyOptions options;
-  options.scene = &other;
-  EXPECT_THROW((void)playback_copy(reader, options), InvalidArgument);
-}
-
 }  // namespace
 }  // namespace weft::scenes

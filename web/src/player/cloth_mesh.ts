@@ -3,7 +3,7 @@ import type { TomlTable } from "smol-toml";
 
 import { icosphere } from "./icosphere";
 import { storedMesh } from "./stored_mesh";
-import { quantity, table, tables, text, vector } from "./scene";
+import { quantity, table, text, vector } from "./scene";
 
 export interface ClothMesh {
   /** [m], x y z of each node: where lengths are taken from. */
@@ -187,13 +187,6 @@ export function asSkin(body: ClothMesh): ClothMesh {
   return { ...body, stretch: new Uint32Array(), masses: new Float64Array(body.masses.length) };
 }
 
-/** As a page has the skin of a character: without laws, every node led. */
-function isSkin(cloth: TomlTable, body: ClothMesh): boolean {
-  const pins = tables(cloth["pin"]);
-  const nodes = pins.length === 1 ? pins[0]!["nodes"] : null;
-  return !cloth["law"] && Array.isArray(nodes) && nodes.length === 1 && nodes[0] === `0-${body.rest.length / 3 - 1}`;
-}
-
 /** null: a source that this page does not know; parts of characters are made in character_mesh.ts. */
 export function makeClothMesh(cloth: TomlTable): ClothMesh | null {
   const grid = table(cloth["grid"]);
@@ -210,6 +203,5 @@ export function makeClothMesh(cloth: TomlTable): ClothMesh | null {
   if (!mesh) return null;
   const surface = storedMesh(text(mesh["data"]));
   place(surface.rest, cloth, "position");
-  const body = surfaceBody(surface, cloth, mesh);
-  return isSkin(cloth, body) ? asSkin(body) : body;
+  return surfaceBody(surface, cloth, mesh);
 }
