@@ -45,6 +45,17 @@ function linesOf(recordings: Recording[]): Line[] {
   return lines;
 }
 
+/** Recordings have times of their own: of each series the point that is nearest, also where only another one has one. */
+function pointNear(chart: uPlot, series: number, at: number): number {
+  const column = chart.data[series];
+  if (!column || series === 0) return at;
+  for (let away = 0; away < column.length; ++away) {
+    if (column[at - away] !== undefined) return at - away; // null is a value that is none
+    if (column[at + away] !== undefined) return at + away;
+  }
+  return at;
+}
+
 export class EnergyPlot {
   readonly element = h("div", { class: "chart", role: "img" });
   private chart: uPlot | null = null;
@@ -90,10 +101,12 @@ export class EnergyPlot {
   private showValues(): void {
     const { chart } = this;
     if (!chart || chart.over.matches(":hover")) return;
-    chart.setCursor({ left: chart.valToPos(this.time, "x"), top: 0 });
+    const left = chart.valToPos(this.time, "x");
+    if (!Number.isFinite(left)) return;
+    chart.setCursor({ left, top: 0 });
     const times = Array.from(chart.data[0]);
     const nearest = times.reduce((best, time, i) => (Math.abs(time - this.time) < Math.abs(times[best]! - this.time) ? i : best), 0);
-    chart.setLegend({ idx: nearest });
+    chart.setLegend({ idxs: chart.data.map((_, series) => pointNear(chart, series, nearest)) });
   }
 
   redraw(): void {
@@ -118,7 +131,7 @@ export class EnergyPlot {
       height: HEIGHT,
       scales: { x: { time: false } },
       axes: [axis("time [s]", 36), axis("energy [J]", 52)],
-      cursor: { y: false, drag: { x: false, y: false } },
+      cursor: { y: false, drag: { x: false, y: false }, dataIdx: pointNear },
       series: [
         { label: "t [s]", value: number },
         ...lines.map((line): uPlot.Series => ({
@@ -131,7 +144,8 @@ export class EnergyPlot {
           value: number,
         })),
       ],
-      hooks: { draw: [(chart) => this.drawTime(chart)] },
+      // Before it is ready, a plot knows no places.
+      hooks: { ready: [() => window.setTimeout(() => this.showValues())], draw: [(chart) => this.drawTime(chart)] },
     };
   }
 

@@ -99,7 +99,7 @@ export class Recording {
       this.readTopologies();
       this.blowUp = this.readBlowUp();
       this.readFrames(file.missing > 0);
-      this.readMetrics();
+      this.readMetrics(file.missing > 0);
       this.readAssets();
     } catch (error) {
       this.close();
@@ -257,9 +257,9 @@ export class Recording {
     }
   }
 
-  private readMetrics(): void {
+  private readMetrics(isCut: boolean): void {
     const byName = new Map<string, Metric>();
-    for (const [name, time, value] of this.rowsThatAreThere("SELECT name, time_s, value FROM metric ORDER BY id", true)) {
+    for (const [name, time, value] of this.rowsThatAreThere("SELECT name, time_s, value FROM metric ORDER BY id", isCut)) {
       const metric = byName.get(String(name)) ?? { name: String(name), times: [], values: [] };
       byName.set(metric.name, metric);
       metric.times.push(Number(time));
