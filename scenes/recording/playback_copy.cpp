@@ -1,6 +1,6 @@
 #include <weft/scenes/recording/playback_copy.hpp>
 
-#include <cmath>
+#include <algorithm>
 #include <optional>
 #include <span>
 
@@ -24,6 +24,21 @@ constexpr std::int64_t kCopyApplicationId = 0x57454650;  // "WEFP" in ASCII
 /// A chunk is decoded whole before its first frame is shown: these take some 20 ms.
 constexpr std::size_t kMaxChunkFrames = 60;
 constexpr std::size_t kMaxChunkValues = 600'000;
+
+/// Of the largest cloth: below, 31 bits of steps would not reach around it; above, it has no shape left.
+constexpr double kSmallestError = 1e-8;
+constexpr double kLargestError = 0.1;
+
+void check(double position_error, const Scene& scene) {
+  double size = 0.0;
+  for (const Cloth& cloth : scene.cloths) size = std::max(size, body_size(cloth.source));
+  const double smallest = kSmallestError * size;
+  const double largest = kLargestError * size;
+  if (position_error >= smallest && position_error <= largest) return;
+  throw InvalidArgument(fmt::format(
+      "playback copy: position error = {} [m], expected {:.3g} to {:.3g} for a cloth of {:.3g} m",
+      position_error, smallest, largest, size));
+}
 
 class CopyWriter {
  public:
@@ -194,10 +209,7 @@ class CopyWriter {
 }  // namespace
 
 std::string playback_copy(const RecordingReader& reader, const PlaybackCopyOptions& options) {
-  if (!std::isfinite(options.position_error) || !(options.position_error > 0.0)) {
-    throw InvalidArgument(fmt::format(
-        "playback copy: position error = {} [m], expected > 0 and finite", options.position_error));
-  }
+  check(options.position_error, reader.scene());
   CopyWriter writer(reader, options);
   for (int frame = 0; frame < reader.num_frames(); ++frame) {
     writer.add(frame);
