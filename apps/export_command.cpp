@@ -54,10 +54,6 @@ double position_error(const ExportOptions& options, const scenes::Scene& scene) 
     } catch (const scenes::UnitError& reason) {
       throw InvalidArgument(fmt::format("--error \"{}\": {}", options.error, reason.what()));
     }
-    if (!(error > 0.0)) {
-      throw InvalidArgument(
-          fmt::format("--error \"{}\": expected a length > 0, as \"0.01 mm\"", options.error));
-    }
     return error;
   }
   double largest = 0.0;

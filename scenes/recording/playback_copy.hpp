@@ -16,14 +16,15 @@ struct PlaybackMetric {
 
 /// What of a recording goes into a copy that is only shown.
 struct PlaybackCopyOptions {
-  double position_error = 1e-5;              ///< [m] by which rounding may move a coordinate, > 0
-  std::vector<PlaybackMetric> metrics = {};  ///< beside those of the recording
+  /// [m] by which rounding may move a coordinate; 1e-8 to 0.1 of the largest cloth.
+  double position_error = 1e-5;
+  std::vector<PlaybackMetric> metrics = {};      ///< beside those of the recording
   std::function<void(double)> on_progress = {};  ///< part that is done, 0 to 1
 };
 
 /// A copy of a recording for the playback page: the tables of a recording in which cloths have only positions, rounded, and
 /// rigid bodies only poses, in single precision. docs/playback.md has the format. A SQLite file.
-/// @throws InvalidArgument for an error that is not > 0 and finite; Error if the recording is damaged.
+/// @throws InvalidArgument for an error out of its range; Error if the recording is damaged.
 [[nodiscard]] std::string playback_copy(const RecordingReader& reader,
                                         const PlaybackCopyOptions& options);
 

@@ -44,7 +44,7 @@ check "no recording at all: names it" one_line "text.weftrec: not a Weft recordi
 head -c 20000 hang.weftrec >cut.weftrec
 check "cut off" exits 2 export --html page.html cut.weftrec
 check "cut off: names it" one_line "cut.weftrec: "
-for error in "1 kg" "0 mm" "-1 mm" "nan m"; do
+for error in "1 kg" "0 mm" "-1 mm" "nan m" "1 pm" "1 km"; do
   check "error $error" exits 2 export --html page.html --error="$error" hang.weftrec
   check "error $error: names it" one_line "error"
 done

@@ -71,9 +71,10 @@ TEST_F(PlaybackCopy, IsTheSameBytesEveryTimeAndNoRecording) {
   EXPECT_NE(query(copy, "PRAGMA application_id"), std::to_string(0x57454654));
 }
 
-TEST_F(PlaybackCopy, RefusesAnErrorThatIsNoLength) {
+TEST_F(PlaybackCopy, RefusesAnErrorThatIsNoLengthOrOutOfRange) {
   const RecordingReader reader(write(2));
-  for (const double error : {0.0, -1e-5, std::nan("")}) {
+  // The sample's cloths are 1 m wide.
+  for (const double error : {0.0, -1e-5, std::nan(""), 0.9e-8, 0.11}) {
     PlaybackCopyOptions options;
     options.position_error = error;
     EXPECT_THROW((void)playback_copy(reader, options), InvalidArgument) << error;
