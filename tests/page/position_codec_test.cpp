@@ -26,7 +26,9 @@ std::vector<RoundedFrame> decompressed(const CompressedFrames& chunk, std::size_
   std::vector<RoundedFrame> frames(num_frames);
   for (std::size_t f = 0; f < num_frames; ++f) {
     frames[f].poses.resize(num_poses);
-    std::memcpy(frames[f].poses.data(), &bytes[4 + 4 * num_poses * f], 4 * num_poses);
+    for (std::size_t k = 0; k < num_poses; ++k) {
+      std::memcpy(&frames[f].poses[k], &bytes[4 + 4 * (num_poses * f + k)], sizeof(float));
+    }
     std::vector<std::uint32_t> rest(per_frame);
     for (std::size_t i = 0; i < per_frame; ++i) {
       std::uint32_t zigzag = 0;
