@@ -282,6 +282,32 @@ const tests = {
     assert.deepEqual(complaints, []);
   },
 
+  async "fingers turn and zoom, and a click into the plot leads to its time"() {
+    const { page, complaints } = await open(exported(hang()).page, { width: 400 });
+    const touch = await page.context().newCDPSession(page);
+    const send = (type, points) =>
+      touch.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    const first = await picture(page);
+    await send("touchStart", [[150, 300]]);
+    for (const x of [170, 200, 230]) await send("touchMove", [[x, 300]]);
+    await send("touchEnd", []);
+    const turned = await picture(page);
+    assert.notEqual(turned.hash, first.hash, "one finger turns");
+    await send("touchStart", [[180, 300], [220, 300]]);
+    for (const d of [3, 6, 9]) await send("touchMove", [[180 - d, 300], [220 + d, 300]]);
+    await send("touchEnd", []);
+    const near = await picture(page);
+    assert(near.coloured > turned.coloured, `two fingers zoom: ${turned.coloured} to ${near.coloured} pixels`);
+    await page.getByRole("button", { name: "Reset view" }).click();
+    assert.equal((await picture(page)).hash, first.hash);
+    const over = page.locator(".u-over");
+    await over.scrollIntoViewIfNeeded();
+    const { width } = await over.boundingBox();
+    await over.click({ position: { x: width / 2, y: 40 } });
+    assert.match(await page.textContent(".time"), /t\s=\s(0\.98|1\.0)\d*\ss/);
+    assert.deepEqual(complaints, []);
+  },
+
   async "two engines are shown side by side and over one another, each with its own nodes"() {
     const names = [hang(), record("hang", "bullet_soft")];
     command("export", "--html", "both.html", ...names);
