@@ -19,6 +19,7 @@ constexpr const char* kFooter = R"(Examples:
   weft run drape_sphere --engine bullet_forces --precision float64 -o drape.weftrec
   weft info drape.weftrec                    how far it goes, and whether it is whole
   weft render drape.weftrec -o drape.png     a picture of the last frame
+  weft export --html d.html drape.weftrec    a page that plays it in any browser
   weft check my_scene.toml                   is this scene file right?
   weft check-mesh shirt.obj                  can a body be made of this mesh?
   weft stability hang                        the largest stable step, over stiffness and inertia
@@ -59,6 +60,7 @@ int run(int argc, char** argv) {
   actions["info"] = add_info_command(parser);
   actions["render"] = add_render_command(parser);
   actions["contact-sheet"] = add_contact_sheet_command(parser);
+  actions["export"] = add_export_command(parser);
   actions["check"] = add_check_command(parser);
   actions["check-mesh"] = add_check_mesh_command(parser);
   actions["contact-table"] = add_contact_table_command(parser);

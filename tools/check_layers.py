@@ -15,7 +15,7 @@ _SCENES = {
     "custom_forces", "characters", "scenes", "scenes/import", "scenes/output", "scenes/recording", "scenes/playback"
 }
 _ENGINES = _SCENES | {"fast_solver", "bridge", "validation/reference", "scenes/engines"}
-_ALL = _ENGINES | {"validation", "validation/metrics", "validation/report"}
+_ALL = _ENGINES | {"validation", "validation/metrics", "validation/report", "scenes/page"}
 
 # Module folder -> the modules it may include. The longest matching folder decides.
 MAY_INCLUDE = {
@@ -31,6 +31,7 @@ MAY_INCLUDE = {
         "scenes/recording", "scenes/output", "scenes", "characters", "scenes/import", "custom_forces"
     },
     "scenes/playback": _SCENES,
+    "scenes/page": _SCENES | {"scenes/page"},
     "scenes/engines": _ENGINES,
     "validation/metrics": _SCENES | {"validation/metrics"},
     "validation/report": _SCENES | {"validation/metrics", "validation/report"},

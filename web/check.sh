@@ -1,13 +1,15 @@
 #!/bin/sh
-# Types, then a fresh build; fails if it differs from the committed dist/report.html in any byte.
+# Types, then fresh builds; fails if one differs from the committed page in dist/ in any byte.
 set -eu
 cd "$(dirname "$0")"
 npx --no-install tsc --noEmit
 fresh=$(mktemp -d)
 trap 'rm -rf "$fresh"' EXIT
-npx --no-install vite build --outDir "$fresh" --logLevel warn
-if ! cmp "$fresh/report.html" dist/report.html; then
-  echo "web/dist/report.html is not what web/src gives; run: npm run build" >&2
-  exit 1
-fi
-echo "web: types are right and dist/report.html is up to date"
+for page in report player; do
+  npx --no-install vite build --mode "$page" --outDir "$fresh" --logLevel warn
+  if ! cmp "$fresh/$page.html" "dist/$page.html"; then
+    echo "web/dist/$page.html is not what web/src gives; run: npm run build" >&2
+    exit 1
+  fi
+done
+echo "web: types are right and the pages in dist/ are up to date"

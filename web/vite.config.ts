@@ -1,15 +1,28 @@
 import { readFileSync } from "node:fs";
 import { defineConfig, type Plugin } from "vite";
 
+// What goes into a page brings its notice; minifying drops the comments of the code.
+const NOTICES: Record<string, Record<string, string>> = {
+  report: { uPlot: "uplot", three: "three" },
+  player: {
+    uPlot: "uplot",
+    three: "three",
+    "sql.js": "sql.js",
+    fzstd: "fzstd",
+    "hash-wasm": "hash-wasm",
+    "smol-toml": "smol-toml",
+  },
+};
+
 // One file that opens from file://: a browser refuses to load module scripts from there, so the script becomes a
 // plain one at the end of the body, after the elements and the data it reads.
-function singleFile(): Plugin {
+function singleFile(name: string): Plugin {
   return {
     name: "single-file",
     enforce: "post",
     generateBundle(_options, bundle) {
-      const page = bundle["report.html"];
-      if (page?.type !== "asset") throw new Error("single-file: report.html is not in the bundle");
+      const page = bundle[`${name}.html`];
+      if (page?.type !== "asset") throw new Error(`single-file: ${name}.html is not in the bundle`);
       let script = "";
       let style = "";
       for (const [name, output] of Object.entries(bundle)) {
@@ -18,11 +31,10 @@ function singleFile(): Plugin {
         else continue;
         delete bundle[name];
       }
-      // What goes into the page brings its notice; minifying drops the comments of the code.
-      const notice = ["uPlot", "three"]
-        .map((name) => {
-          const text = readFileSync(`node_modules/${name.toLowerCase()}/LICENSE`, "utf8").trim();
-          return `This page contains ${name}.\n${text}`;
+      const notice = Object.entries(NOTICES[name] ?? {})
+        .map(([title, folder]) => {
+          const text = readFileSync(`node_modules/${folder}/LICENSE`, "utf8").trim();
+          return `This page contains ${title}.\n${text.replaceAll("--", "-")}`;
         })
         .join("\n\n");
       const html = String(page.source)
@@ -41,12 +53,14 @@ function singleFile(): Plugin {
   };
 }
 
-export default defineConfig({
-  plugins: [singleFile()],
+// Each page is a build of its own: vite build --mode report, vite build --mode player.
+export default defineConfig(({ mode }) => ({
+  plugins: [singleFile(mode)],
   build: {
     target: "es2022",
+    emptyOutDir: false,
     modulePreload: false,
     assetsInlineLimit: Number.MAX_SAFE_INTEGER,
-    rollupOptions: { input: "report.html", output: { format: "iife" } },
+    rollupOptions: { input: `${mode}.html`, output: { format: "iife" } },
   },
-});
+}));

@@ -76,11 +76,19 @@ class NodeTable {
 void add_face(const std::array<int, 3>& corners, int frequency, NodeTable& nodes,
               std::vector<Eigen::Vector3i>& triangles) {
   const auto node = [&](int i, int j) { return nodes.node(corners, {frequency - i - j, i, j}); };
+  // Nodes are numbered as they are met: the last corner of a triangle first. In statements of their own, for compilers
+  // differ in the order in which they take the arguments of a call, and recordings name nodes by number.
+  const auto add = [&](std::array<int, 2> a, std::array<int, 2> b, std::array<int, 2> c) {
+    const int third = node(c[0], c[1]);
+    const int second = node(b[0], b[1]);
+    const int first = node(a[0], a[1]);
+    triangles.emplace_back(first, second, third);
+  };
   for (int i = 0; i < frequency; ++i) {
     for (int j = 0; i + j < frequency; ++j) {
-      triangles.emplace_back(node(i, j), node(i + 1, j), node(i, j + 1));
+      add({i, j}, {i + 1, j}, {i, j + 1});
       if (i + j + 1 < frequency) {
-        triangles.emplace_back(node(i + 1, j), node(i + 1, j + 1), node(i, j + 1));
+        add({i + 1, j}, {i + 1, j + 1}, {i, j + 1});
       }
     }
   }

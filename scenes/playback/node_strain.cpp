@@ -12,7 +12,8 @@ Eigen::VectorXd node_strain(const ClothMesh& mesh, ConstMatrix3XRef<double> posi
     throw InvalidArgument(fmt::format("node_strain: positions = {} nodes, expected {} as the mesh",
                                       positions.cols(), mesh.num_nodes()));
   }
-  const Edges edges = mesh.edges_of({"stretch"});
+  // What the bones lead, as the skin of a character, has no springs.
+  const Edges edges = mesh.has_edge_set("stretch") ? mesh.edges_of({"stretch"}) : Edges(2, 0);
   const Eigen::VectorXd rest = edge_lengths(mesh.rest_positions, edges);
   const Eigen::VectorXd length = edge_lengths(positions, edges);
   Eigen::VectorXd strain = Eigen::VectorXd::Zero(mesh.num_nodes());

@@ -53,7 +53,7 @@ class Renderer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Largest relative length change of the "stretch" springs at each node [-], signed; n.
+/// Largest relative length change of the "stretch" springs at each node [-], signed; n. 0 where there are none.
 [[nodiscard]] Eigen::VectorXd node_strain(const ClothMesh& mesh,
                                           ConstMatrix3XRef<double> positions);
 

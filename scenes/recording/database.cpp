@@ -207,6 +207,24 @@ Database::Database(const std::filesystem::path& path, Access access) : file_(pat
   }
 }
 
+Database Database::in_memory(const std::string& name) {
+  Database database;
+  database.file_ = name;
+  sqlite3* connection = nullptr;
+  const int code = sqlite3_open(":memory:", &connection);
+  database.connection_.reset(connection);
+  if (code != SQLITE_OK) fail(connection, name, code);
+  return database;
+}
+
+std::string Database::serialized() const {
+  sqlite3_int64 size = 0;
+  const std::unique_ptr<unsigned char, void (*)(void*)> bytes(
+      sqlite3_serialize(connection_.get(), "main", &size, 0), sqlite3_free);
+  if (bytes == nullptr) fail(nullptr, file_, SQLITE_NOMEM);
+  return {reinterpret_cast<const char*>(bytes.get()), static_cast<std::size_t>(size)};
+}
+
 void Database::Close::operator()(sqlite3* connection) const {
   sqlite3_close(connection);
 }

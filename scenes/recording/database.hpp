@@ -71,6 +71,11 @@ class Database {
     kReadOnlyImmutable,  ///< no locks and no journal: a file that nobody writes
   };
   Database(const std::filesystem::path& path, Access access);
+  /// A new empty database that is never a file. name: for messages.
+  [[nodiscard]] static Database in_memory(const std::string& name);
+
+  /// The bytes of the file that this database is or would be.
+  [[nodiscard]] std::string serialized() const;
 
   void execute(const std::string& sql);
   /// Throws Error unless the file has these tables and nothing else: no other column, no view, no
@@ -86,6 +91,7 @@ class Database {
   struct Close {
     void operator()(sqlite3* connection) const;
   };
+  Database() = default;
   void guard_reading(const std::filesystem::path& path);
 
   std::string file_;

@@ -37,6 +37,12 @@ TEST(NodeStrain, ShowsWhereThePositionsAreNotFinite) {
   EXPECT_LE(std::abs(strain[80]), kRoundOff);
 }
 
+TEST(NodeStrain, IsZeroOfABodyWithoutSprings) {
+  ClothMesh mesh = make_mesh(small_scene().cloths[0]);
+  mesh.edge_sets.clear();
+  EXPECT_TRUE(node_strain(mesh, 2.0 * mesh.rest_positions).isZero(0.0));
+}
+
 TEST(NodeStrain, RefusesPositionsOfAnotherMesh) {
   const ClothMesh mesh = make_mesh(small_scene().cloths[0]);
   EXPECT_THROW((void)node_strain(mesh, Matrix3X<double>::Zero(3, 4)), InvalidArgument);

@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# What a person sees of weft export: texts, exit codes, files left behind.
+# Usage: export_command_test.sh WEFT
+set -u
+weft=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+checks=0
+
+check() {  # check DESCRIPTION COMMAND...: the command must succeed
+  checks=$((checks + 1))
+  if ! "${@:2}"; then
+    echo "FAILED: $1"
+    failures=$((failures + 1))
+  fi
+}
+
+exits() {  # exits CODE ARGUMENTS...: weft must end with this code; output in out and err
+  local expected=$1
+  "$weft" "${@:2}" >out 2>err
+  local code=$?
+  [ "$code" -eq "$expected" ] || { echo "weft ${*:2}: exit $code, expected $expected"; cat err; return 1; }
+}
+
+one_line() { [ "$(wc -l <err)" -eq 1 ] && grep -q "$1" err; }
+no_page() { [ -z "$(find . -name '*.html' -newer stamp)" ]; }
+
+check "run" exits 0 run hang --engine reference --duration "0.1 s" -o hang.weftrec
+touch stamp
+
+# Bad input: one line, exit code 2, no page
+check "nothing to do" exits 2 export
+check "nothing to do: says what was expected" one_line "expected --html OUT.html RECORDING"
+check "no recording" exits 2 export --html page.html
+check "no recording: says so" one_line "without a recording"
+check "recordings without a page" exits 2 export hang.weftrec
+check "missing file" exits 2 export --html page.html gone.weftrec
+check "missing file: names it" one_line "gone.weftrec: "
+echo "a text" >text.weftrec
+check "no recording at all" exits 2 export --html page.html hang.weftrec text.weftrec
+check "no recording at all: names it" one_line "text.weftrec: not a Weft recording"
+head -c 20000 hang.weftrec >cut.weftrec
+check "cut off" exits 2 export --html page.html cut.weftrec
+check "cut off: names it" one_line "cut.weftrec: "
+for error in "1 kg" "0 mm" "-1 mm" "nan m" "1 pm" "1 km"; do
+  check "error $error" exits 2 export --html page.html --error="$error" hang.weftrec
+  check "error $error: names it" one_line "error"
+done
+check "folder that is not there" exits 2 export --html gone/page.html hang.weftrec
+check "a folder" exits 2 export --html . hang.weftrec
+check "nothing was written" no_page
+
+# Other people's files
+echo "<!doctype html><p>mine</p>" >mine.html
+cp mine.html before.html
+check "another page" exits 2 export --html mine.html hang.weftrec
+check "another page: says why" one_line "is not a playback page made by Weft"
+check "another page stays" cmp -s mine.html before.html
+ln -s mine.html link.html
+check "a symbolic link" exits 2 export --html link.html hang.weftrec
+check "what it leads to stays" cmp -s mine.html before.html
+
+# What is right
+check "export" exits 0 export --html page.html hang.weftrec
+check "says the rounding" grep -q "positions rounded by at most 0.01 mm" out
+check "says the size" grep -q "page.html: [0-9.]* MB" out
+check "again, over its own page" exits 0 export --html page.html --error "0.1 mm" hang.weftrec
+check "the rounding that was asked for" grep -q "at most 0.1 mm" out
+check "two recordings" exits 0 export --html both.html hang.weftrec hang.weftrec
+check "the player" exits 0 export --player player.html
+check "the player has no recording" test "$(wc -c <player.html)" -lt "$(wc -c <page.html)"
+check "over a page" exits 0 export --player page.html
+
+echo "$checks checks, $failures failed"
+[ "$failures" -eq 0 ]
