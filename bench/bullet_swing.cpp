@@ -174,6 +174,7 @@ void bench_motion(const Settings& settings) {
        "energy_1_3_J",
        "right_energy_1_3_J",
        "exact_energy_1_3_J",
+       "right_is",
        "turning_time_over_right",
        "rms_cm",
        "max_stretch_percent",

@@ -27,6 +27,9 @@ ResultFile::ResultFile(std::string title, std::vector<std::string> columns)
     : title_(std::move(title)), columns_(std::move(columns)) {}
 
 void ResultFile::add(std::vector<std::string> row) {
+  if (row.size() != columns_.size()) {
+    throw Error(fmt::format("bench: a row of {} values, expected {}", row.size(), columns_.size()));
+  }
   fmt::print("{}\n", fmt::join(row, "  "));
   rows_.push_back(std::move(row));
 }
