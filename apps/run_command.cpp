@@ -207,7 +207,7 @@ int report(const Recorded& recorded, const std::string& output) {
   print("{}: {} steps, {} frames, {:.2f} s simulated in {:.4g} s\ncontent hash {}\n", output,
         summary.steps, summary.frames, recorded.simulated, summary.engine_seconds, recorded.hash);
   if (summary.largest_error) {
-    print("{} of {} steps ended by the solver's budget; largest error of a step {:.2g} mm\n",
+    print("{} of {} steps not solved to the tolerance; largest error of a step {:.2g} mm\n",
           summary.unfinished_steps, summary.steps, 1000 * *summary.largest_error);
   }
   if (!summary.blow_up) return kOk;

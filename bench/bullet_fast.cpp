@@ -57,7 +57,7 @@ std::vector<Contender> contenders(const Workload& workload) {
     bool is_second_order = true;
   };
   const Setting settings[] = {{"default"},
-                              {"default, implicit Euler", {}, 1, 1, false},
+                              {"default with implicit Euler", {}, 1, 1, false},
                               {"tolerance 0.03", {.tolerance = 0.03}},
                               {"tolerance 0.01", {.tolerance = 0.01}},
                               {"tolerance 0.003", {.tolerance = 0.003}},
@@ -65,10 +65,10 @@ std::vector<Contender> contenders(const Workload& workload) {
                               {"at most 1 x 4", {.rounds = 1, .iterations = 4}},
                               {"at most 2 x 4", {.rounds = 2, .iterations = 4}},
                               {"at most 4 x 8", {.rounds = 4, .iterations = 8}},
-                              {"default, each 2 steps", {}, 2},
-                              {"default, each 4 steps", {}, 4},
-                              {"default, in 2 steps", {}, 1, 2},
-                              {"default, in 4 steps", {}, 1, 4}};
+                              {"default each 2 steps", {}, 2},
+                              {"default each 4 steps", {}, 4},
+                              {"default in 2 steps", {}, 1, 2},
+                              {"default in 4 steps", {}, 1, 4}};
   for (const Setting& one : settings) {
     list.push_back(
         {"weft", one.name,

@@ -74,6 +74,14 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
   wake();
 }
 
+void FastBody::wake() {
+  if (is_asleep()) {
+    last_step_ = 0;
+    excess_ = 0;
+  }
+  sleep_.wake();
+}
+
 btVector3 FastBody::in_world(int node) const {
   return to_bullet(places_.col(node) + origin_);
 }
@@ -324,6 +332,7 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
   const TraceScope trace("fast body");
   const fast::ThreadTeam::Scope scope(team_, team_size());
   pushed_.begin_solve(pushed);
+  if (excess_ > 0 && (was_pushed() || !are_places_kept())) excess_ = 0;
   set_targets(body, choose_method(body, time_step), time_step);
   if (!bending_.empty()) bending_.begin_step(starts_);
   solve(body, time_step, settings_.effort, false);

@@ -64,10 +64,7 @@ class FastBody : public NodeTeam {
   /// A body that sleeps is not to be stepped: only these are called.
   [[nodiscard]] bool is_asleep() const { return sleep_.is_asleep(); }
   [[nodiscard]] bool is_at_rest() const { return sleep_.is_at_rest(settings_); }
-  void wake() {
-    if (is_asleep()) last_step_ = 0;
-    sleep_.wake();
-  }
+  void wake();
   void begin_step(const btSoftBody& body) {
     step_error_ = {};
     if (sleep_.begin_step(body)) last_step_ = 0;

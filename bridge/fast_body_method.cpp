@@ -126,6 +126,8 @@ bool FastBody::gets_work_from_outside() const {
   if (!led_.empty()) return true;
   for (const RigidContact& contact : contacts_) {
     if (contact.motion.length2() > 0 && movable(contact.object) == nullptr) return true;
+    if (btRigidBody::upcast(contact.object) == nullptr)
+      return true;  // a ghost, a link: nobody knows how it moves
   }
   return std::any_of(pins_.begin(), pins_.end(),
                      [&](int pin) { return places_.col(pin) != starts_.col(pin); });
@@ -145,9 +147,7 @@ void FastBody::keep_forces(btScalar time_step) {
 }
 
 FastBody::EnergyBalance FastBody::energy_balance(btScalar time_step, double for_bodies) {
-  if (weights_.cols() != places_.cols()) {
-    weights_ = masses_.transpose().cast<btScalar>().replicate(3, 1);
-  }
+  weights_ = masses_.transpose().cast<btScalar>().replicate(3, 1);
   for (const int pin : pins_) weights_.col(pin).setZero();
   const double given =
       energy_put_in({weights_, starts_, start_velocities_, predicted_, places_, time_step}, team_);
@@ -182,7 +182,8 @@ void FastBody::keep_energy(btScalar time_step) {
   if (balance.kinetic > balance.most) {
     limit_energy(weights_, balance.most, pins_.empty(), velocities_, team_);
   }
-  excess_ = std::max(0.0, -balance.most);
+  const bool is_debt = is_projected_ || !pushed_.empty() || excess_ > 0;
+  excess_ = is_debt ? std::max(0.0, -balance.most) : 0.0;
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -122,6 +122,8 @@ void ImplicitSolver<Scalar>::descend(const StepProblem<Scalar>& problem, int ite
   const double most = energy(problem, unmoved_, &Body::unmoved) + slack;
   const double reached = energy(problem, places_, &Body::motion);
   if (reached <= most) return;
+  report_.is_converged = false;
+  report_.energy_left = std::max(report_.energy_left, std::min(reached - most, step_energy_));
   const auto goes_up = [&] { return !(energy(problem, places_, &Body::motion) <= most); };
   if (!(reached <= most + kFarUp * step_energy_)) go_back();
   forces_.set_least_across(1);

@@ -1,6 +1,7 @@
 // Newton's method on the energy that an implicit step minimises (Gast et al. 2015), with a line search on it.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include <weft/fast_solver/implicit_solver.hpp>
@@ -95,9 +96,11 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     const double now = energy(problem, places_, &Body::motion);
     if (!are_holds_new && !(now <= energy_before * (1 + kEnergyRounding) + asked)) {
       if (across == 1) {
-        // With this linearisation any step gains, but for rounding.
+        // With this linearisation every spring gains. What is left is rounding, if that is all that the step could have gained.
         recall_places();
-        report_.is_converged = !last_gain_.is_broken;
+        const double least = std::max({rounding, asked, kEnergyRounding * std::abs(energy_before)});
+        const bool is_decided = !has_contacts || num_decisions >= kMostDecisions;
+        report_.is_converged = is_decided && !last_gain_.is_broken && last_gain_.total <= least;
         break;
       }
       across = std::min(1.0, std::max(kFirstAcross, kMoreAcross * across));
@@ -117,7 +120,9 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     last_shrinks[at(round) % last_shrinks.size()] = shrinks;
     const double slowest =
         std::min(kSlowest, *std::max_element(last_shrinks.begin(), last_shrinks.end()));
-    report_.energy_left = (last_gain_.left + last_gain_.total * slowest / (1 - slowest)) / 2;
+    report_.energy_left = last_gain_.is_broken
+                              ? step_energy_
+                              : (last_gain_.left + last_gain_.total * slowest / (1 - slowest)) / 2;
     num_stalled = !are_holds_new && !(shrinks < kStalled) ? num_stalled + 1 : 0;
     // What is stiff goes on to gain by rounding alone, while what is soft may have some way to go.
     const bool is_rounding = last_gain_.total <= rounding && !(shrinks < kStalled);

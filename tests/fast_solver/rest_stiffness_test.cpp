@@ -1,5 +1,7 @@
 #include <weft/fast_solver/rest_stiffness.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 

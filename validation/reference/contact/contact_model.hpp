@@ -30,7 +30,7 @@ struct Exhausted {
 struct ContactOutcome {
   int num_contacts = 0;     ///< pairs of node and collider that exchanged an impulse
   int sweeps = 0;           ///< Gauss-Seidel sweeps in all
-  std::int64_t visits = 0;  ///< of a contact by a sweep, in all
+  std::int64_t visits = 0;  ///< of contacts with colliders alone, by sweeps
   int passes = 0;           ///< how often the surface was linearised anew
   bool converged = true;    ///< sweeps and passes both ended before their limits
   /// Nodes that stood still for a step because contact between layers did not converge: 0 in a

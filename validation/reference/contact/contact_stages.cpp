@@ -224,7 +224,7 @@ ContactOutcome run_position_stage(const System& system, const PositionStage& opt
     const SweepReport report = solve_contacts(stage.problem, limits);
     ++passes;
     sweeps += report.sweeps;
-    visits += report.visits;
+    if (!faces.is_needed() && !pairs.is_needed()) visits += report.visits;
     converged = report.converged;
     if (pairs.is_needed()) {
       pairs.count_visits(report.visits);
@@ -280,7 +280,7 @@ ContactOutcome run_velocity_stage(const System& system, bool friction, const Tou
       solve_contacts(stage.problem, is_shared ? kSharedLimits : SweepLimits{});
   ContactOutcome outcome = outcome_of(stage.problem);
   outcome.sweeps = report.sweeps;
-  outcome.visits = report.visits;
+  outcome.visits = is_shared ? 0 : report.visits;
   outcome.converged = report.converged;
   for (const ContactPoint& point : stage.problem.points) {
     step.bodies[point.body].end_velocities.col(point.node) = point.velocity;
