@@ -73,6 +73,18 @@ TEST(WorkBudget, EndsAnImplicitStageThatDoesNotConverge) {
   EXPECT_THAT(reason, HasSubstr("an implicit stage is not solved after 5000 iterations of GMRES"));
 }
 
+TEST(WorkBudget, EndsSearchesThatAreTooManyInOneStep) {
+  // Every part is near every other one, in each of some thousand substeps: none of them is over its own budget.
+  Body cloth = make_cloth(4, 1.0, 0.1, 0.0, 1e5, 0.0);
+  cloth.self_contact = true;
+  cloth.self_thickness = 3.0;
+  SpringSolver solver(system_of(std::move(cloth)), {.guard = GuardPolicy::kSubstep});
+  std::string reason;
+  for (int n = 0; n < 5 && reason.empty(); ++n) reason = reason_of(solver.step(1.0));
+  EXPECT_THAT(reason,
+              HasSubstr("cloth: the contact search took more distances of pairs in the substeps"));
+}
+
 TEST(WorkBudget, EndsSweepsOverContactsThatCannotAllHold) {
   // A ceiling below the floor: no sweep of any of some thousand substeps converges.
   System system = system_of(make_chain(4, 1.0, 0.001, 1000.0));

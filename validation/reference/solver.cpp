@@ -100,6 +100,11 @@ void SpringSolver::substep(double time, double time_step, StepOutcome& outcome) 
           BlowUp{system_->bodies[contact.exhausted->body].name, 0, contact.exhausted->reason};
     }
     const std::int64_t budget = contact_visit_budget(*system_);
+    if (!blow_up_ && outcome.contact.search_share > kSearchesOfStep) {
+      blow_up_ = BlowUp{system_->bodies[0].name, 0,
+                        "the contact search took more distances of pairs in the substeps of a step "
+                        "than 20 times its budget"};
+    }
     if (!blow_up_ && outcome.contact.visits > budget) {
       blow_up_ = BlowUp{system_->bodies[0].name, 0,
                         over_budget("visited contacts", outcome.contact.visits, "times", budget)};

@@ -22,6 +22,7 @@ ContactOutcome combined(const ContactOutcome& first, const ContactOutcome& secon
   sum.num_contacts = std::max(first.num_contacts, second.num_contacts);
   sum.sweeps += second.sweeps;
   sum.visits += second.visits;
+  sum.search_share += second.search_share;
   sum.passes += second.passes;
   sum.converged = first.converged && second.converged;
   sum.num_stopped_nodes += second.num_stopped_nodes;

@@ -32,7 +32,9 @@ struct ContactOutcome {
   int sweeps = 0;           ///< Gauss-Seidel sweeps in all
   std::int64_t visits = 0;  ///< of contacts with colliders alone, by sweeps
   int passes = 0;           ///< how often the surface was linearised anew
-  bool converged = true;    ///< sweeps and passes both ended before their limits
+  double search_share =
+      0.0;                ///< distances of pairs of cloth over the budget of a single substep [-]
+  bool converged = true;  ///< sweeps and passes both ended before their limits
   /// Nodes that stood still for a step because contact between layers did not converge: 0 in a
   /// result that shall count.
   int num_stopped_nodes = 0;

@@ -244,6 +244,7 @@ ContactOutcome run_position_stage(const System& system, const PositionStage& opt
   faces.collect(stage.problem, touches.faces);
   pairs.collect(stage.problem, touches.pairs);
   if (pairs.is_needed()) outcome.num_stopped_nodes = pairs.stop_crossings(system, step);
+  if (pairs.is_needed()) outcome.search_share = pairs.search_share();
   outcome.exhausted = pairs.exhausted();
   return outcome;
 }

@@ -25,6 +25,9 @@ struct SearchBudget {
   return {std::min(500 * elements, kMaxPairs), 20'000 * elements, 50'000 * elements};
 }
 
+/// The budgets of so many substeps are there for all substeps of a step: some two hundred of a crumpled cloth.
+inline constexpr double kSearchesOfStep = 20;
+
 /// Visits of contacts with colliders by sweeps in one step, over all of its substeps; steps with faces or with cloth on cloth
 /// end their sweeps early. A node that is wedged between two colliders may keep
 /// every sweep from converging. Ten times what a ball takes that a net catches.

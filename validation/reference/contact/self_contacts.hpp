@@ -35,6 +35,10 @@ class SelfContacts {
 
   /// Counts the visits of sweeps over contacts among nodes that it may have added.
   void count_visits(std::int64_t visits);
+  /// Distances so far over their budget [-].
+  [[nodiscard]] double search_share() const {
+    return static_cast<double>(num_distances_) / static_cast<double>(budget_.distances);
+  }
   /// Which budget of the step is used up, and the first body that takes part: a blow-up. From then on
   /// nothing is searched.
   [[nodiscard]] const std::optional<Exhausted>& exhausted() const { return exhausted_; }
