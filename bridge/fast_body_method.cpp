@@ -147,7 +147,8 @@ void FastBody::keep_forces(btScalar time_step) {
 }
 
 FastBody::EnergyBalance FastBody::energy_balance(btScalar time_step, double for_bodies) {
-  weights_ = masses_.transpose().cast<btScalar>().replicate(3, 1);
+  weights_.resize(3, masses_.size());
+  for (int axis = 0; axis < 3; ++axis) weights_.row(axis) = masses_.transpose().cast<btScalar>();
   for (const int pin : pins_) weights_.col(pin).setZero();
   const double given =
       energy_put_in({weights_, starts_, start_velocities_, predicted_, places_, time_step}, team_);
