@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::app {
 namespace {

@@ -7,7 +7,7 @@
 #include <tbb/version.h>
 #include <Eigen/Core>
 
-#include <weft/scenes/engines/engine_table.hpp>
+#include <weft/engines/engine_table.hpp>
 
 namespace weft::app {
 namespace {

@@ -1,9 +1,9 @@
 // What a step costs the main thread at each level of detail of a character's cape.
 #include <chrono>
 
+#include <weft/engines/engine_table.hpp>
 #include <weft/scenes/catalog.hpp>
 #include <weft/scenes/controllers/detail.hpp>
-#include <weft/scenes/engines/engine_table.hpp>
 
 #include "bench/bench.hpp"
 #include "bench/result_file.hpp"

@@ -7,11 +7,11 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include <weft/custom_forces/core/cloth_grid.hpp>
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/custom_forces/core/trace.hpp>
+#include <weft/core/error.hpp>
+#include <weft/core/trace.hpp>
 #include <weft/custom_forces/deferred_forces.hpp>
 #include <weft/custom_forces/registry.hpp>
+#include <weft/mesh/cloth_grid.hpp>
 
 #include "bench/bench.hpp"
 #include "bench/result_file.hpp"

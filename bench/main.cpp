@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "bench/bench.hpp"
-#include "bench/floor_kernel.hpp"
+#include "bench/laws/floor_kernel.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::bench {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include <weft/bridge/cloth_links.hpp>
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/bridge/classic/cloth_links.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {

@@ -6,9 +6,9 @@
 
 #include <BulletSoftBody/btSoftBody.h>
 
-#include <weft/bridge/precision.hpp>
-#include <weft/custom_forces/core/cloth_grid.hpp>
-#include <weft/custom_forces/core/cloth_mesh.hpp>
+#include <weft/bridge/bullet/precision.hpp>
+#include <weft/mesh/cloth_grid.hpp>
+#include <weft/mesh/cloth_mesh.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include <weft/bridge/deformable_attachment.hpp>
-#include <weft/bridge/node_colors.hpp>
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/bridge/classic/node_colors.hpp>
+#include <weft/bridge/deformable/deformable_attachment.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include <weft/bridge/bullet_deformable.hpp>
+#include <weft/bridge/deformable/bullet_deformable.hpp>
 
-#include <weft/bridge/bullet_guard.hpp>
-#include <weft/bridge/law_attachment.hpp>
+#include <weft/bridge/bullet/bullet_guard.hpp>
+#include <weft/bridge/classic/law_attachment.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {

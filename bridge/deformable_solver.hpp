@@ -1,6 +1,6 @@
 #pragma once
 
-#include <weft/bridge/bullet_deformable.hpp>
+#include <weft/bridge/deformable/bullet_deformable.hpp>
 
 #include <weft/bridge/deformable_forces.hpp>
 

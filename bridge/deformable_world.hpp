@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include <weft/bridge/bullet_deformable.hpp>
+#include <weft/bridge/deformable/bullet_deformable.hpp>
 
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/deformable_solver.hpp>

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <weft/bridge/precision.hpp>
+#include <weft/bridge/bullet/precision.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {

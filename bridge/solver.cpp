@@ -8,12 +8,12 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletSoftBody/btSoftBody.h>
 
-#include <weft/bridge/attachment.hpp>
-#include <weft/bridge/position_limits.hpp>
-#include <weft/bridge/torn_laws.hpp>
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/custom_forces/core/tear.hpp>
-#include <weft/custom_forces/core/trace.hpp>
+#include <weft/bridge/classic/attachment.hpp>
+#include <weft/bridge/classic/position_limits.hpp>
+#include <weft/bridge/classic/torn_laws.hpp>
+#include <weft/core/error.hpp>
+#include <weft/core/trace.hpp>
+#include <weft/mesh/cutting/tear.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {

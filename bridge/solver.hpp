@@ -8,14 +8,14 @@
 
 #include <BulletSoftBody/btDefaultSoftBodySolver.h>
 
-#include <weft/bridge/bullet_guard.hpp>
-#include <weft/bridge/cloth_contact.hpp>
+#include <weft/bridge/bullet/bullet_guard.hpp>
+#include <weft/bridge/classic/law_attachment.hpp>
+#include <weft/bridge/contact/cloth_contact.hpp>
 #include <weft/bridge/fast_settings.hpp>
-#include <weft/bridge/law_attachment.hpp>
 #include <weft/bridge/step_error.hpp>
-#include <weft/custom_forces/core/cloth_mesh.hpp>
-#include <weft/custom_forces/core/position_limits.hpp>
 #include <weft/custom_forces/law_set.hpp>
+#include <weft/mesh/cloth_mesh.hpp>
+#include <weft/mesh/position_limits.hpp>
 
 namespace weft {
 struct Tear;

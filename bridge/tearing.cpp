@@ -3,10 +3,10 @@
 #include <string>
 #include <utility>
 
-#include <weft/bridge/cloth_links.hpp>
-#include <weft/bridge/node_state.hpp>
-#include <weft/bridge/torn_laws.hpp>
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/bridge/classic/cloth_links.hpp>
+#include <weft/bridge/classic/node_state.hpp>
+#include <weft/bridge/classic/torn_laws.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {

@@ -4,8 +4,8 @@
 
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/solver.hpp>
-#include <weft/custom_forces/core/tear.hpp>
-#include <weft/custom_forces/core/tear_rule.hpp>
+#include <weft/mesh/cutting/tear.hpp>
+#include <weft/mesh/cutting/tear_rule.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {

@@ -4,7 +4,7 @@
 
 #include <weft/characters/name_list.hpp>
 #include <weft/characters/welding.hpp>
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::characters {
 namespace {

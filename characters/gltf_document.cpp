@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <weft/characters/base64.hpp>
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::characters {
 namespace {

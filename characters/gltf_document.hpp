@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
-#include <weft/custom_forces/core/input_file.hpp>
+#include <weft/core/input_file.hpp>
 
 namespace weft::characters {
 

@@ -2,7 +2,7 @@
 
 #include <weft/characters/gltf_content.hpp>
 #include <weft/characters/gltf_document.hpp>
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::characters {
 namespace {

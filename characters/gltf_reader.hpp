@@ -6,7 +6,7 @@
 #include <string>
 
 #include <weft/characters/character.hpp>
-#include <weft/custom_forces/core/input_file.hpp>
+#include <weft/core/input_file.hpp>
 
 namespace weft::characters {
 

@@ -1,6 +1,6 @@
 #include <weft/characters/name_list.hpp>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::characters {
 

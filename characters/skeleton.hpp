@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include <weft/custom_forces/core/types.hpp>
+#include <weft/core/types.hpp>
 
 namespace weft::characters {
 

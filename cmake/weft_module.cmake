@@ -1,5 +1,5 @@
 # weft_add_module(<name> PATH <folder under the source root> SOURCES ... HEADERS ... [PUBLIC ...] [PRIVATE ...]
-#                 [HIDE <child folders that belong to another module>] [NO_INSTALL])
+#                 [HIDE <child folders that belong to another module>] [NO_INSTALL] [NO_PRECOMPILE])
 #
 # One module = one library target weft_<name>, alias weft::<name>. Each module has an include root of its own
 # (build/include/<name>/weft/<path> -> source), so a file can include only the modules its target links: the
@@ -13,6 +13,28 @@ function(weft_target_flags target)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
   if(WEFT_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()
+
+# The headers that most files of Weft and its tests begin with, read once for each target. Only GCC's are asked for: the
+# builds with clang keep every file honest about what it includes.
+set(weft_common_headers <algorithm> <array> <cmath> <filesystem> <functional> <memory> <optional> <span> <string>
+                        <string_view> <vector> <Eigen/Core>)
+if(WEFT_PRECOMPILE_HEADERS AND NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  message(STATUS "Weft: WEFT_PRECOMPILE_HEADERS has no effect with ${CMAKE_CXX_COMPILER_ID}")
+  set(WEFT_PRECOMPILE_HEADERS OFF)
+endif()
+
+# -fpch-preprocess: so that ccache can keep what uses them. With precompiled headers GCC 12 also warns of another face of
+# its bug 105651, inside the standard library.
+function(weft_precompiled_flags target)
+  target_compile_options(${target} PRIVATE -fpch-preprocess -Wno-stringop-overflow)
+endfunction()
+
+function(weft_precompile target)
+  if(WEFT_PRECOMPILE_HEADERS)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+    weft_precompiled_flags(${target})
   endif()
 endfunction()
 
@@ -38,7 +60,7 @@ function(weft_include_root root path out_variable)
 endfunction()
 
 function(weft_add_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_INSTALL" "PATH" "SOURCES;HEADERS;PUBLIC;PRIVATE;HIDE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_INSTALL;NO_PRECOMPILE" "PATH" "SOURCES;HEADERS;PUBLIC;PRIVATE;HIDE")
   set(target weft_${name})
   add_library(${target} STATIC ${arg_SOURCES})
   add_library(weft::${name} ALIAS ${target})
@@ -48,10 +70,28 @@ function(weft_add_module name)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${include_root}>
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  if(NOT arg_NO_PRECOMPILE)
+    weft_precompile(${target} ${weft_common_headers})
+  endif()
   set_target_properties(${target} PROPERTIES WEFT_PATH "${arg_PATH}" WEFT_HEADERS "${arg_HEADERS}")
   set_property(GLOBAL APPEND PROPERTY WEFT_MODULES ${target})
   if(NOT arg_NO_INSTALL)
     set_property(GLOBAL APPEND PROPERTY WEFT_INSTALLED_MODULES ${target})
+  endif()
+endfunction()
+
+# All tests share one set of precompiled headers: whatever else they are compiled with does not change these.
+function(weft_precompile_test target)
+  if(WEFT_PRECOMPILE_HEADERS)
+    if(NOT TARGET weft_test_headers)
+      file(WRITE "${PROJECT_BINARY_DIR}/weft_test_headers.cpp" "")
+      add_library(weft_test_headers OBJECT "${PROJECT_BINARY_DIR}/weft_test_headers.cpp")
+      weft_target_flags(weft_test_headers)
+      target_link_libraries(weft_test_headers PRIVATE weft::core GTest::gmock)
+      weft_precompile(weft_test_headers ${weft_common_headers} <gmock/gmock.h> <gtest/gtest.h>)
+    endif()
+    target_precompile_headers(${target} REUSE_FROM weft_test_headers)
+    weft_precompiled_flags(${target})
   endif()
 endfunction()
 
@@ -63,6 +103,7 @@ function(weft_add_test name)
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")  # for "tests/support/..."
   target_compile_definitions(${name} PRIVATE WEFT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${arg_DEFINITIONS})
   target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} GTest::gmock GTest::gtest_main)
+  weft_precompile_test(${name})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 300)
   endif()

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include <weft/custom_forces/core/trace.hpp>
+#include <weft/core/trace.hpp>
 
 namespace weft::forces {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include <weft/custom_forces/core/cloth_mesh.hpp>
-#include <weft/custom_forces/core/types.hpp>
+#include <weft/core/types.hpp>
 #include <weft/custom_forces/law_info.hpp>
+#include <weft/mesh/cloth_mesh.hpp>
 
 namespace weft::forces {
 

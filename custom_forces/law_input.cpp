@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::forces {
 namespace {

@@ -3,8 +3,8 @@
 #include <string_view>
 #include <vector>
 
-#include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
+#include <weft/mesh/cloth_mesh.hpp>
 
 namespace weft::forces {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/custom_forces/core/trace.hpp>
+#include <weft/core/error.hpp>
+#include <weft/core/trace.hpp>
 #include <weft/custom_forces/registry.hpp>
 
 namespace weft::forces {

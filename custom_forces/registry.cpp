@@ -7,20 +7,20 @@
 #include <limits>
 #include <string>
 
-#include <weft/custom_forces/acceleration_damping.hpp>
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/custom_forces/drive.hpp>
-#include <weft/custom_forces/gravity.hpp>
-#include <weft/custom_forces/hinge_torsion.hpp>
-#include <weft/custom_forces/nonlocal_torsion.hpp>
-#include <weft/custom_forces/pressure.hpp>
-#include <weft/custom_forces/rotation_damping.hpp>
-#include <weft/custom_forces/spring_damping.hpp>
-#include <weft/custom_forces/tension.hpp>
-#include <weft/custom_forces/torsion.hpp>
-#include <weft/custom_forces/torsional_rotation_damping.hpp>
-#include <weft/custom_forces/velocity_damping.hpp>
-#include <weft/custom_forces/wind.hpp>
+#include <weft/core/error.hpp>
+#include <weft/custom_forces/laws/damping/acceleration_damping.hpp>
+#include <weft/custom_forces/laws/damping/rotation_damping.hpp>
+#include <weft/custom_forces/laws/damping/spring_damping.hpp>
+#include <weft/custom_forces/laws/damping/torsional_rotation_damping.hpp>
+#include <weft/custom_forces/laws/damping/velocity_damping.hpp>
+#include <weft/custom_forces/laws/elastic/hinge_torsion.hpp>
+#include <weft/custom_forces/laws/elastic/nonlocal_torsion.hpp>
+#include <weft/custom_forces/laws/elastic/tension.hpp>
+#include <weft/custom_forces/laws/elastic/torsion.hpp>
+#include <weft/custom_forces/laws/external/drive.hpp>
+#include <weft/custom_forces/laws/external/gravity.hpp>
+#include <weft/custom_forces/laws/external/pressure.hpp>
+#include <weft/custom_forces/laws/external/wind.hpp>
 
 namespace weft::forces {
 namespace {

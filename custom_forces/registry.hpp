@@ -4,9 +4,9 @@
 #include <span>
 #include <string_view>
 
-#include <weft/custom_forces/core/cloth_mesh.hpp>
-#include <weft/custom_forces/core/dual.hpp>
+#include <weft/core/dual.hpp>
 #include <weft/custom_forces/force_law.hpp>
+#include <weft/mesh/cloth_mesh.hpp>
 
 namespace weft::forces {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_set.hpp>
+#include <weft/mesh/cloth_mesh.hpp>
 
 namespace weft::forces {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include <weft/custom_forces/core/trace.hpp>
+#include <weft/core/trace.hpp>
 
 namespace weft::fast {
 namespace {

@@ -6,20 +6,20 @@
 
 #include <Eigen/Geometry>
 
-#include <weft/fast_solver/anderson_history.hpp>
-#include <weft/fast_solver/coarse_correction.hpp>
-#include <weft/fast_solver/direction_weights.hpp>
+#include <weft/fast_solver/coarse/coarse_correction.hpp>
 #include <weft/fast_solver/linked_body.hpp>
-#include <weft/fast_solver/network_forces.hpp>
-#include <weft/fast_solver/newton_round.hpp>
-#include <weft/fast_solver/node_arrays.hpp>
-#include <weft/fast_solver/node_parts.hpp>
+#include <weft/fast_solver/network/network_forces.hpp>
+#include <weft/fast_solver/network/node_arrays.hpp>
+#include <weft/fast_solver/network/spring_network.hpp>
+#include <weft/fast_solver/newton/anderson_history.hpp>
+#include <weft/fast_solver/newton/direction_weights.hpp>
+#include <weft/fast_solver/newton/newton_round.hpp>
 #include <weft/fast_solver/solver_effort.hpp>
 #include <weft/fast_solver/solver_report.hpp>
-#include <weft/fast_solver/spring_network.hpp>
 #include <weft/fast_solver/step_problem.hpp>
-#include <weft/fast_solver/team_loops.hpp>
-#include <weft/fast_solver/thread_team.hpp>
+#include <weft/fast_solver/threads/node_parts.hpp>
+#include <weft/fast_solver/threads/team_loops.hpp>
+#include <weft/fast_solver/threads/thread_team.hpp>
 
 namespace weft::fast {
 

@@ -5,8 +5,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
-#include <weft/custom_forces/core/types.hpp>
-#include <weft/fast_solver/anderson_history.hpp>
+#include <weft/core/types.hpp>
+#include <weft/fast_solver/newton/anderson_history.hpp>
 
 namespace weft::fast {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <weft/custom_forces/core/types.hpp>
+#include <weft/core/types.hpp>
 
 namespace weft::fast {
 

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include <weft/custom_forces/core/types.hpp>
+#include <weft/core/types.hpp>
 #include <weft/fast_solver/node_constraints.hpp>
 
 namespace weft::fast {

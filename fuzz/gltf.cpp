@@ -2,7 +2,7 @@
 #include <span>
 
 #include <weft/characters/gltf_reader.hpp>
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 #include "fuzz/fuzz_target.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

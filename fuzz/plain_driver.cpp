@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <weft/custom_forces/core/input_file.hpp>
+#include <weft/core/input_file.hpp>
 #include "fuzz/fuzz_target.hpp"
 
 namespace {

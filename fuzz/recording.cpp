@@ -10,8 +10,8 @@
 
 #include <sqlite3.h>
 
+#include <weft/scenes/format/scene_file.hpp>
 #include <weft/scenes/recording/recording.hpp>
-#include <weft/scenes/scene_file.hpp>
 #include <weft/scenes/simulator.hpp>
 #include "fuzz/fuzz_target.hpp"
 #include "fuzz/recording_seal.hpp"

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include <weft/scenes/scene_file.hpp>
+#include <weft/scenes/format/scene_file.hpp>
 
 namespace weft::fuzz {
 

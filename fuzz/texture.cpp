@@ -1,6 +1,6 @@
 // A picture, PNG or JPEG.
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/scenes/image_file.hpp>
+#include <weft/core/error.hpp>
+#include <weft/scenes/appearance/image_file.hpp>
 #include "fuzz/fuzz_target.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -5,8 +5,8 @@
 #include <system_error>
 #include <vector>
 
-#include <weft/scenes/scene_file.hpp>
-#include <weft/scenes/spelling.hpp>
+#include <weft/scenes/format/scene_file.hpp>
+#include <weft/scenes/format/spelling.hpp>
 
 namespace weft::scenes {
 

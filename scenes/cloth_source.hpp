@@ -5,11 +5,11 @@
 #include <variant>
 #include <vector>
 
-#include <weft/custom_forces/core/cloth_grid.hpp>
-#include <weft/custom_forces/core/icosphere.hpp>
-#include <weft/custom_forces/core/rope.hpp>
-#include <weft/custom_forces/core/surface_body.hpp>
 #include <weft/custom_forces/law_info.hpp>
+#include <weft/mesh/cloth_grid.hpp>
+#include <weft/mesh/icosphere.hpp>
+#include <weft/mesh/rope.hpp>
+#include <weft/mesh/surface_body.hpp>
 #include <weft/scenes/characters/skin_source.hpp>
 #include <weft/scenes/import/import_mesh.hpp>
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include <weft/custom_forces/core/tear_rule.hpp>
-#include <weft/custom_forces/core/types.hpp>
+#include <weft/core/types.hpp>
+#include <weft/mesh/cutting/tear_rule.hpp>
 
 namespace weft::scenes {
 

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 #include <weft/scenes/shape_surface.hpp>
 
 namespace weft::scenes {

@@ -2,7 +2,7 @@
 
 namespace weft::scenes {
 
-/// How the reference solver steps (validation/reference/README.md), in the order of its own list.
+/// How the reference solver steps (reference/README.md), in the order of its own list.
 enum class Integrator {
   kExplicitEuler,
   kModifiedEuler,

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::scenes {
 namespace {

@@ -9,9 +9,9 @@
 
 #include <Eigen/Geometry>
 
-#include <weft/custom_forces/core/cloth_mesh.hpp>
 #include <weft/custom_forces/law_info.hpp>
-#include <weft/scenes/appearance.hpp>
+#include <weft/mesh/cloth_mesh.hpp>
+#include <weft/scenes/appearance/appearance.hpp>
 #include <weft/scenes/characters/character_settings.hpp>
 #include <weft/scenes/cloth_source.hpp>
 #include <weft/scenes/cloth_tear.hpp>

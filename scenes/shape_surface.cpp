@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::scenes {
 namespace {

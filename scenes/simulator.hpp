@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include <weft/custom_forces/core/types.hpp>
+#include <weft/core/types.hpp>
 #include <weft/scenes/scene.hpp>
 
 namespace weft::scenes {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include <weft/custom_forces/core/position_limits.hpp>
-#include <weft/custom_forces/core/types.hpp>
+#include <weft/core/types.hpp>
+#include <weft/mesh/position_limits.hpp>
 #include <weft/scenes/motion/pose.hpp>
 #include <weft/scenes/simulator.hpp>
 

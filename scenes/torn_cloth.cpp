@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/custom_forces/core/hinges.hpp>
+#include <weft/core/error.hpp>
+#include <weft/mesh/hinges.hpp>
 
 namespace weft::scenes {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include <weft/custom_forces/core/tear.hpp>
+#include <weft/mesh/cutting/tear.hpp>
 #include <weft/scenes/cloth_tear.hpp>
 
 namespace weft::scenes {

@@ -2,10 +2,10 @@
 
 #include <array>
 
-#include <weft/validation/cases/analytic_cases.hpp>
-#include <weft/validation/cases/engine_cases.hpp>
-#include <weft/validation/cases/motion_cases.hpp>
-#include <weft/validation/cases/scene_cases.hpp>
+#include <weft/validation/cases/motion/motion_cases.hpp>
+#include <weft/validation/cases/scenes/scene_cases.hpp>
+#include <weft/validation/cases/support/analytic_cases.hpp>
+#include <weft/validation/cases/support/engine_cases.hpp>
 #include <weft/validation/theory/theory_scenes.hpp>
 
 namespace weft::validation {

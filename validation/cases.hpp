@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include <weft/validation/cases/case.hpp>
+#include <weft/validation/cases/support/case.hpp>
 
 namespace weft::validation {
 

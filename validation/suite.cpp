@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 #include <weft/validation/cases.hpp>
-#include <weft/validation/cases/parameters.hpp>
+#include <weft/validation/cases/support/parameters.hpp>
 #include <weft/validation/departures/stated_departures.hpp>
 #include <weft/validation/theory/theory_runs.hpp>
 

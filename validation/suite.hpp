@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <weft/validation/cases/case.hpp>
+#include <weft/validation/cases/support/case.hpp>
 
 namespace weft::validation {
 

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include <weft/custom_forces/core/position_limits.hpp>
-#include <weft/scenes/appearance.hpp>
+#include <weft/mesh/position_limits.hpp>
+#include <weft/scenes/appearance/appearance.hpp>
 #include <weft/scenes/characters/skin_source.hpp>
 
 namespace weft::scenes {

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/scenes/appearance_reader.hpp>
+#include <weft/core/error.hpp>
 #include <weft/scenes/characters/model_files.hpp>
-#include <weft/scenes/scene_text.hpp>
-#include <weft/scenes/scene_words.hpp>
+#include <weft/scenes/format/reading/appearance_reader.hpp>
+#include <weft/scenes/format/scene_text.hpp>
+#include <weft/scenes/format/scene_words.hpp>
 
 namespace weft::scenes {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <weft/characters/base64.hpp>
 #include <weft/characters/gltf_reader.hpp>
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::scenes {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include <weft/custom_forces/core/input_file.hpp>
+#include <weft/core/input_file.hpp>
 #include <weft/scenes/characters/skin_source.hpp>
 
 namespace weft::scenes {

@@ -1,6 +1,6 @@
 #include <weft/scenes/characters/skin_source.hpp>
 
-#include <weft/custom_forces/core/surface_body.hpp>
+#include <weft/mesh/surface_body.hpp>
 
 namespace weft::scenes {
 namespace {

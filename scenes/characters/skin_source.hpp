@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <weft/characters/character.hpp>
-#include <weft/custom_forces/core/cloth_mesh.hpp>
+#include <weft/mesh/cloth_mesh.hpp>
 #include <weft/scenes/motion/pose.hpp>
 
 namespace weft::scenes {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 #include <weft/scenes/characters/start_state.hpp>
 #include <weft/scenes/controllers/collider_path.hpp>
 

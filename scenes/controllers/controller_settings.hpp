@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include <weft/custom_forces/core/types.hpp>
+#include <weft/core/types.hpp>
 #include <weft/scenes/motion/path.hpp>
 
 namespace weft::scenes {

@@ -6,7 +6,7 @@
 
 #include <Eigen/SVD>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::scenes {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 #include <weft/scenes/characters/character_controller.hpp>
 #include <weft/scenes/controllers/attach.hpp>
 #include <weft/scenes/controllers/collider_path.hpp>

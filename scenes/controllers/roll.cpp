@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::scenes {
 

@@ -12,7 +12,7 @@
 #include <assimp/Importer.hpp>
 #include <assimp/LogStream.hpp>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 #include <weft/scenes/import/input_system.hpp>
 
 namespace weft::import {

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::import {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <weft/custom_forces/core/surface_body.hpp>
+#include <weft/mesh/surface_body.hpp>
 #include <weft/scenes/import/mesh_file.hpp>
 #include <weft/scenes/import/mesh_report.hpp>
 

@@ -12,7 +12,7 @@
 #include <fstream>
 #include <new>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::import {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/custom_forces/core/input_file.hpp>
+#include <weft/core/error.hpp>
+#include <weft/core/input_file.hpp>
 
 namespace weft::import {
 

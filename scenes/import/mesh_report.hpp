@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <weft/custom_forces/core/types.hpp>
+#include <weft/core/types.hpp>
 
 namespace weft::import {
 

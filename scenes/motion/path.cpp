@@ -8,7 +8,7 @@
 
 #include <Eigen/LU>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::scenes {
 namespace {

@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::output {
 namespace {

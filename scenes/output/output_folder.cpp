@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 #include <weft/scenes/output/output_file.hpp>
 
 namespace weft::output {

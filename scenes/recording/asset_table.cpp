@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include <weft/custom_forces/core/input_file.hpp>
+#include <weft/core/input_file.hpp>
 
 namespace weft::scenes {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include <weft/scenes/appearance.hpp>
+#include <weft/scenes/appearance/appearance.hpp>
 #include <weft/scenes/recording/database.hpp>
 #include <weft/scenes/recording/format.hpp>
 

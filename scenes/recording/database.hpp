@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 struct sqlite3;
 struct sqlite3_stmt;

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include <weft/scenes/recording/frame_codec.hpp>
-#include <weft/scenes/recording/stream_hash.hpp>
+#include <weft/scenes/recording/codec/frame_codec.hpp>
+#include <weft/scenes/recording/codec/stream_hash.hpp>
 
 /// What writer and reader agree on; docs/recording_format.md is the same for people.
 namespace weft::scenes {

@@ -7,8 +7,8 @@
 #include <fmt/core.h>
 #include <sqlite3.h>
 
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/custom_forces/core/input_file.hpp>
+#include <weft/core/error.hpp>
+#include <weft/core/input_file.hpp>
 #include <weft/scenes/recording/asset_table.hpp>
 
 namespace weft::scenes {

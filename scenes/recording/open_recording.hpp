@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
+#include <weft/scenes/recording/codec/topologies.hpp>
 #include <weft/scenes/recording/database.hpp>
 #include <weft/scenes/recording/format.hpp>
-#include <weft/scenes/recording/topologies.hpp>
 
 namespace weft::scenes {
 

@@ -6,14 +6,14 @@
 
 #include <fmt/core.h>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
+#include <weft/scenes/format/scene_file.hpp>
 #include <weft/scenes/recording/asset_table.hpp>
-#include <weft/scenes/recording/chunk_codec.hpp>
+#include <weft/scenes/recording/codec/chunk_codec.hpp>
+#include <weft/scenes/recording/codec/position_codec.hpp>
+#include <weft/scenes/recording/codec/topology_codec.hpp>
 #include <weft/scenes/recording/database.hpp>
 #include <weft/scenes/recording/format.hpp>
-#include <weft/scenes/recording/position_codec.hpp>
-#include <weft/scenes/recording/topology_codec.hpp>
-#include <weft/scenes/scene_file.hpp>
 
 namespace weft::scenes {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 #include <weft/scenes/recording/format.hpp>
 
 namespace weft::scenes {

@@ -5,12 +5,12 @@
 
 #include <fmt/core.h>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
+#include <weft/scenes/format/scene_file.hpp>
 #include <weft/scenes/recording/asset_table.hpp>
-#include <weft/scenes/recording/chunk_codec.hpp>
+#include <weft/scenes/recording/codec/chunk_codec.hpp>
 #include <weft/scenes/recording/open_recording.hpp>
 #include <weft/scenes/recording/recording.hpp>
-#include <weft/scenes/scene_file.hpp>
 
 namespace weft::scenes {
 namespace {

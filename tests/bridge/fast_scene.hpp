@@ -9,8 +9,8 @@
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 
+#include <weft/bridge/classic/node_state.hpp>
 #include <weft/bridge/cloth_body.hpp>
-#include <weft/bridge/node_state.hpp>
 #include <weft/bridge/soft_world.hpp>
 
 #include "tests/bridge/rigid_objects.hpp"

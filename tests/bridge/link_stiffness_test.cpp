@@ -5,7 +5,7 @@
 
 #include <weft/bridge/link_stiffness.hpp>
 #include <weft/bridge/soft_world.hpp>
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::bridge {
 namespace {

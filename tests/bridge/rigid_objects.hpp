@@ -6,7 +6,7 @@
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
-#include <weft/bridge/bullet_vector.hpp>
+#include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/soft_world.hpp>
 
 namespace weft::bridge {

@@ -17,8 +17,8 @@
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/deformable_world.hpp>
 #include <weft/bridge/soft_world.hpp>
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/custom_forces/gravity.hpp>
+#include <weft/core/error.hpp>
+#include <weft/custom_forces/laws/external/gravity.hpp>
 #include <weft/custom_forces/registry.hpp>
 
 namespace weft::bridge {

@@ -6,7 +6,7 @@
 
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/soft_world.hpp>
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
 
 namespace weft::bridge {

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include <weft/bridge/deformable_world.hpp>
-#include <weft/custom_forces/core/cloth_mesh.hpp>
+#include <weft/mesh/cloth_mesh.hpp>
 
 namespace weft::bridge::testing {
 

@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include <weft/bridge/node_state.hpp>
+#include <weft/bridge/classic/node_state.hpp>
 #include <weft/bridge/soft_world.hpp>
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/custom_forces/core/hinges.hpp>
+#include <weft/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
+#include <weft/mesh/hinges.hpp>
 
 namespace weft::bridge {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <weft/characters/gltf_reader.hpp>
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 #include "tests/characters/small_model.hpp"
 

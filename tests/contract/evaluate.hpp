@@ -1,6 +1,6 @@
 #pragma once
 
-#include <weft/custom_forces/core/dual.hpp>
+#include <weft/core/dual.hpp>
 
 #include "tests/contract/sample.hpp"
 

@@ -5,12 +5,12 @@
 
 #include <ostream>
 
-#include "tests/contract/derivative_checks.hpp"
-#include "tests/contract/energy_checks.hpp"
-#include "tests/contract/inertia_checks.hpp"
-#include "tests/contract/invariance_checks.hpp"
-#include "tests/contract/order_checks.hpp"
-#include "tests/contract/velocity_checks.hpp"
+#include "tests/contract/checks/derivative_checks.hpp"
+#include "tests/contract/checks/energy_checks.hpp"
+#include "tests/contract/checks/inertia_checks.hpp"
+#include "tests/contract/checks/invariance_checks.hpp"
+#include "tests/contract/checks/order_checks.hpp"
+#include "tests/contract/checks/velocity_checks.hpp"
 
 namespace weft::contract {
 namespace {

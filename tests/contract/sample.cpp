@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <Eigen/Geometry>
-#include <weft/custom_forces/core/cloth_grid.hpp>
-#include <weft/custom_forces/core/icosphere.hpp>
+#include <weft/mesh/cloth_grid.hpp>
+#include <weft/mesh/icosphere.hpp>
 
 namespace weft::contract {
 namespace {

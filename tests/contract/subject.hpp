@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include <weft/custom_forces/core/dual.hpp>
+#include <weft/core/dual.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
 #include "tests/contract/sample.hpp"

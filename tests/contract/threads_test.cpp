@@ -2,7 +2,7 @@
 
 #include <ostream>
 
-#include "tests/contract/order_checks.hpp"
+#include "tests/contract/checks/order_checks.hpp"
 
 namespace weft::contract {
 

@@ -1,13 +1,13 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <weft/custom_forces/core/cloth_grid.hpp>
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/custom_forces/core/hinges.hpp>
-#include <weft/custom_forces/core/icosphere.hpp>
-#include <weft/custom_forces/core/rope.hpp>
-#include <weft/custom_forces/core/surface_body.hpp>
+#include <weft/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
+#include <weft/mesh/cloth_grid.hpp>
+#include <weft/mesh/hinges.hpp>
+#include <weft/mesh/icosphere.hpp>
+#include <weft/mesh/rope.hpp>
+#include <weft/mesh/surface_body.hpp>
 
 #include "tests/custom_forces/one_law.hpp"
 

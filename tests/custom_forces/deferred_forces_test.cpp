@@ -8,8 +8,8 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
-#include <weft/custom_forces/core/cloth_grid.hpp>
 #include <weft/custom_forces/registry.hpp>
+#include <weft/mesh/cloth_grid.hpp>
 
 namespace weft::forces {
 namespace {

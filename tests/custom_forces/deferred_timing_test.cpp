@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include <weft/custom_forces/core/cloth_grid.hpp>
 #include <weft/custom_forces/deferred_forces.hpp>
 #include <weft/custom_forces/registry.hpp>
+#include <weft/mesh/cloth_grid.hpp>
 
 namespace weft::forces {
 namespace {

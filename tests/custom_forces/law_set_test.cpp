@@ -5,7 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 #include "tests/custom_forces/one_law.hpp"
 

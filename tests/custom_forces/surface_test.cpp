@@ -1,10 +1,10 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <weft/custom_forces/core/cloth_grid.hpp>
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/custom_forces/core/hinges.hpp>
-#include <weft/custom_forces/core/icosphere.hpp>
+#include <weft/core/error.hpp>
+#include <weft/mesh/cloth_grid.hpp>
+#include <weft/mesh/hinges.hpp>
+#include <weft/mesh/icosphere.hpp>
 
 namespace weft {
 namespace {

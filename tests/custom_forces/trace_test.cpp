@@ -1,4 +1,4 @@
-#include <weft/custom_forces/core/trace.hpp>
+#include <weft/core/trace.hpp>
 
 #include <algorithm>
 #include <sstream>
@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <weft/custom_forces/core/cloth_grid.hpp>
 #include <weft/custom_forces/law_set.hpp>
 #include <weft/custom_forces/registry.hpp>
+#include <weft/mesh/cloth_grid.hpp>
 
 namespace weft {
 namespace {

@@ -1,11 +1,11 @@
 // A cloth that is attached to colliders: exactly to one that is led, by springs to one that moves freely.
 #include <gtest/gtest.h>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
+#include <weft/engines/engine_table.hpp>
 #include <weft/scenes/controllers/attach.hpp>
 #include <weft/scenes/controllers/collider_path.hpp>
 #include <weft/scenes/controllers/pin_path.hpp>
-#include <weft/scenes/engines/engine_table.hpp>
 
 namespace weft::scenes {
 namespace {

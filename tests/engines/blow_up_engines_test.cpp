@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <weft/scenes/engines/blow_up_check.hpp>
-#include <weft/scenes/engines/engine_table.hpp>
-#include <weft/scenes/scene_file.hpp>
+#include <weft/engines/blow_up_check.hpp>
+#include <weft/engines/engine_table.hpp>
+#include <weft/scenes/format/scene_file.hpp>
 
 namespace weft::scenes {
 namespace {

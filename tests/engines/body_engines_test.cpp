@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <weft/scenes/engines/engine_table.hpp>
-#include <weft/scenes/scene_file.hpp>
+#include <weft/engines/engine_table.hpp>
+#include <weft/scenes/format/scene_file.hpp>
 
 namespace weft::scenes {
 namespace {

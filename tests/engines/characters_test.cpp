@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <weft/engines/engine_table.hpp>
 #include <weft/scenes/catalog.hpp>
 #include <weft/scenes/characters/character_controller.hpp>
-#include <weft/scenes/engines/engine_table.hpp>
-#include <weft/scenes/scene_file.hpp>
+#include <weft/scenes/format/scene_file.hpp>
 #include <weft/scenes/steering.hpp>
 
 namespace weft::scenes {

@@ -1,10 +1,10 @@
 // A character changes its level of detail while it walks: nothing jumps.
 #include <gtest/gtest.h>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
+#include <weft/engines/engine_table.hpp>
 #include <weft/scenes/catalog.hpp>
 #include <weft/scenes/controllers/detail.hpp>
-#include <weft/scenes/engines/engine_table.hpp>
 
 namespace weft::scenes {
 namespace {

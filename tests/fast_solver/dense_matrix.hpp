@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include <weft/fast_solver/sparse_matrix.hpp>
+#include <weft/fast_solver/network/sparse_matrix.hpp>
 
 namespace weft::fast {
 

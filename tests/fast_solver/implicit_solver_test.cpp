@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
-#include <weft/custom_forces/core/cloth_grid.hpp>
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 #include <weft/fast_solver/implicit_solver.hpp>
+#include <weft/mesh/cloth_grid.hpp>
 
 namespace weft::fast {
 namespace {

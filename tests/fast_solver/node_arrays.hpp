@@ -1,7 +1,7 @@
 #pragma once
 
-#include <weft/fast_solver/network_forces.hpp>
-#include <weft/fast_solver/node_arrays.hpp>
+#include <weft/fast_solver/network/network_forces.hpp>
+#include <weft/fast_solver/network/node_arrays.hpp>
 
 namespace weft::fast {
 

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <weft/custom_forces/core/cloth_grid.hpp>
-#include <weft/custom_forces/core/mesh_part.hpp>
-#include <weft/custom_forces/core/tear.hpp>
 #include <weft/fast_solver/implicit_solver.hpp>
+#include <weft/mesh/cloth_grid.hpp>
+#include <weft/mesh/cutting/tear.hpp>
+#include <weft/mesh/mesh_part.hpp>
 
 #include "tests/fast_solver/node_arrays.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <weft/validation/reference/contact/contact_problem.hpp>
-#include <weft/validation/reference/contact/signed_distance.hpp>
+#include <weft/reference/contact/contact_problem.hpp>
+#include <weft/reference/contact/distance/signed_distance.hpp>
 
 #include "tests/reference/fixed_numbers.hpp"
 #include "tests/reference/small_systems.hpp"

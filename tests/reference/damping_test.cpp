@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
 
-#include <weft/validation/reference/balance.hpp>
-#include <weft/validation/reference/spectrum.hpp>
+#include <weft/reference/balance.hpp>
+#include <weft/reference/spectrum.hpp>
 
 #include "tests/reference/small_systems.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/validation/reference/balance.hpp>
+#include <weft/core/error.hpp>
+#include <weft/reference/balance.hpp>
 
 #include "tests/reference/small_systems.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <weft/validation/metrics/self_intersection.hpp>
+#include <weft/validation/metrics/distance/self_intersection.hpp>
 
 #include "tests/reference/small_systems.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <weft/validation/reference/balance.hpp>
+#include <weft/reference/balance.hpp>
 
 #include "tests/reference/small_systems.hpp"
 

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <weft/validation/metrics/self_intersection.hpp>
-#include <weft/validation/reference/balance.hpp>
-#include <weft/validation/reference/contact/continuous_distance.hpp>
+#include <weft/reference/balance.hpp>
+#include <weft/reference/contact/distance/continuous_distance.hpp>
+#include <weft/validation/metrics/distance/self_intersection.hpp>
 
 #include "tests/reference/layer_runs.hpp"
 

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/custom_forces/core/icosphere.hpp>
-#include <weft/validation/reference/contact/mesh_surface.hpp>
-#include <weft/validation/reference/contact/signed_distance.hpp>
+#include <weft/core/error.hpp>
+#include <weft/mesh/icosphere.hpp>
+#include <weft/reference/contact/distance/mesh_surface.hpp>
+#include <weft/reference/contact/distance/signed_distance.hpp>
 
 #include "tests/reference/fixed_numbers.hpp"
 #include "tests/reference/small_systems.hpp"

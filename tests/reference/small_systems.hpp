@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include <weft/custom_forces/core/cloth_grid.hpp>
 #include <weft/custom_forces/registry.hpp>
-#include <weft/validation/reference/solver.hpp>
+#include <weft/mesh/cloth_grid.hpp>
+#include <weft/reference/solver.hpp>
 
 /// Systems small enough to be solved by hand, for the tests of the reference solver.
 namespace weft::reference::testing {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/validation/reference/balance.hpp>
+#include <weft/core/error.hpp>
+#include <weft/reference/balance.hpp>
 
 #include "tests/reference/small_systems.hpp"
 

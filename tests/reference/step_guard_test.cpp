@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 #include "tests/reference/small_systems.hpp"
 

@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/validation/reference/contact/search_budget.hpp>
+#include <weft/core/error.hpp>
+#include <weft/reference/contact/search_budget.hpp>
 
 #include "tests/reference/small_systems.hpp"
 

@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <weft/custom_forces/core/hinges.hpp>
-#include <weft/custom_forces/core/input_file.hpp>
-#include <weft/scenes/mesh_text.hpp>
-#include <weft/scenes/scene_file.hpp>
+#include <weft/core/input_file.hpp>
+#include <weft/mesh/hinges.hpp>
+#include <weft/scenes/format/mesh_text.hpp>
+#include <weft/scenes/format/scene_file.hpp>
 
 namespace weft::scenes {
 namespace {

@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <weft/scenes/scene_file.hpp>
+#include <weft/scenes/format/scene_file.hpp>
 
 namespace weft::scenes {
 namespace {

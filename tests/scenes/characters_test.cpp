@@ -8,7 +8,7 @@
 #include <weft/scenes/catalog.hpp>
 #include <weft/scenes/characters/character_settings.hpp>
 #include <weft/scenes/characters/start_state.hpp>
-#include <weft/scenes/scene_file.hpp>
+#include <weft/scenes/format/scene_file.hpp>
 
 namespace weft::scenes {
 namespace {

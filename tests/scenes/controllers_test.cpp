@@ -1,7 +1,7 @@
 // Controllers by themselves: what they ask for in a given state.
 #include <gtest/gtest.h>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 #include <weft/scenes/controllers/director.hpp>
 
 namespace weft::scenes {

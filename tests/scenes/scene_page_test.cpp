@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <weft/scenes/catalog.hpp>
-#include <weft/scenes/scene_file.hpp>
+#include <weft/scenes/format/scene_file.hpp>
 
 namespace weft::scenes {
 namespace {

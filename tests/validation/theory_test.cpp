@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/scenes/scene_file.hpp>
+#include <weft/core/error.hpp>
+#include <weft/scenes/format/scene_file.hpp>
 #include <weft/validation/cases.hpp>
 #include <weft/validation/suite.hpp>
 

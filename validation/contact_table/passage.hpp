@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include <weft/validation/metrics/shape_distance.hpp>
-#include <weft/validation/metrics/signed_distance.hpp>
+#include <weft/validation/metrics/distance/shape_distance.hpp>
+#include <weft/validation/metrics/distance/signed_distance.hpp>
 
 namespace weft::validation {
 

@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/scenes/engines/reference_simulator.hpp>
-#include <weft/scenes/recording/stream_hash.hpp>
-#include <weft/scenes/scene_file.hpp>
-#include <weft/validation/metrics/convergence.hpp>
-#include <weft/validation/metrics/vertex_distance.hpp>
+#include <weft/core/error.hpp>
+#include <weft/engines/reference_simulator.hpp>
+#include <weft/scenes/format/scene_file.hpp>
+#include <weft/scenes/recording/codec/stream_hash.hpp>
+#include <weft/validation/metrics/distance/vertex_distance.hpp>
+#include <weft/validation/metrics/series/convergence.hpp>
 
 namespace weft::validation {
 namespace {

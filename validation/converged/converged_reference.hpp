@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <weft/custom_forces/core/types.hpp>
+#include <weft/core/types.hpp>
 #include <weft/scenes/output/file_kind.hpp>
 #include <weft/scenes/scene.hpp>
 

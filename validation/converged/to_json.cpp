@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include <weft/scenes/scene_words.hpp>
+#include <weft/scenes/format/scene_words.hpp>
 #include <weft/validation/converged/converged_reference.hpp>
-#include <weft/validation/report/json_text.hpp>
+#include <weft/validation/report/formats/json_text.hpp>
 
 namespace weft::validation {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include <weft/custom_forces/core/cloth_mesh.hpp>
-#include <weft/custom_forces/core/types.hpp>
+#include <weft/core/types.hpp>
+#include <weft/mesh/cloth_mesh.hpp>
 #include <weft/validation/metrics/shadow.hpp>
 
 namespace weft::validation {

@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 #include <Eigen/Geometry>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
 #include <weft/scenes/shape_surface.hpp>
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include <weft/custom_forces/core/types.hpp>
+#include <weft/core/types.hpp>
 #include <weft/custom_forces/force_law.hpp>
 #include <weft/scenes/scene.hpp>
 #include <weft/scenes/simulator.hpp>

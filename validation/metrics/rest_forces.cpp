@@ -7,9 +7,9 @@
 
 #include <fmt/core.h>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
-#include <weft/validation/metrics/signed_distance.hpp>
+#include <weft/validation/metrics/distance/signed_distance.hpp>
 
 namespace weft::validation {
 namespace {

@@ -3,8 +3,8 @@
 #include <array>
 #include <optional>
 
-#include <weft/custom_forces/core/cloth_mesh.hpp>
-#include <weft/custom_forces/core/types.hpp>
+#include <weft/core/types.hpp>
+#include <weft/mesh/cloth_mesh.hpp>
 
 namespace weft::validation {
 

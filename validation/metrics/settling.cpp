@@ -6,8 +6,8 @@
 
 #include <fmt/core.h>
 
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/validation/metrics/time_series.hpp>
+#include <weft/core/error.hpp>
+#include <weft/validation/metrics/series/time_series.hpp>
 
 namespace weft::validation {
 namespace {

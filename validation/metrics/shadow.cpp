@@ -10,7 +10,7 @@
 #include <fmt/core.h>
 #include <Eigen/Geometry>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 
 namespace weft::validation {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <fmt/core.h>
 
-#include <weft/custom_forces/core/cloth_mesh.hpp>
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/validation/metrics/percentile.hpp>
+#include <weft/core/error.hpp>
+#include <weft/mesh/cloth_mesh.hpp>
+#include <weft/validation/metrics/series/percentile.hpp>
 
 namespace weft::validation {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <fmt/core.h>
 
+#include <weft/validation/metrics/distance/penetration.hpp>
 #include <weft/validation/metrics/energy.hpp>
-#include <weft/validation/metrics/penetration.hpp>
 #include <weft/validation/motion/motion_scenes.hpp>
 
 namespace weft::validation {

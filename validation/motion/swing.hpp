@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <weft/custom_forces/core/cloth_mesh.hpp>
+#include <weft/mesh/cloth_mesh.hpp>
 
 namespace weft::validation {
 

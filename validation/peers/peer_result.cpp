@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 #include <weft/scenes/catalog.hpp>
 
 namespace weft::validation {

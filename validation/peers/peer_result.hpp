@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <weft/custom_forces/core/types.hpp>
+#include <weft/core/types.hpp>
 #include <weft/scenes/scene.hpp>
 
 namespace weft::validation {

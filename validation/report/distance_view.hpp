@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <weft/validation/report/quantized.hpp>
+#include <weft/validation/report/formats/quantized.hpp>
 
 namespace weft::validation {
 

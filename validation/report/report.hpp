@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <weft/validation/metrics/tolerance.hpp>
+#include <weft/validation/metrics/series/tolerance.hpp>
 #include <weft/validation/report/distance_view.hpp>
 
 namespace weft::validation {

@@ -2,7 +2,7 @@
 #include <sstream>
 #include <string_view>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 #include <weft/validation/report/picture_path.hpp>
 #include <weft/validation/report/write.hpp>
 

@@ -16,9 +16,9 @@
 #include <string_view>
 #include <utility>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
+#include <weft/scenes/format/scene_file.hpp>
 #include <weft/scenes/output/output_folder.hpp>
-#include <weft/scenes/scene_file.hpp>
 
 namespace weft::validation {
 namespace {

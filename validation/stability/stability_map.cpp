@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
-#include <weft/custom_forces/core/error.hpp>
+#include <weft/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
-#include <weft/validation/cases/small_systems.hpp>
-#include <weft/validation/reference/spectrum.hpp>
-#include <weft/validation/reference/step_guard.hpp>
+#include <weft/reference/spectrum.hpp>
+#include <weft/reference/step_guard.hpp>
+#include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
 namespace {

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include <weft/scenes/catalog.hpp>
-#include <weft/validation/cases/elastica.hpp>
-#include <weft/validation/cases/parameters.hpp>
-#include <weft/validation/cases/small_systems.hpp>
+#include <weft/validation/cases/analytic/bending/elastica.hpp>
+#include <weft/validation/cases/support/parameters.hpp>
+#include <weft/validation/cases/support/small_systems.hpp>
 #include <weft/validation/theory/bending_scenes.hpp>
 #include <weft/validation/theory/scene_parts.hpp>
 #include <weft/validation/theory/theory_scenes.hpp>

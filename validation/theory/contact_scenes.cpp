@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <weft/scenes/catalog.hpp>
-#include <weft/validation/cases/small_systems.hpp>
+#include <weft/validation/cases/support/small_systems.hpp>
 #include <weft/validation/theory/scene_parts.hpp>
 #include <weft/validation/theory/theory_scenes.hpp>
 

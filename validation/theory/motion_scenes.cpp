@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/validation/cases/parameters.hpp>
-#include <weft/validation/cases/small_systems.hpp>
+#include <weft/core/error.hpp>
+#include <weft/validation/cases/support/parameters.hpp>
+#include <weft/validation/cases/support/small_systems.hpp>
 #include <weft/validation/theory/bending_scenes.hpp>
 #include <weft/validation/theory/scene_parts.hpp>
 #include <weft/validation/theory/swing_fit.hpp>

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/validation/cases/small_systems.hpp>
+#include <weft/core/error.hpp>
+#include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <weft/scenes/scene.hpp>
-#include <weft/validation/cases/case.hpp>
-#include <weft/validation/cases/sabotage.hpp>
+#include <weft/validation/cases/support/case.hpp>
+#include <weft/validation/cases/support/sabotage.hpp>
 
 namespace weft::validation {
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <weft/validation/cases/closed_form_check.hpp>
+#include <weft/validation/cases/support/closed_form_check.hpp>
 
 namespace weft::validation {
 namespace {

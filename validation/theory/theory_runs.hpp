@@ -1,6 +1,6 @@
 #pragma once
 
-#include <weft/validation/cases/case.hpp>
+#include <weft/validation/cases/support/case.hpp>
 #include <weft/validation/theory/theory_scene.hpp>
 
 namespace weft::validation {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <weft/validation/cases/sabotage.hpp>
-#include <weft/validation/cases/scene_history.hpp>
+#include <weft/validation/cases/scenes/scene_history.hpp>
+#include <weft/validation/cases/support/sabotage.hpp>
 #include <weft/validation/report/report.hpp>
 
 namespace weft::validation {

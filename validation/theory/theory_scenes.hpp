@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <weft/validation/cases/case.hpp>
+#include <weft/validation/cases/support/case.hpp>
 #include <weft/validation/theory/theory_scene.hpp>
 
 namespace weft::validation {

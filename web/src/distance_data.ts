@@ -1,4 +1,4 @@
-// The arrays of a distance view, decoded; validation/report/distance_view_json.cpp writes them.
+// The arrays of a distance view, decoded; validation/report/formats/distance_view_json.cpp writes them.
 import { toNumber } from "./format";
 import type { DistanceViewData, QuantizedData } from "./report";
 

@@ -1,4 +1,4 @@
-// The data of the page, as validation/report/to_json.cpp writes it.
+// The data of the page, as validation/report/formats/to_json.cpp writes it.
 
 /** JSON has no NaN and no infinities; they arrive as words. */
 export type Numeric = number | "NaN" | "Infinity" | "-Infinity";

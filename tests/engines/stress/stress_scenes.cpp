@@ -22,9 +22,9 @@
 #include <tbb/global_control.h>
 #include <CLI/CLI.hpp>
 
-#include <weft/custom_forces/core/error.hpp>
-#include <weft/scenes/engines/engine_table.hpp>
-#include <weft/scenes/scene_file.hpp>
+#include <weft/core/error.hpp>
+#include <weft/engines/engine_table.hpp>
+#include <weft/scenes/format/scene_file.hpp>
 
 #include "tests/engines/stress/random_scene.hpp"
 

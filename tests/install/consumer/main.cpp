@@ -1,8 +1,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include <weft/custom_forces/core/cloth_grid.hpp>
 #include <weft/custom_forces/registry.hpp>
+#include <weft/mesh/cloth_grid.hpp>
 
 #ifdef EXPECTED_SCALAR
 #include <LinearMath/btScalar.h>

@@ -1,4 +1,4 @@
-// The mesh of a cloth from its scene, node for node as Weft makes it (custom_forces/core, scenes/cloth_source.cpp).
+// The mesh of a cloth from its scene, node for node as Weft makes it (mesh/, scenes/cloth_source.cpp).
 import type { TomlTable } from "smol-toml";
 
 import { icosphere } from "./icosphere";

@@ -1,4 +1,4 @@
-// The scale for values of both signs, as in the pictures (scenes/playback/color_map.cpp): straight lines in CIELAB from
+// The scale for values of both signs, as in the pictures (playback/rendering/paint/color_map.cpp): straight lines in CIELAB from
 // a blue and a red to a warm white.
 const COLOURS: [number, number, number][] = [
   [33, 75, 150],

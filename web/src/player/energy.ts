@@ -1,5 +1,5 @@
 // Energies of the cloths of a recording, frame by frame while the page has nothing else to do; as
-// scenes/page/cloth_energy.cpp, which has put them into an exported page.
+// playback/export/cloth_energy.cpp, which has put them into an exported page.
 import type { ClothMesh } from "./cloth_mesh";
 import type { Metric, Recording } from "./recording";
 

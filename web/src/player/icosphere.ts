@@ -1,4 +1,4 @@
-// Nodes and triangles of an icosphere, in the order of custom_forces/core/icosphere.cpp.
+// Nodes and triangles of an icosphere, in the order of mesh/icosphere.cpp.
 const GOLDEN = 1.6180339887498949;
 // prettier-ignore
 const CORNERS = [

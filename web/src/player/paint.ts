@@ -1,4 +1,4 @@
-// Colours and pictures of a body, as scenes/playback/body_paint.cpp chooses them.
+// Colours and pictures of a body, as playback/rendering/paint/body_paint.cpp chooses them.
 import { CanvasTexture, Color, RepeatWrapping, SRGBColorSpace, Texture } from "three";
 import type { TomlTable } from "smol-toml";
 

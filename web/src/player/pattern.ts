@@ -1,4 +1,4 @@
-// The patterns of docs/appearance.md, as scenes/playback/pattern.cpp makes them.
+// The patterns of docs/appearance.md, as playback/rendering/paint/pattern.cpp makes them.
 export type Rgb = [number, number, number]; // 8-bit sRGB
 type Light = [number, number, number]; // linear
 

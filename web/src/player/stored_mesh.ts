@@ -1,4 +1,4 @@
-// A mesh inside the resolved scene, as scenes/mesh_text.cpp writes it.
+// A mesh inside the resolved scene, as scenes/format/mesh_text.cpp writes it.
 import { fromBase64, view } from "./bytes";
 
 const MAGIC = "WEFTMESH";

@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include <weft/core/error.hpp>
+#include <weft/playback/export/cloth_energy.hpp>
+#include <weft/playback/export/player_page.hpp>
+#include <weft/playback/rendering/image.hpp>
+#include <weft/playback/rendering/renderer.hpp>
+#include <weft/scenes/format/quantity.hpp>
+#include <weft/scenes/output/output_file.hpp>
+#include <weft/scenes/recording/playback_copy.hpp>
+#include <weft/scenes/recording/recording.hpp>
+
+#include "apps/app.hpp"
+#include "apps/partial_note.hpp"
+#include "apps/progress_bar.hpp"
+#include "apps/terminal.hpp"
+
+namespace weft::app {
+namespace {
+
+/// Rounding moves a node by this part of the largest cloth, unless --error says otherwise: a tenth of
+/// a pixel on a screen that shows it in 10,000 pixels.
+constexpr double kErrorOfSize = 1e-5;
+
+struct ExportOptions {
+  std::vector<std::string> recordings;
+  std::string page;
+  std::string player;
+  std::string error;
+};
+
+/// The next 1, 2 or 5 times a power of ten that is not larger.
+double round_down(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double digit : {5.0, 2.0}) {
+    if (digit * power <= value) return digit * power;
+  }
+  return power;
+}
+
+double position_error(const ExportOptions& options, const scenes::Scene& scene) {
+  if (!options.error.empty()) {
+    double error = 0.0;
+    try {
+      error = scenes::parse_quantity(options.error, "m");
+    } catch (const scenes::UnitError& reason) {
+      throw InvalidArgument(fmt::format("--error \"{}\": {}", options.error, reason.what()));
+    }
+    return error;
+  }
+  double largest = 0.0;
+  for (const scenes::Cloth& cloth : scene.cloths) {
+    largest = std::max(largest, scenes::body_size(cloth.source));
+  }
+  return round_down(kErrorOfSize * largest);
+}
+
+/// The frame of the scene's most telling time.
+int poster_frame(const scenes::RecordingReader& reader) {
+  const int last = reader.num_frames() - 1;
+  const auto& time = reader.scene().camera.poster_time;
+  if (!time) return last;
+  int frame = 0;
+  while (frame < last && reader.frame_time(frame) < *time) ++frame;
+  return frame;
+}
+
+std::string poster(const scenes::RecordingReader& reader, int frame) {
+  scenes::RenderOptions options;
+  options.samples = 3;
+  return scenes::encode_jpeg(scenes::Renderer(reader.scene()).render(reader.frame(frame), options));
+}
+
+scenes::PageRecording packed(const std::string& file, const ExportOptions& options) {
+  const scenes::RecordingReader reader(file);
+  if (reader.num_frames() == 0) throw Error(file + ": has no frame to show");
+  note_if_partial(reader, file);
+  scenes::PlaybackCopyOptions copy;
+  copy.position_error = position_error(options, reader.scene());
+  copy.metrics = scenes::cloth_energies(reader);
+  const int frame = poster_frame(reader);
+  scenes::PageRecording recording;
+  recording.name = std::filesystem::path(file).filename().string();
+  recording.poster_jpeg = poster(reader, frame);
+  recording.poster_text =
+      fmt::format("{} at t = {:.4g} s", reader.scene().name, reader.frame_time(frame));
+  {
+    ProgressBar progress(recording.name);
+    copy.on_progress = [&](double part) { progress.update(part); };
+    recording.copy = scenes::playback_copy(reader, copy);
+  }
+  print("{}: {} frames, t = {:.6g} s to {:.6g} s; positions rounded by at most {:.3g} mm\n", file,
+        reader.num_frames(), reader.frame_time(0), reader.frame_time(reader.num_frames() - 1),
+        1e3 * copy.position_error);
+  return recording;
+}
+
+void write_page(const output::OutputFile& output,
+                const std::vector<scenes::PageRecording>& recordings) {
+  const std::string html = scenes::player_page(recordings);
+  output.write(html);
+  print("{}: {:.2f} MB\n", output.path().string(), 1e-6 * static_cast<double>(html.size()));
+}
+
+int export_pages(const ExportOptions& options) {
+  if (options.page.empty() && options.player.empty()) {
+    throw InvalidArgument("export: expected --html OUT.html RECORDING, or --player OUT.html");
+  }
+  if (options.page.empty() != options.recordings.empty()) {
+    throw InvalidArgument(options.page.empty()
+                              ? "export: recordings without --html, expected the page to write"
+                              : "export: --html without a recording, expected at least one");
+  }
+  std::vector<output::OutputFile> outputs;
+  for (const std::string& file : {options.page, options.player}) {
+    if (!file.empty()) outputs.emplace_back(file, scenes::kPlayerPageKind);
+  }
+  if (!options.page.empty()) {
+    std::vector<scenes::PageRecording> recordings;
+    for (const std::string& file : options.recordings) {
+      recordings.push_back(packed(file, options));
+    }
+    write_page(outputs.front(), recordings);
+  }
+  if (!options.player.empty()) write_page(outputs.back(), {});
+  return kOk;
+}
+
+}  // namespace
+
+Action add_export_command(CLI::App& parser) {
+  CLI::App* command = parser.add_subcommand(
+      "export", "Write a page that plays recordings in any browser, without a network");
+  auto options = std::make_shared<ExportOptions>();
+  command->add_option("RECORDING", options->recordings,
+                      "Recordings made by `weft run`; several are played together");
+  command->add_option("--html", options->page, "Page to write, with the recordings inside");
+  command->add_option("--player", options->player,
+                      "Page to write that has no recording: drop recordings on it");
+  command->add_option("--error", options->error,
+                      "By how much rounding may move a coordinate, e.g. \"0.01 mm\" (default: "
+                      "1/100,000 of the largest cloth, rounded down)");
+  return [options] { return export_pages(*options); };
+}
+
+}  // namespace weft::app

@@ -1,0 +1,201 @@
+#include <weft/bridge/classic/attachment.hpp>
+
+#include <atomic>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <weft/bridge/classic/node_state.hpp>
+#include <weft/core/trace.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+using LawSet = forces::LawSet<btScalar>;
+using Level = forces::LawTraits::Level;
+using State = forces::State<btScalar>;
+
+// Laws made for another mesh throw here, at attach, and not in Bullet's step.
+SoftBodySolver::Attachment::Attachment(btSoftBody& of, LawSet own_laws,
+                                       VectorX<btScalar> own_masses, DampingPlace place)
+    : body(&of), laws(std::move(own_laws)), damping(place) {
+  check_attachment("soft body solver", of, own_masses);
+  followed = FollowedMasses(of, std::move(own_masses));
+  read_nodes(of, positions, velocities);
+  forces.setZero(3, positions.cols());
+  const State state{positions, velocities, masses(), time};
+  (void)laws.add_forces(state, LawSet::VelocityLaws::kAsForces, forces);
+  laws.redistribute_forces(state, forces);
+  life = follow_life(of);
+}
+
+void SoftBodySolver::Attachment::follow_masses() {
+  const int node = followed.follow(*body);
+  if (node < 0) return;
+  const Eigen::Index num_nodes = masses().size();
+  for (Eigen::Index i = 0; i < num_nodes; ++i) {
+    if (masses()[i] > 0 && std::isfinite(masses()[i])) continue;
+    blow_up =
+        BodyBlowUp{static_cast<int>(i),
+                   "its m_im is not a number, negative or infinite, expected 1 / mass [1/kg]"};
+    return;
+  }
+  if (!fast) return;
+  // No spring is another one.
+  fast->tear({}, std::vector<char>(static_cast<std::size_t>(num_nodes), 0), masses().cast<double>(),
+             {});
+}
+
+void SoftBodySolver::Attachment::stop(std::string reason) {
+  blow_up = BodyBlowUp{-1, std::move(reason)};
+  deferred.drop();
+  if (!is_moving) return;
+  is_moving = false;
+  for (int i = 0; i < body->m_nodes.size(); ++i) body->m_nodes[i].m_x = body->m_nodes[i].m_q;
+}
+
+bool SoftBodySolver::Attachment::acts_after_projection(Level level) const {
+  if (!laws.has_level(level)) return false;
+  if (damping != DampingPlace::kAutomatic) return damping == DampingPlace::kAfterProjection;
+  return level == Level::kVelocity || body->m_links.size() > 0 || fast != nullptr;
+}
+
+// Velocity-level laws state how fast velocities decay: inertia does not slow them down.
+void SoftBodySolver::Attachment::sum_laws() {
+  const State state{positions, velocities, masses(), time};
+  const forces::ForceReport report = deferred.finish(state, forces);
+  if (!report.ok()) {
+    blow_up = BodyBlowUp{*report.first_non_finite_node, "position or velocity is not finite"};
+    return;
+  }
+  if (!acts_after_projection(Level::kInertia)) laws.redistribute_forces(state, forces);
+  if (!acts_after_projection(Level::kVelocity)) {
+    (void)laws.add_forces(state, LawSet::VelocityLaws::kAlone, forces);
+  }
+}
+
+void SoftBodySolver::Attachment::predict(btScalar time_step) {
+  follow_masses();
+  if (blow_up) return;
+  // The program may have done since what attach() and attach_fast() refuse.
+  if (fast) {
+    if (auto reason = FastBody::obstacle(*body))
+      return stop("it cannot be fast any more: " + *reason);
+  }
+  if (body->m_cfg.timescale != btScalar(1)) {
+    return stop("m_cfg.timescale = " + std::to_string(body->m_cfg.timescale) + " [1], expected 1");
+  }
+  const auto predict_fast = [&] { fast->predict(*body, time_step, positions, velocities); };
+  const bool fits = masses().size() == body->m_nodes.size();  // if not, the laws say so
+  if (fast && fits) {
+    fast->take_impulses(*body, time_step);
+    fast->set_laws(laws, masses());
+  }
+  if (fast && fits && !deferred.is_in_flight() && laws.is_node_by_node()) {
+    const auto threads = fast->hold_threads();
+    if (add_forces_node_by_node(time_step)) return predict_fast();
+  }
+  add_forces(time_step);
+  if (fast && !blow_up) predict_fast();
+}
+
+// add_forces() by the threads that work on the body, each on its own nodes, which are in its cache. False if something
+// is wrong with any of them; then nothing has been done to the body.
+bool SoftBodySolver::Attachment::add_forces_node_by_node(btScalar time_step) {
+  const TraceScope trace("forces");
+  for (Matrix3X<btScalar>* vectors : {&positions, &velocities, &forces}) {
+    vectors->resize(3, body->m_nodes.size());
+  }
+  std::atomic<bool> is_fine = true;
+  fast->for_nodes([&](int begin, int count) {
+    const fast::NodeRange nodes{begin, begin + count};
+    read_nodes(*body, nodes, positions, velocities);
+    const State state{positions.middleCols(begin, count), velocities.middleCols(begin, count),
+                      masses().segment(begin, count), time};
+    auto sum = forces.middleCols(begin, count);
+    sum.setZero();
+    bool is_finite = false;
+    try {
+      is_finite = laws.add_forces(state, LawSet::VelocityLaws::kSeparate, sum).ok();
+      if (!acts_after_projection(Level::kVelocity)) {
+        (void)laws.add_forces(state, LawSet::VelocityLaws::kAlone, sum);
+      }
+    } catch (...) {  // it must not leave another thread; add_forces() meets it again
+      is_finite = false;
+    }
+    if (!is_finite ||
+        predicted_blow_up(*body, velocities, forces, time_step, SoftBodySolver::kMaxSpeed, nodes)) {
+      is_fine = false;
+    }
+  });
+  if (!is_fine) return false;
+  fast->for_nodes([&](int begin, int count) {
+    add_node_forces(forces, {begin, begin + count}, *body);
+  });
+  return true;
+}
+
+void SoftBodySolver::Attachment::add_forces(btScalar time_step) {
+  const TraceScope trace("forces");
+  read_nodes(*body, positions, velocities);
+  if (acts_after_projection(Level::kInertia)) start_velocities = velocities;
+  sum_laws();
+  if (blow_up) return;
+  // Now, on the velocities that predictMotion is about to make: afterwards would be too late, for a
+  // node without a place in space ruins the body's bounding-volume tree.
+  blow_up = predicted_blow_up(*body, velocities, forces, time_step, SoftBodySolver::kMaxSpeed);
+  if (!blow_up) add_node_forces(forces, *body);
+}
+
+// On other threads, from a copy of the state: the body may leave or be deleted meanwhile.
+void SoftBodySolver::Attachment::begin_forces() {
+  read_nodes(*body, positions, velocities);
+  deferred.begin({positions, velocities, masses(), time});
+}
+
+// The change of momentum over the step stands for the sum of all forces on the body.
+void SoftBodySolver::Attachment::slow_down_changes() {
+  forces = (velocities - start_velocities) * masses().asDiagonal();
+  laws.redistribute_forces(State{positions, velocities, masses(), time}, forces);
+  velocities = start_velocities + forces * masses().cwiseInverse().asDiagonal();
+}
+
+void SoftBodySolver::Attachment::damp_velocities(btScalar time_step) {
+  const TraceScope trace("damp velocities");
+  const bool slows_down = acts_after_projection(Level::kInertia);
+  const bool advances = acts_after_projection(Level::kVelocity);
+  if (!slows_down && !advances) return;
+  read_nodes(*body, positions, velocities);
+  if (slows_down) slow_down_changes();
+  if (advances) {
+    forces = velocities;  // the laws see the state as it is and change a copy
+    laws.advance_velocities(State{positions, velocities, masses(), time}, time_step, forces);
+    velocities.swap(forces);
+  }
+  write_node_velocities(velocities, *body);
+}
+
+void ContactEntry::remember_solution() {
+  solved.resize(static_cast<std::size_t>(body->m_nodes.size()));
+  for (int i = 0; i < body->m_nodes.size(); ++i) {
+    solved[static_cast<std::size_t>(i)] = body->m_nodes[i].m_x;
+  }
+}
+
+void ContactEntry::derive_velocities() {
+  for (int i = 0; i < body->m_nodes.size(); ++i) {
+    btSoftBody::Node& node = body->m_nodes[i];
+    node.m_v = (node.m_x - node.m_q) * body->m_sst.isdt;
+  }
+}
+
+void ContactEntry::add_later_motion() {
+  const btScalar share = body->m_sst.isdt * (1 - body->m_cfg.kDP);
+  for (int i = 0; i < body->m_nodes.size(); ++i) {
+    btSoftBody::Node& node = body->m_nodes[i];
+    node.m_v += share * (node.m_x - solved[static_cast<std::size_t>(i)]);
+  }
+}
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <exception>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <weft/bridge/classic/body_life.hpp>
+#include <weft/bridge/contact/rigid_response.hpp>
+#include <weft/bridge/implicit/fast_body.hpp>
+#include <weft/bridge/solver.hpp>
+#include <weft/custom_forces/deferred_forces.hpp>
+
+// Not for users of the bridge: what SoftBodySolver knows of its bodies.
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+struct SoftBodySolver::Attachment {
+  /// Throws InvalidArgument as SoftBodySolver::attach().
+  Attachment(btSoftBody& of, forces::LawSet<btScalar> own_laws, VectorX<btScalar> own_masses,
+             DampingPlace place);
+
+  btSoftBody* body;
+  std::shared_ptr<BodyLife> life;
+  forces::LawSet<btScalar> laws;
+  forces::DeferredForces<btScalar> deferred{laws,
+                                            forces::LawSet<btScalar>::VelocityLaws::kSeparate};
+  FollowedMasses followed;
+  DampingPlace damping = DampingPlace::kAutomatic;
+  Matrix3X<btScalar> start_velocities;  // of the step, only for inertia after the projection
+  Matrix3X<btScalar> positions;
+  Matrix3X<btScalar> velocities;
+  Matrix3X<btScalar> forces;
+  std::optional<BodyBlowUp> blow_up;
+  bool is_reported = false;  // the blow-up, to SoftBodySolver::set_on_blow_up()
+  bool is_moving = false;    // predicted, and the step has not ended yet
+  PositionLimits limits;
+  std::unique_ptr<FastBody> fast;  // none: Bullet's own constraints
+  ContactResponse contact_response = ContactResponse::kCoulomb;
+  RigidResponse rigid_response;
+  bool was_in_world = false;
+  bool is_suspended = false;
+  double time = 0.0;  // [s] of the steps since the body was attached
+
+  [[nodiscard]] bool has_coulomb_contacts() const {
+    return !fast && contact_response == ContactResponse::kCoulomb && RigidResponse::fits(*body);
+  }
+  [[nodiscard]] bool is_of(const btSoftBody& other) const {
+    return body == &other && life->is_alive;
+  }
+  [[nodiscard]] const VectorX<btScalar>& masses() const { return followed.values(); }
+  /// What the program has done to the body's masses since the last step.
+  void follow_masses();
+  /// The body stays where the step began.
+  void stop(std::string reason);
+  /// work(), whose exceptions stop the body: one that left Bullet's step in its middle would leave bodies that have been
+  /// moved and others that have not.
+  template <class Work>
+  void guard(const Work& work) {
+    try {
+      work();
+    } catch (const std::exception& error) {
+      stop(error.what());
+    } catch (...) {
+      stop("an exception that is no std::exception");
+    }
+  }
+  [[nodiscard]] bool acts_after_projection(forces::LawTraits::Level level) const;
+  /// Forces, and what FastBody does with them.
+  void predict(btScalar time_step);
+  void add_forces(btScalar time_step);
+  [[nodiscard]] bool add_forces_node_by_node(btScalar time_step);
+  void begin_forces();
+  void sum_laws();
+  void damp_velocities(btScalar time_step);
+  void slow_down_changes();
+};
+
+struct ContactEntry {
+  btSoftBody* body;
+  std::shared_ptr<BodyLife> life;
+  ClothContact contact;
+  bool was_in_world = false;
+  bool is_by_flag = false;        ///< with others only where Bullet's VF_SS asks a fast body for it
+  std::vector<btVector3> solved;  ///< [m] places of the nodes when the body itself was solved
+
+  [[nodiscard]] bool is_of(const btSoftBody& other) const {
+    return body == &other && life->is_alive;
+  }
+  void remember_solution();
+  /// What moved nodes afterwards, the contacts of other bodies, becomes part of their velocities.
+  void add_later_motion();
+  /// The same where velocities are differences of places, as Bullet's own: with Bullet's rounding.
+  void derive_velocities();
+};
+
+struct SoftBodySolver::Attachments {
+  std::vector<std::unique_ptr<Attachment>> list;
+  std::vector<Attachment*> stepped;        ///< fast bodies of the present step
+  std::vector<Attachment*> asked;          ///< of those, that contacts are still looked for
+  std::vector<const btRigidBody*> pushed;  ///< once for each of those that may push it, in order
+  std::vector<std::unique_ptr<ContactEntry>> contacts;
+  std::function<void(btSoftBody&, const BodyBlowUp&)> on_blow_up;
+  HullTable hulls;  ///< of rigid objects that bodies have met
+};
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

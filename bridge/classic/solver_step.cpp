@@ -1,0 +1,338 @@
+// What a solver does in each step.
+#include <weft/bridge/solver.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <weft/bridge/classic/attachment.hpp>
+#include <weft/bridge/classic/position_limits.hpp>
+#include <weft/bridge/rigid/rigid_parts.hpp>
+#include <weft/core/trace.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+void SoftBodySolver::predictMotion(btScalar time_step) {
+  const TraceScope trace("predict motion");
+  time_step_ = time_step;
+  attachments_->hulls.begin_step();
+  for (const auto& entry : attachments_->contacts) entry->contact.begin_step();
+  for (const auto& attachment : attachments_->list) {
+    if (attachment->fast && attachment->was_in_world)
+      attachment->fast->begin_step(*attachment->body);
+  }
+  for_bodies([&](btSoftBody&, Attachment* attachment) {
+    if (!attachment) return;
+    attachment->predict(time_step);
+    attachment->rigid_response.begin_step();
+  });
+  for (int i = 0; i < m_softBodySet.size(); ++i) {
+    btSoftBody& body = *m_softBodySet[i];
+    if (!body.isActive() || is_still(body)) continue;  // the forces may have exploded
+    Attachment* const attachment = find(body);
+    if (attachment && attachment->fast) {
+      FastBody::publish_bounds(body);
+    } else {
+      body.predictMotion(time_step);
+    }
+    if (attachment) attachment->is_moving = true;
+  }
+}
+
+// What touches only the body: several at the same time. Each is one task, whose bits depend on no other.
+void SoftBodySolver::for_bodies(const std::function<void(btSoftBody&, Attachment*)>& work) {
+  const auto work_on = [&](int i) {
+    btSoftBody& body = *m_softBodySet[i];
+    if (!body.isActive() || is_still(body)) return;
+    Attachment* const attachment = find(body);
+    if (!attachment) return work(body, nullptr);
+    attachment->guard([&] { work(body, attachment); });
+  };
+  if (m_softBodySet.size() == 1) return work_on(0);
+  tbb::parallel_for(0, m_softBodySet.size(), work_on);
+}
+
+namespace {
+
+template <class Entry>
+void drop_stopped(std::vector<Entry*>& list) {
+  std::erase_if(list, [](const Entry* one) { return one->blow_up.has_value(); });
+}
+
+/// work(one) for each that it does not stop; those that it stops leave the list. A single one by the calling thread: its
+/// team may be open, which must not wait for tasks.
+template <class Entry, class Work>
+void in_parallel(std::vector<Entry*>& list, const Work& work) {
+  const auto work_on = [&](Entry& one) { one.guard([&] { work(one); }); };
+  if (list.size() == 1) {
+    work_on(*list[0]);
+  } else {
+    tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) { work_on(*list[i]); });
+  }
+  drop_stopped(list);
+}
+
+/// The same for those that must not work at the same time.
+template <class Entry, class Work>
+void in_turn(std::vector<Entry*>& list, const Work& work) {
+  for (Entry* one : list) one->guard([&] { work(*one); });
+  drop_stopped(list);
+}
+
+}  // namespace
+
+void SoftBodySolver::solve_fast_bodies() {
+  std::vector<Attachment*>& bodies = attachments_->stepped;
+  bodies.clear();
+  for (const auto& attachment : attachments_->list) {
+    const bool is_stepped = attachment->was_in_world && attachment->body->isActive();
+    if (attachment->fast && is_stepped && attachment->fast->is_predicted() &&
+        !is_still(*attachment->body)) {
+      bodies.push_back(attachment.get());
+    }
+  }
+  const int num_each = std::max(
+      1, tbb::this_task_arena::max_concurrency() / std::max(1, static_cast<int>(bodies.size())));
+  for (Attachment* one : bodies) one->fast->set_num_threads(num_each);
+  Attachment* const single = bodies.size() == 1 ? bodies[0] : nullptr;
+  std::optional<fast::ThreadTeam::Scope> threads;
+  if (single) single->fast->hold_threads(threads);  // to call for them takes longer than most loops
+  in_parallel(bodies, [](Attachment& one) { one.fast->prepare(*one.body); });
+  detect_contacts(time_step_);
+  solve_in_parts();
+  if (bodies.empty()) return;
+  solve_listed_bodies(time_step_);
+  const bool may_meet = may_meet_cloth();
+  if (may_meet) threads.reset();  // cloth on cloth takes long, and one thread
+  place_listed_bodies(time_step_, may_meet);
+  const bool is_final = single && !may_meet && single->limits.is_empty() &&
+                        m_softBodySet.size() == 1 && !single->blow_up;
+  if (is_final) single->fast->update_normals(*single->body);
+}
+
+void SoftBodySolver::detect_contacts(btScalar time_step) {
+  std::vector<Attachment*>& bodies = attachments_->stepped;
+  in_parallel(bodies, [&](Attachment& one) {
+    if (one.fast->looks_alone()) one.fast->detect_contacts(*one.body, time_step);
+  });
+  in_turn(bodies, [&](Attachment& one) {
+    if (!one.fast->looks_alone()) one.fast->detect_contacts(*one.body, time_step);
+  });
+}
+
+// Bodies that touch or hang on the same dynamic bodies take the same parts. What takes its step in parts leaves the list.
+void SoftBodySolver::solve_in_parts() {
+  std::vector<Attachment*>& bodies = attachments_->stepped;
+  if (may_meet_cloth()) return;
+  const auto wants_parts = [this](const Attachment* one) {
+    return one->fast->num_parts(*one->body, time_step_) > 1;
+  };
+  while (true) {
+    const auto first = std::find_if(bodies.begin(), bodies.end(), wants_parts);
+    if (first == bodies.end()) return;
+    std::vector<Attachment*> group{*first};
+    std::vector<btRigidBody*> reached;
+    int num_parts = 1;
+    for (std::size_t g = 0; g < group.size(); ++g) {
+      num_parts = std::max(num_parts, group[g]->fast->num_parts(*group[g]->body, time_step_));
+      group[g]->fast->list_dynamic(*group[g]->body, reached);
+      for (Attachment* other : bodies) {
+        if (std::find(group.begin(), group.end(), other) != group.end()) continue;
+        std::vector<btRigidBody*> of_other;
+        other->fast->list_dynamic(*other->body, of_other);
+        const bool shares = std::any_of(of_other.begin(), of_other.end(), [&](const auto* rigid) {
+          return std::find(reached.begin(), reached.end(), rigid) != reached.end();
+        });
+        if (shares) group.push_back(other);
+      }
+    }
+    std::vector<Attachment*> rest;
+    for (Attachment* one : bodies) {
+      if (std::find(group.begin(), group.end(), one) == group.end()) rest.push_back(one);
+    }
+    solve_group(group, num_parts);
+    bodies = rest;
+  }
+}
+
+void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_parts) {
+  const TraceScope trace("step in parts");
+  const btScalar part_step = time_step_ / static_cast<btScalar>(num_parts);
+  std::vector<btRigidBody*> dynamic;
+  for (const Attachment* one : group) one->fast->list_dynamic(*one->body, dynamic);
+  RigidParts rigid(dynamic, time_step_, num_parts);
+  std::vector<Attachment*>& bodies = attachments_->stepped;
+  bodies = group;
+  in_parallel(bodies, [&](Attachment& one) { one.fast->begin_parts(*one.body, time_step_); });
+  for (int part = 0; part < num_parts && !bodies.empty(); ++part) {
+    in_parallel(bodies, [&](Attachment& one) {
+      one.fast->begin_part(*one.body, rigid, part, num_parts, part_step);
+    });
+    rigid.begin_part();
+    detect_contacts(part_step);
+    solve_listed_bodies(part_step);
+    place_listed_bodies(part_step, false);
+    rigid.end_part();
+  }
+  rigid.finish();
+  in_parallel(bodies, [&](Attachment& one) { one.fast->end_parts(*one.body, time_step_); });
+}
+
+bool SoftBodySolver::may_meet_cloth() const {
+  const std::vector<Attachment*>& bodies = attachments_->stepped;
+  return std::any_of(bodies.begin(), bodies.end(), [&](const Attachment* one) {
+    return one->body->m_scontacts.size() > 0 || find_contact(*one->body) != nullptr;
+  });
+}
+
+void SoftBodySolver::solve_listed_bodies(btScalar time_step) {
+  std::vector<Attachment*>& bodies = attachments_->stepped;
+  std::vector<const btRigidBody*>& pushed = attachments_->pushed;
+  const auto list_pushed = [&] {
+    pushed.clear();
+    for (const Attachment* one : bodies) one->fast->list_pushed(*one->body, pushed);
+    std::sort(pushed.begin(), pushed.end());
+  };
+  list_pushed();
+  in_parallel(bodies,
+              [&](Attachment& one) { one.fast->begin_solve(*one.body, time_step, pushed); });
+  std::vector<Attachment*>& asked = attachments_->asked;
+  asked.assign(bodies.begin(), bodies.end());
+  for (int look = 0; look < FastBody::kMostLooks && !asked.empty(); ++look) {
+    in_parallel(asked, [&](Attachment& one) {
+      if (one.fast->looks_alone()) one.fast->look_again(*one.body, time_step);
+    });
+    in_turn(asked, [&](Attachment& one) {
+      if (!one.fast->looks_alone()) one.fast->look_again(*one.body, time_step);
+    });
+    std::erase_if(asked, [](const Attachment* one) { return !one->fast->is_unfinished(); });
+    drop_stopped(bodies);
+    list_pushed();
+    in_parallel(asked,
+                [&](Attachment& one) { one.fast->solve_again(*one.body, time_step, pushed); });
+  }
+  in_parallel(bodies,
+              [&](Attachment& one) { one.fast->solve_anew_if_it_gains(*one.body, time_step); });
+}
+
+void SoftBodySolver::place_listed_bodies(btScalar time_step, bool may_meet) {
+  std::vector<Attachment*>& bodies = attachments_->stepped;
+  in_turn(bodies, [&](Attachment& one) { one.fast->place(*one.body, time_step, may_meet); });
+  // Where springs have led the nodes, not where they would fly without them: in steps of 1/100 s layers that were found there
+  // threw each other about.
+  in_parallel(bodies, [&](Attachment& one) {
+    if (ClothContact* contact = find_contact(*one.body)) {
+      contact->add_self_contacts(*one.body, time_step);
+    }
+  });
+  const bool meet = std::any_of(bodies.begin(), bodies.end(), [](const Attachment* one) {
+    return one->body->m_scontacts.size() > 0;
+  });
+  for (int sweep = 0; meet && sweep < FastBody::kClothContactSweeps; ++sweep) {
+    in_turn(bodies, [](Attachment& one) { one.fast->project_cloth_contacts(*one.body); });
+  }
+  in_parallel(bodies, [&](Attachment& one) { one.fast->end_solve(*one.body, time_step); });
+}
+
+void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
+  const TraceScope trace("solve constraints");
+  // Velocities decay over the step that predictMotion was given. The argument here is the same time
+  // before Bullet rounds it to single precision; to use it would mix two clocks in one step.
+  solve_fast_bodies();
+  for (const auto& entry : attachments_->contacts) {
+    const bool may_be_pushed = entry->was_in_world && entry->contact.settings().with_others;
+    if (may_be_pushed && is_fast(*entry->body)) entry->remember_solution();
+  }
+  for (int i = 0; i < m_softBodySet.size(); ++i) {
+    btSoftBody& body = *m_softBodySet[i];
+    if (!body.isActive() || is_still(body) || is_fast(body)) continue;
+    Attachment* const attachment = find(body);
+    if (attachment) {
+      attachment->guard([&] { solve_other_body(body, attachment); });
+    } else {
+      solve_other_body(body, nullptr);
+    }
+  }
+  settle_contact_velocities();
+  for_bodies([&](btSoftBody& body, Attachment* attachment) {
+    if (!attachment) return;
+    apply_position_limits(attachment->limits, static_cast<double>(time_step_), body);
+    attachment->damp_velocities(attachment->fast ? attachment->fast->velocity_step() : time_step_);
+  });
+  for (const auto& attachment : attachments_->list) {
+    if (attachment->was_in_world) attachment->time += static_cast<double>(time_step_);
+  }
+}
+
+// One that is not fast.
+void SoftBodySolver::solve_other_body(btSoftBody& body, Attachment* attachment) {
+  ContactEntry* const entry = find_contact_entry(body);
+  if (entry) entry->contact.add_self_contacts(body, time_step_);
+  if (attachment && attachment->has_coulomb_contacts()) {
+    attachment->rigid_response.solve(body);
+  } else {
+    body.solveConstraints();
+  }
+  if (entry && entry->contact.settings().with_others && attachment) entry->remember_solution();
+}
+
+// A contact of a later body moves the nodes of an earlier one, whose velocities Bullet has derived by
+// then: without this their momentum would be lost.
+void SoftBodySolver::settle_contact_velocities() {
+  for (const auto& entry : attachments_->contacts) {
+    btSoftBody& body = *entry->body;
+    if (!entry->was_in_world || !entry->contact.settings().with_others) continue;
+    if (!body.isActive() || is_still(body)) continue;
+    const Attachment* const attachment = find(body);
+    if (attachment && (attachment->fast || attachment->has_coulomb_contacts())) {
+      entry->add_later_motion();
+    } else {
+      entry->derive_velocities();
+    }
+  }
+}
+
+// The last thing that Bullet does in a step: positions and velocities are final.
+void SoftBodySolver::updateSoftBodies() {
+  const TraceScope trace("update soft bodies");
+  for_bodies([&](btSoftBody& body, Attachment* attachment) {
+    const bool has_normals = attachment && attachment->fast && attachment->fast->has_normals();
+    if (!has_normals) body.integrateMotion();
+    if (!attachment || !attachment->fast) return;
+    if (attachment->limits.is_empty()) attachment->fast->end_step(body, time_step_);
+    attachment->fast->note_velocities(body);
+  });
+  for (const auto& attachment : attachments_->list) attachment->is_moving = false;
+  if (is_deferred_) {
+    for_bodies([&](btSoftBody&, Attachment* attachment) {
+      if (attachment) attachment->begin_forces();
+    });
+  }
+  tell_of_blow_ups();
+}
+
+// The step that is about to end is no place for an exception: one that the callback lets go ends the program.
+void SoftBodySolver::tell_of_blow_ups() noexcept {
+  if (!attachments_->on_blow_up) return;
+  struct News {
+    btSoftBody* body;
+    BodyBlowUp blow_up;
+  };
+  std::vector<News> news;  // the callback may attach and detach
+  for (const auto& attachment : attachments_->list) {
+    if (!attachment->blow_up || attachment->is_reported) continue;
+    attachment->is_reported = true;
+    news.push_back({attachment->body, *attachment->blow_up});
+  }
+  const auto callback = attachments_->on_blow_up;  // which may set another one
+  for (const News& one : news) callback(*one.body, one.blow_up);
+}
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

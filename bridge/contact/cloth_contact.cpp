@@ -1,0 +1,236 @@
+#include <weft/bridge/contact/cloth_contact.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+
+#include <weft/core/error.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+namespace {
+
+using Node = btSoftBody::Node;
+using Face = btSoftBody::Face;
+
+/// A node beside a face by up to this share of it still counts as over it [-]: between two faces
+/// that bend away from each other it would be over none.
+constexpr btScalar kOverlap = btScalar(0.1);
+/// A node that is beside a face by that overlap and nearer than the thickness lies within this share
+/// of the thickness of the face's box [-]: the overlap is at most .4 of the thickness.
+constexpr btScalar kReach = btScalar(1.1);
+/// How fast layers that are closer than their thickness part, while they are pressed together [1/s].
+constexpr btScalar kRecoveryRate = 5;
+
+struct Rules {
+  btScalar thickness;  // [m]
+  btScalar friction;   // Coulomb [-]
+  btScalar time_step;  // [s]
+  int iterations;
+};
+
+btVector3 at(const btVector3& weights, const btVector3& a, const btVector3& b, const btVector3& c) {
+  return weights.x() * a + weights.y() * b + weights.z() * c;
+}
+
+/// Weights of the place of a face that a node is over; none if it is beside it.
+std::optional<btVector3> place_over(const Face& face, const Node& node, const btVector3& normal) {
+  const btVector3 &a = face.m_n[0]->m_x, &b = face.m_n[1]->m_x, &c = face.m_n[2]->m_x;
+  const btScalar squared = normal.length2();
+  btVector3 weights(btDot(btCross(c - b, node.m_x - b), normal),
+                    btDot(btCross(a - c, node.m_x - c), normal),
+                    btDot(btCross(b - a, node.m_x - a), normal));
+  weights /= squared;
+  if (weights[weights.minAxis()] < -kOverlap) return std::nullopt;
+  weights.setMax(btVector3(0, 0, 0));
+  return weights / (weights.x() + weights.y() + weights.z());
+}
+
+/// Bullet takes this share of the sliding away at each of its visits; together what Coulomb's law
+/// allows for the normal correction.
+btScalar friction_share(const btVector3& sliding, btScalar correction, const Rules& rules) {
+  const btScalar distance = sliding.length();
+  if (!(distance > 0)) return 0;
+  const btScalar all = std::min(btScalar(1), rules.friction * correction / distance);
+  return 1 - std::pow(1 - all, btScalar(1) / static_cast<btScalar>(rules.iterations));
+}
+
+/// Shares of a correction that move the node and, by their weights, the nodes of the face. False if
+/// nothing can move.
+bool share_out(const Node& node, const Face& face, btSoftBody::SContact& contact) {
+  btScalar face_mobility = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (face.m_n[k]->m_im <= 0) {
+      face_mobility = 0;  // as Bullet: a face with a pinned corner stands still
+      break;
+    }
+    face_mobility += contact.m_weights[k] * face.m_n[k]->m_im;
+  }
+  const btScalar sum = node.m_im + face_mobility * contact.m_weights.length2();
+  if (!(sum > 0)) return false;
+  contact.m_cfm[0] = node.m_im / sum;
+  contact.m_cfm[1] = face_mobility / sum;
+  return true;
+}
+
+void try_contact(btSoftBody& body, Node& node, Face& face, const Rules& rules) {
+  const Node &a = *face.m_n[0], &b = *face.m_n[1], &c = *face.m_n[2];
+  const btVector3 normal = btCross(b.m_x - a.m_x, c.m_x - a.m_x);
+  const btVector3 start_normal = btCross(b.m_q - a.m_q, c.m_q - a.m_q);
+  if (!(normal.length2() > 0) || !(start_normal.length2() > 0)) return;
+  const std::optional<btVector3> weights = place_over(face, node, normal);
+  if (!weights) return;
+  const btVector3 place = at(*weights, a.m_x, b.m_x, c.m_x);
+  const btVector3 start_place = at(*weights, a.m_q, b.m_q, c.m_q);
+  // The side on which the step began: a node that would pass the face is held back.
+  const btScalar start_height = btDot(node.m_q - start_place, start_normal.normalized());
+  const btVector3 outward = normal.normalized() * (start_height < 0 ? btScalar(-1) : btScalar(1));
+  const btScalar start_gap = btFabs(start_height);
+  const btScalar gap = btDot(node.m_x - place, outward);
+  const btScalar recovery = std::min(btScalar(1), kRecoveryRate * rules.time_step);
+  const btScalar wanted =
+      std::min(rules.thickness, start_gap + recovery * (rules.thickness - start_gap));
+  const btScalar target = start_gap < rules.thickness ? wanted : rules.thickness;
+  if (gap >= target) return;
+  btSoftBody::SContact contact;
+  contact.m_node = &node;
+  contact.m_face = &face;
+  contact.m_weights = *weights;
+  contact.m_normal = outward;
+  contact.m_margin = target;
+  if (!share_out(node, face, contact)) return;
+  const btVector3 motion = (node.m_x - node.m_q) - (place - start_place);
+  const btVector3 sliding = motion - outward * btDot(motion, outward);
+  contact.m_friction = friction_share(sliding, target - gap, rules);
+  body.m_scontacts.push_back(contact);
+}
+
+btVector3 mean_motion(const btSoftBody& body) {
+  btVector3 sum(0, 0, 0);
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    sum += body.m_nodes[i].m_x - body.m_nodes[i].m_q;
+  }
+  return sum / static_cast<btScalar>(std::max(1, body.m_nodes.size()));
+}
+
+btScalar squared_distance(const btVector3& point, const Face& face) {
+  const btVector3 from[] = {face.m_n[0]->m_x, face.m_n[1]->m_x, face.m_n[2]->m_x};
+  const btVector3 normal = btCross(from[1] - from[0], from[2] - from[0]);
+  btScalar best = SIMD_INFINITY;
+  bool is_over = normal.length2() > 0;
+  for (int k = 0; k < 3; ++k) {
+    const btVector3 along = from[(k + 1) % 3] - from[k];
+    const btVector3 to_point = point - from[k];
+    is_over = is_over && btDot(btCross(along, to_point), normal) >= 0;
+    const btScalar t =
+        btClamped(btDot(to_point, along) / std::max(along.length2(), SIMD_EPSILON * SIMD_EPSILON),
+                  btScalar(0), btScalar(1));
+    best = std::min(best, (to_point - t * along).length2());
+  }
+  if (!is_over) return best;
+  const btScalar height = btDot(point - from[0], normal.normalized());
+  return height * height;
+}
+
+void check(const ClothContactSettings& settings) {
+  const auto require = [](bool ok, const char* name, double value, const char* rest) {
+    if (ok) return;
+    throw InvalidArgument(std::string("cloth contact: ") + name + " = " + std::to_string(value) +
+                          rest);
+  };
+  require(std::isfinite(settings.self_thickness) && settings.self_thickness > 0, "self_thickness",
+          settings.self_thickness, " [m], expected > 0 and finite");
+  require(std::isfinite(settings.margin) && settings.margin > 0, "margin", settings.margin,
+          " [m], expected > 0 and finite");
+  require(std::isfinite(settings.friction) && settings.friction >= 0, "friction", settings.friction,
+          " [1], expected >= 0 and finite");
+}
+
+}  // namespace
+
+ClothContact::ClothContact(const btSoftBody& body, const ClothContactSettings& settings)
+    : settings_(settings) {
+  check(settings);
+  if (!settings.with_itself) return;
+  const auto thickness = static_cast<btScalar>(settings.self_thickness);
+  refit(body);
+  near_at_rest_.resize(static_cast<std::size_t>(body.m_nodes.size()));
+  for_candidates(body, thickness, *this, [&](int i, std::span<const int> slots) {
+    for (const int slot : slots) {
+      const btScalar squared =
+          squared_distance(body.m_nodes[i].m_x, body.m_faces[tree_.face(slot)]);
+      if (squared > thickness * thickness) continue;
+      near_at_rest_[static_cast<std::size_t>(i)].push_back(slot);
+    }
+  });
+}
+
+/// use(node, slots of faces that it may meet) for all nodes, in the order of their groups.
+template <class Use>
+void ClothContact::for_candidates(const btSoftBody& body, btScalar reach, const ClothContact& faces,
+                                  const Use& use) {
+  const auto box_of = [&](int i) {
+    return MotionBox::of(body.m_nodes[i], faces.motion_).grown(reach);
+  };
+  if (groups_.num_nodes() != body.m_nodes.size())
+    groups_.arrange(body);  // at first, and after a tear
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    MotionBox all = MotionBox::nowhere();
+    for (const int i : groups_[g]) all.include(box_of(i));
+    faces.tree_.find(all, nearby_);
+    if (nearby_.leaves.empty()) continue;
+    for (const int i : groups_[g]) use(i, faces.tree_.collect(box_of(i), nearby_));
+  }
+}
+
+void ClothContact::refit(const btSoftBody& body) {
+  motion_ = mean_motion(body);
+  tree_.refit(body, motion_);
+  is_tree_of_this_step_ = true;
+}
+
+// What was near the whole node at rest is near both of its halves.
+void ClothContact::add_copies(const std::vector<int>& origins) {
+  if (!settings_.with_itself) return;
+  for (const int origin : origins) {
+    near_at_rest_.push_back(std::vector<int>(near_at_rest_.at(static_cast<std::size_t>(origin))));
+  }
+}
+
+void ClothContact::add_self_contacts(btSoftBody& body, btScalar time_step) {
+  if (!settings_.with_itself) return;
+  const Rules rules{static_cast<btScalar>(settings_.self_thickness),
+                    static_cast<btScalar>(settings_.friction * settings_.friction), time_step,
+                    body.m_cfg.piterations};
+  refit(body);
+  for_candidates(body, kReach * rules.thickness, *this, [&](int i, std::span<const int> slots) {
+    const std::vector<int>& near = near_at_rest_[static_cast<std::size_t>(i)];
+    auto next = near.begin();  // both lists ascend
+    for (const int slot : slots) {
+      while (next != near.end() && *next < slot) ++next;
+      if (next != near.end() && *next == slot) continue;
+      try_contact(body, body.m_nodes[i], body.m_faces[tree_.face(slot)], rules);
+    }
+  });
+}
+
+void ClothContact::add_contacts(btSoftBody& body, btSoftBody& other, ClothContact& other_contact,
+                                btScalar time_step) {
+  const ClothContactSettings& theirs = other_contact.settings_;
+  const Rules rules{static_cast<btScalar>(settings_.margin + theirs.margin),
+                    static_cast<btScalar>(settings_.friction * theirs.friction), time_step,
+                    body.m_cfg.piterations};
+  if (!other_contact.is_tree_of_this_step_) other_contact.refit(other);
+  for_candidates(body, kReach * rules.thickness, other_contact,
+                 [&](int i, std::span<const int> slots) {
+                   for (const int slot : slots) {
+                     btSoftBody::Face& face = other.m_faces[other_contact.tree_.face(slot)];
+                     try_contact(body, body.m_nodes[i], face, rules);
+                   }
+                 });
+}
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <weft/bridge/bullet/precision.hpp>
+#include <weft/bridge/contact/face_tree.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+/// What a cloth collides with beside rigid bodies.
+struct ClothContactSettings {
+  bool with_itself = false;
+  bool with_others = false;      ///< with every other body that says so too
+  double self_thickness = 0.02;  ///< [m] distance that its layers keep, > 0
+  double margin = 0.01;          ///< [m] its share of the distance to another body, > 0
+  double friction = 0.5;         ///< Coulomb coefficient [-]; with another body: the product, >= 0
+};
+
+/// Contact of cloth with cloth: nodes against faces, found here and solved by Bullet.
+///
+/// Bullet's own (VF_SS) leaves a body's own faces out, takes the side from where the step would end,
+/// and solves one body after the other, so that what a later body gives an earlier one moves it and
+/// is lost: of two free cloths that meet, a tenth of the momentum is left. Here the side is that of
+/// the start of the step, a contact takes away the approach, and what is left of the thickness
+/// slowly, and SoftBodySolver derives all velocities once all are solved. It goes into
+/// btSoftBody::m_scontacts, so that Bullet's own iterations solve it together with its links.
+/// Edges against edges are not looked at: let the thickness be half the spacing of the nodes or
+/// more.
+class ClothContact {
+ public:
+  /// body in its rest shape: faces that are closer to a node than the thickness there, and its own,
+  /// are never in contact with it. Throws InvalidArgument for settings out of their domain.
+  ClothContact(const btSoftBody& body, const ClothContactSettings& settings);
+
+  [[nodiscard]] const ClothContactSettings& settings() const { return settings_; }
+  /// From now on with others too. margin [m] > 0, friction [-] >= 0.
+  void meet_others(double margin, double friction) {
+    settings_.with_others = true;
+    settings_.margin = margin;
+    settings_.friction = friction;
+  }
+  /// Nodes of the body were split (tearing.hpp): origins are the nodes that those appended were.
+  void add_copies(const std::vector<int>& origins);
+  /// Before btSoftBody::predictMotion: the body will be elsewhere.
+  void begin_step() { is_tree_of_this_step_ = false; }
+  /// After btSoftBody::predictMotion, before contacts with cloth are projected: where nodes are then is where contacts are
+  /// looked for. time_step [s].
+  void add_self_contacts(btSoftBody& body, btScalar time_step);
+  /// Contacts of the body's nodes with the faces of another one; add both ways. Likewise.
+  void add_contacts(btSoftBody& body, btSoftBody& other, ClothContact& other_contact,
+                    btScalar time_step);
+
+ private:
+  void refit(const btSoftBody& body);
+  template <class Use>
+  void for_candidates(const btSoftBody& body, btScalar reach, const ClothContact& faces,
+                      const Use& use);
+
+  ClothContactSettings settings_;
+  FaceTree tree_;
+  btVector3 motion_;  ///< [m] mean of the body's nodes, of the step that the tree is of
+  bool is_tree_of_this_step_ = false;
+  NodeGroups groups_;
+  FaceTree::Nearby nearby_;
+  std::vector<std::vector<int>> near_at_rest_;  ///< per node: slots of the tree, ascending
+};
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

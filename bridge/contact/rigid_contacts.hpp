@@ -1,0 +1,118 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <weft/bridge/bullet/precision.hpp>
+#include <weft/bridge/contact/face_tree.hpp>
+#include <weft/bridge/contact/surface_distance.hpp>
+#include <weft/fast_solver/threads/thread_team.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+/// The object without its const if impulses move it, nullptr otherwise.
+[[nodiscard]] btRigidBody* movable(const btCollisionObject* object);
+
+/// A node in front of a rigid surface: normal . x >= offset at the end of the step.
+struct RigidContact {
+  int node = 0;
+  btVector3 normal{0, 0, 0};  ///< out of the object
+  btScalar offset = 0;        ///< [m]
+  btVector3 motion{0, 0, 0};  ///< of the surface during the step [m]
+  const btCollisionObject* object = nullptr;
+  int obstacle = 0;  ///< Obstacle::number
+  // A dynamic object carries the plane with it: the node's place as seen from the object, in the world where the
+  // step began, and as the object has it; the normal as the object has it.
+  btVector3 met{0, 0, 0};
+  btVector3 met_by_object{0, 0, 0};
+  btVector3 normal_by_object{0, 0, 0};
+  btScalar gap = 0;  ///< of that place in front of the plane [m]
+};
+
+/// What a body's bounds meet: a whole object, or a part of it.
+struct Obstacle {
+  const btCollisionObject* object;
+  const btCollisionShape* shape;
+  btTransform place;         ///< where the step begins; of what is not dynamic, where it stands
+  const HullFacets* facets;  ///< of a hull, or nullptr
+  int number = 0;            ///< to tell the parts of an object from each other
+  btTransform object_place = btTransform::getIdentity();  ///< of the whole object, as place
+  /// Takes the points of a dynamic object from where the step begins to where it ends.
+  btTransform motion = btTransform::getIdentity();
+};
+
+/// An obstacle of the present step, before Bullet has moved it: dynamic ones are expected to go on with their velocity.
+[[nodiscard]] Obstacle make_obstacle(const btCollisionObjectWrapper& object,
+                                     const HullFacets* facets, int number, btScalar time_step);
+
+/// A body's nodes by where their ways lead, from m_q to m_x.
+class NodeWays {
+ public:
+  /// The ways are others than at the last update().
+  void outdate() { is_of_now_ = false; }
+  /// Does nothing unless outdate() was called. Takes new memory only if the number of nodes is another.
+  void update(const btSoftBody& body, fast::ThreadTeam* team = nullptr);
+  /// Boxes of groups of nodes, as NodeGroups has them.
+  [[nodiscard]] const std::vector<MotionBox>& boxes() const { return boxes_; }
+  [[nodiscard]] std::span<const int> group(std::size_t g) const { return groups_[g]; }
+  [[nodiscard]] const MotionBox& all() const { return all_; }
+
+  /// work(first group, group behind the last, contacts) for parts of the groups, by a team; appends what each adds, in
+  /// order.
+  template <class Work>
+  void collect(const Work& work, fast::ThreadTeam* team, std::vector<RigidContact>& contacts) {
+    const std::size_t num_parts = num_parts_for(team);
+    if (num_parts == 1) return work(std::size_t{0}, boxes_.size(), contacts);
+    found_.resize(std::max(found_.size(), num_parts));
+    team->run(static_cast<int>(num_parts), [&](int part) {
+      const auto p = static_cast<std::size_t>(part);
+      found_[p].clear();
+      work(boxes_.size() * p / num_parts, boxes_.size() * (p + 1) / num_parts, found_[p]);
+    });
+    for (std::size_t p = 0; p < num_parts; ++p) {
+      contacts.insert(contacts.end(), found_[p].begin(), found_[p].end());
+    }
+  }
+
+ private:
+  /// Groups of a part: some microseconds.
+  static constexpr std::size_t kGroups = 32;
+  [[nodiscard]] std::size_t num_parts_for(const fast::ThreadTeam* team) const {
+    if (team == nullptr || team->num_threads() == 1) return 1;
+    return std::clamp<std::size_t>(boxes_.size() / kGroups, 1, fast::ThreadTeam::kMostParts);
+  }
+
+  NodeGroups groups_;
+  std::vector<MotionBox> boxes_;
+  MotionBox all_ = MotionBox::nowhere();
+  bool is_of_now_ = false;
+  std::vector<std::vector<RigidContact>> found_;  ///< of each part
+};
+
+/// Which pinned nodes (without a mass of their own) have contacts.
+enum class PinnedNodes {
+  kLeftOut,            ///< none
+  kWithDynamicObjects  ///< those in front of objects that they can push
+};
+
+/// Appends the contacts of a body's nodes with an obstacle, between btSoftBody::predictMotion and
+/// solveConstraints of a step of time_step [s]. ways: of the body as it is.
+///
+/// Nodes are looked up at the predicted place, as the obstacle sees it, up to twice the collision margin: exactly (surface_distance()), or in
+/// Bullet's distance field of the shape, as Bullet does. A node that travels farther than the margin is followed along
+/// its way, relative to the object, and stopped at the surface that it meets first: however thin the
+/// object, it is not shot through. Anchored nodes are left out. By a team, in the same order for any.
+void add_rigid_contacts(const btSoftBody& body, NodeWays& ways, const Obstacle& obstacle,
+                        btScalar time_step, PinnedNodes pinned, std::vector<RigidContact>& contacts,
+                        fast::ThreadTeam* team = nullptr);
+
+/// Takes the plane of a contact with a dynamic object to where the object is at the end of the step.
+void follow_object(RigidContact& contact, const btTransform& object_place);
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

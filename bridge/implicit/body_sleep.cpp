@@ -1,0 +1,98 @@
+#include <weft/bridge/implicit/body_sleep.hpp>
+
+#include <algorithm>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+void BodySleep::wake() {
+  is_asleep_ = false;
+  rest_time_ = 0;
+}
+
+bool BodySleep::is_disturbed(const btSoftBody& body) const {
+  if (meets_motion_ || met_.size() != neighbours_.size()) return true;
+  for (const Neighbour& now : met_) {
+    const bool is_known =
+        std::any_of(neighbours_.begin(), neighbours_.end(), [&](const Neighbour& before) {
+          return before.object == now.object && before.place == now.place;
+        });
+    if (!is_known) return true;
+  }
+  if (at(body.m_anchors.size()) != anchors_.size()) return true;
+  for (int a = 0; a < body.m_anchors.size(); ++a) {
+    const btRigidBody* const rigid = body.m_anchors[a].m_body;
+    if (rigid != anchors_[at(a)].body) return true;
+    if (!(rigid->getWorldTransform() == anchors_[at(a)].place)) return true;
+  }
+  if (body.m_worldInfo->m_gravity != gravity_ || body.m_windVelocity != wind_) return true;
+  if (at(body.m_nodes.size()) != places_.size()) return true;
+  const btVector3 zero(0, 0, 0);
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    const btSoftBody::Node& node = body.m_nodes[i];
+    if (node.m_x != places_[at(i)] || node.m_v != zero || node.m_f != zero ||
+        node.m_im != inverse_masses_[at(i)]) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool BodySleep::begin_step(const btSoftBody& body) {
+  const bool wakes = is_asleep_ && is_disturbed(body);
+  if (wakes) wake();
+  met_.clear();
+  meets_motion_ = false;
+  return wakes;
+}
+
+void BodySleep::meet(const btCollisionObject& object, const btTransform& place) {
+  met_.push_back({&object, place});
+  // One that moves without our knowing why, or will, for nothing has put it to sleep.
+  if (!object.isStaticOrKinematicObject() && object.isActive()) meets_motion_ = true;
+}
+
+void BodySleep::meet_cloth(bool is_at_rest) {
+  if (!is_at_rest) meets_motion_ = true;
+}
+
+void BodySleep::remember(const btSoftBody& body) {
+  neighbours_ = met_;
+  anchors_.clear();
+  for (int a = 0; a < body.m_anchors.size(); ++a) {
+    const btRigidBody* const rigid = body.m_anchors[a].m_body;
+    anchors_.push_back({rigid, rigid->getWorldTransform()});
+  }
+  places_.clear();
+  inverse_masses_.clear();
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    places_.push_back(body.m_nodes[i].m_x);
+    inverse_masses_.push_back(body.m_nodes[i].m_im);
+  }
+  gravity_ = body.m_worldInfo->m_gravity;
+  wind_ = body.m_windVelocity;
+}
+
+void BodySleep::end_step(btSoftBody& body, btScalar time_step, const FastSettings& settings) {
+  if (is_asleep_) return;
+  const auto limit = static_cast<btScalar>(settings.sleep_speed * settings.sleep_speed);
+  bool is_slow = settings.may_sleep && !meets_motion_;
+  for (int i = 0; is_slow && i < body.m_nodes.size(); ++i) {
+    is_slow = body.m_nodes[i].m_v.length2() < limit;
+  }
+  rest_time_ = is_slow ? rest_time_ + static_cast<double>(time_step) : 0.0;
+  if (!is_at_rest(settings) || !is_slow) return;
+  for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_v.setZero();
+  remember(body);
+  is_asleep_ = true;
+}
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

@@ -1,0 +1,247 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <weft/bridge/bullet/precision.hpp>
+#include <weft/bridge/classic/node_normals.hpp>
+#include <weft/bridge/contact/rigid_contacts.hpp>
+#include <weft/bridge/fast_settings.hpp>
+#include <weft/bridge/implicit/bending_forces.hpp>
+#include <weft/bridge/implicit/body_sleep.hpp>
+#include <weft/bridge/implicit/force_history.hpp>
+#include <weft/bridge/implicit/node_team.hpp>
+#include <weft/bridge/implicit/stiffness_limit.hpp>
+#include <weft/bridge/rigid/pushed_bodies.hpp>
+#include <weft/bridge/rigid/rigid_motion.hpp>
+#include <weft/bridge/rigid/rigid_parts.hpp>
+#include <weft/bridge/step_error.hpp>
+#include <weft/custom_forces/law_info.hpp>
+#include <weft/fast_solver/implicit_solver.hpp>
+#include <weft/mesh/cloth_mesh.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+/// Implicit springs for one btSoftBody of the classic world: what stands in the place of
+/// btSoftBody::solveConstraints. Bullet's bookkeeping stays: nodes are predicted as by btSoftBody::predictMotion, m_q keeps
+/// the places at the start of the step, m_v follows from places, m_f is cleared.
+///
+/// Solved together: springs and dampers of the network, stabilised bending, anchors, contact with rigid
+/// shapes and Coulomb friction. Contacts with cloth (m_scontacts) are projected afterwards, as Bullet
+/// does it. A dynamic body takes part with its inertia; at the end of the step it gets the impulses, and is moved by them.
+/// Bullet's own links are not looked at.
+class FastBody : public NodeTeam {
+ public:
+  /// laws: all of the body's; those that are not implicit only lend their stiffness. masses: n [kg].
+  /// Throws InvalidArgument as make_network() and for an effort below 1.
+  FastBody(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
+           VectorX<double> masses, const FastSettings& settings);
+
+  /// Why a body cannot be stepped so; nothing for one that can.
+  [[nodiscard]] static std::optional<std::string> obstacle(const btSoftBody& body);
+
+  [[nodiscard]] const FastSettings& settings() const { return settings_; }
+  void set_settings(const FastSettings& settings) {
+    settings_ = settings;
+    wake();
+  }
+
+  /// The body has come apart: springs in the place of all that have an end among the changed nodes
+  /// (flags), masses of all nodes [kg], the last of which are copies of the origins.
+  void tear(const fast::SpringNetwork& springs, const std::vector<char>& is_changed,
+            VectorX<double> masses, const std::vector<int>& origins);
+
+  /// Laws of the body; those of bending follow the places within a step. To be called before each step.
+  void set_laws(const forces::LawSet<btScalar>& laws, const VectorX<btScalar>& masses) {
+    bending_.set_laws(laws, masses);
+  }
+  /// A body that sleeps is not to be stepped: only these are called.
+  [[nodiscard]] bool is_asleep() const { return sleep_.is_asleep(); }
+  [[nodiscard]] bool is_at_rest() const { return sleep_.is_at_rest(settings_); }
+  void wake();
+  void begin_step(const btSoftBody& body) {
+    step_error_ = {};
+    if (sleep_.begin_step(body)) last_step_ = 0;
+  }
+  void meet(const btCollisionObject& object, const btTransform& place) {
+    sleep_.meet(object, place);
+  }
+  void meet_cloth(bool is_at_rest) { sleep_.meet_cloth(is_at_rest); }
+  void end_step(btSoftBody& body, btScalar time_step) {
+    sleep_.end_step(body, time_step, settings_);
+  }
+
+  /// Forces that somebody else has added to m_f become velocities: impulses, which count once. Before the laws add theirs.
+  void take_impulses(btSoftBody& body, btScalar time_step);
+  /// btSoftBody::predictMotion. positions and velocities: m_x [m] and m_v [m/s], 3 x n. Touches only the body, but not
+  /// its entry in the broadphase: predictions of several bodies may run at the same time.
+  void predict(btSoftBody& body, btScalar time_step, const Matrix3X<btScalar>& positions,
+               const Matrix3X<btScalar>& velocities);
+  /// After predict(): tells the broadphase of the bounds, which hold the whole way of each node.
+  static void publish_bounds(btSoftBody& body);
+  /// In place of btSoftBody::defaultCollisionHandler: notes the object.
+  void collide(const btSoftBody& body, const btCollisionObjectWrapper& object, HullTable& hulls,
+               btScalar time_step);
+  /// Whether predict() was called in this step. A body that is woken up in between is to be left alone.
+  [[nodiscard]] bool is_predicted() const { return is_predicted_; }
+  /// Appends the rigid bodies that this one may push in this step, each once.
+  void list_pushed(const btSoftBody& body, std::vector<const btRigidBody*>& list) const;
+  /// Whether detect_contacts() and look_again() touch only the body too.
+  [[nodiscard]] bool looks_alone() const;
+  /// After prepare(), once Bullet has moved rigid bodies.
+  void detect_contacts(const btSoftBody& body, btScalar time_step);
+  /// In how many parts the step is to be taken, after detect_contacts(): in one the surface of a dynamic body that comes far
+  /// would have turned away from the nodes that it meets.
+  [[nodiscard]] int num_parts(const btSoftBody& body, btScalar time_step) const;
+  /// Appends the dynamic bodies that this one is near to or hangs on, each once.
+  void list_dynamic(const btSoftBody& body, std::vector<btRigidBody*>& list) const;
+  /// Around all parts; each is then a step of its own, from detect_contacts() to end_solve().
+  void begin_parts(const btSoftBody& body, btScalar time_step);
+  void begin_part(btSoftBody& body, const RigidParts& rigid, int part, int num_parts,
+                  btScalar part_step);
+  void end_parts(btSoftBody& body, btScalar time_step);
+  /// In place of btSoftBody::solveConstraints. prepare(), begin_solve(), solve_again() and end_solve() change only the
+  /// body, so that those of several bodies may run at the same time; place() pushes and moves rigid bodies.
+  /// pushed: those of all bodies, in order. Each of several that push one rigid body has a part of its inertia: they are
+  /// solved apart, and each alone would stop it.
+  void prepare(const btSoftBody& body);
+  void begin_solve(btSoftBody& body, btScalar time_step,
+                   std::span<const btRigidBody* const> pushed);
+  /// Looks for contacts that the solution needs, and for bodies that it has pushed into others: is_unfinished() says
+  /// whether it found any.
+  void look_again(btSoftBody& body, btScalar time_step);
+  [[nodiscard]] bool is_unfinished() const { return is_contact_missing_ || is_support_missing_; }
+  void solve_again(btSoftBody& body, btScalar time_step,
+                   std::span<const btRigidBody* const> pushed);
+  /// A step of the method of ForceHistory that has more energy than there was is solved by implicit Euler instead, which
+  /// cannot.
+  void solve_anew_if_it_gains(btSoftBody& body, btScalar time_step);
+  /// Writes the solution to m_x, if anybody looks at it before end_solve(). Contacts with cloth are projected then, over all bodies, as often as
+  /// kClothContactSweeps says, for what one body does to another would be lost otherwise.
+  void place(btSoftBody& body, btScalar time_step, bool is_looked_at);
+  void project_cloth_contacts(btSoftBody& body);
+  static constexpr int kClothContactSweeps = 16;
+  void end_solve(btSoftBody& body, btScalar time_step);  ///< velocities, from m_x
+  /// The velocities that this step leaves: what differs at the start of the next one has come from outside.
+  void note_velocities(const btSoftBody& body);
+  /// btSoftBody::updateNormals, once no node moves any more in this step.
+  void update_normals(btSoftBody& body);
+  [[nodiscard]] bool has_normals() const { return has_normals_; }
+  /// [s] What the end of this step's velocity counts of a rate: BDF2 takes two thirds of the step, and the rest from the steps before.
+  [[nodiscard]] btScalar velocity_step() const { return velocity_step_; }
+  static constexpr int kMostLooks = 2;  ///< how often look_again() is called
+
+  /// With rigid objects, of the last step.
+  [[nodiscard]] const std::vector<RigidContact>& contacts() const { return contacts_; }
+  /// The largest over the parts of a step.
+  [[nodiscard]] const StepError& step_error() const { return step_error_; }
+
+ private:
+  enum class Method { kEuler, kBdf2, kForces };
+  /// Kinetic energy of a solution, and the most that what was there and was put in leaves to it [J].
+  struct EnergyBalance {
+    double kinetic;
+    double most;
+  };
+  void solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort, bool is_again);
+  [[nodiscard]] bool take_pushed_places(const btSoftBody& body);
+  void prepare_solver(const btSoftBody& body);
+  void set_free(const std::vector<bool>& is_free);
+  [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
+  [[nodiscard]] bool may_use_forces(const btSoftBody& body, btScalar time_step);
+  [[nodiscard]] Method choose_method(const btSoftBody& body, btScalar time_step);
+  void set_targets(const btSoftBody& body, Method method, btScalar time_step);
+  void find_velocities();
+  void keep_forces(btScalar time_step);
+  [[nodiscard]] bool are_places_kept();
+  void list_known(const btSoftBody& body);
+  [[nodiscard]] RigidContact* known_contact(const RigidContact& found);
+  void follow_obstacles(bool to_solution);
+  [[nodiscard]] btTransform solved_place(const btRigidBody& rigid) const;
+  void find_contacts(const btSoftBody& body, const Obstacle& obstacle, btScalar time_step,
+                     std::vector<RigidContact>& contacts);
+  /// Contacts that the solution would need, and that nobody looked for where Bullet had predicted the
+  /// nodes. True if there are any.
+  [[nodiscard]] bool find_missed_contacts(btSoftBody& body, btScalar time_step);
+  void choose_origin(const btSoftBody& body);
+  [[nodiscard]] bool was_pushed();
+  void read_prediction(const btSoftBody& body);
+  [[nodiscard]] btVector3 in_world(int node) const;
+  void write_places(btSoftBody& body);
+  void read_constraints(const btSoftBody& body, btScalar time_step, bool is_again);
+  void give_impulses(btSoftBody& body, btScalar time_step);
+  void keep_out_of_missed(btSoftBody& body, btScalar time_step);
+  void leave_depths();
+  void stay_outside(btSoftBody& body) const;
+  [[nodiscard]] bool gets_work_from_outside() const;
+  [[nodiscard]] EnergyBalance energy_balance(btScalar time_step, double for_bodies);
+  void keep_energy(btScalar time_step);
+
+  BendingForces bending_;
+  fast::SpringNetwork network_;  ///< until solver_ has it
+  LimitedStiffness limited_;
+  VectorX<double> masses_;
+  FastSettings settings_;
+  std::unique_ptr<fast::ImplicitSolver<btScalar>> solver_;
+  std::vector<bool> is_free_;     ///< that solver_ knows
+  std::vector<int> solver_pins_;  ///< likewise
+  std::vector<int> pins_;         ///< of the present step
+  BodySleep sleep_;
+  Vector3<btScalar> origin_ = Vector3<btScalar>::Zero();  ///< that places are counted from [m]
+  // The present step, 3 x n.
+  Matrix3X<btScalar> weights_;           ///< masses, each thrice [kg]; 0 for pins
+  Matrix3X<btScalar> starts_;            ///< q [m]
+  Matrix3X<btScalar> start_velocities_;  ///< v [m/s]
+  Matrix3X<btScalar> predicted_;         ///< v + h a [m/s]
+  Matrix3X<btScalar> origins_;           ///< what velocities are counted from [m]
+  Matrix3X<btScalar> targets_;           ///< y [m]
+  Matrix3X<btScalar> places_;            ///< solution [m]
+  Matrix3X<btScalar> velocities_;        ///< solution [m/s]
+  // The whole step, while it is taken in parts.
+  Matrix3X<btScalar> whole_starts_;    ///< [m]
+  Matrix3X<btScalar> accelerations_;   ///< without springs [m/s^2]
+  std::vector<btVector3> pin_places_;  ///< of pins_, at the end [m]
+  // The step before.
+  Matrix3X<btScalar> last_starts_;
+  Matrix3X<btScalar> last_velocities_;
+  btScalar last_spacing_ = 0;           ///< [s] from last_starts_ to starts_
+  Matrix3X<btScalar> impulses_;         ///< of the present step, over masses [m/s]; empty: none
+  Matrix3X<btScalar> left_velocities_;  ///< at its end, after damping
+  ForceHistory force_history_;
+  btScalar inertia_step_ = 0;       ///< [s] of the present step
+  btScalar velocity_step_ = 0;      ///< [s] likewise: from origins_ to places_
+  int parts_ = 1;                   ///< of the present step
+  int last_parts_ = 1;              ///< of the last one
+  Method method_ = Method::kEuler;  ///< of the present step
+  btScalar last_step_ = 0;          ///< [s]; 0: no history
+  bool is_predicted_ = false;
+  bool has_normals_ = false;   ///< of the places at the end of the present step
+  bool is_placed_ = false;     ///< before end_solve()
+  bool is_projected_ = false;  ///< out of what the solution let a node into
+  StepError step_error_;
+  double given_to_bodies_ = 0;       ///< kinetic energy, in the present step [J]
+  double excess_ = 0;                ///< energy in springs that projections have put in [J]
+  bool is_contact_missing_ = false;  ///< in the present solution, for all that is known
+  bool is_support_missing_ = false;  ///< likewise
+  std::vector<Obstacle> obstacles_;  ///< of this step
+  NodeWays ways_;
+  NodeNormals normals_;
+  std::vector<RigidContact> contacts_;
+  std::vector<RigidContact> found_;  ///< of a second look
+  std::vector<RigidContact> deep_;   ///< of it, with what is immovable, where it is far inside
+  std::vector<int> last_contact_;    ///< of each node, or -1; contact_before_: the one before it
+  std::vector<int> contact_before_;
+  std::vector<fast::PlaneContact<btScalar>> plane_contacts_;
+  std::vector<fast::LedNode<btScalar>> led_;
+  PushedBodies pushed_;
+  std::vector<int> scratch_;  ///< kept for its memory
+};
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

@@ -1,0 +1,233 @@
+// What touches or leads a fast body, as its solver sees it, and what that gets from it.
+#include <algorithm>
+
+#include <weft/bridge/bullet/bullet_vector.hpp>
+#include <weft/bridge/implicit/fast_body.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+namespace {
+
+void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& place) {
+  rigid.activate();
+  rigid.applyImpulse(impulse, place - rigid.getCenterOfMassPosition());
+}
+
+/// How far below its plane a node may end a step, as a share of the margin [-].
+constexpr btScalar kDepthShare = btScalar(0.5);
+/// By how much a plane may be wrong where the node has come to, as a share of the margin [-].
+constexpr btScalar kPlaneShare = btScalar(0.02);
+}  // namespace
+
+void FastBody::find_contacts(const btSoftBody& body, const Obstacle& obstacle, btScalar time_step,
+                             std::vector<RigidContact>& contacts) {
+  ways_.update(body, &team_);
+  add_rigid_contacts(body, ways_, obstacle, time_step, PinnedNodes::kLeftOut, contacts, &team_);
+}
+
+// Where a rigid body is at the end of the step: as Bullet has moved it, and as the last solution moves it further.
+btTransform FastBody::solved_place(const btRigidBody& rigid) const {
+  btTransform place = rigid.getCenterOfMassTransform();
+  const RigidWay way = pushed_.way_of(rigid);
+  if (way.isZero(0)) return place;
+  place.setOrigin(place.getOrigin() + to_bullet(way.head<3>().eval()));
+  const btScalar angle = way.tail<3>().norm();
+  if (angle > 0) {
+    const btVector3 axis = to_bullet((way.tail<3>() / angle).eval());
+    place.setBasis(btMatrix3x3(btQuaternion(axis, angle)) * place.getBasis());
+  }
+  return place;
+}
+
+void FastBody::follow_obstacles(bool to_solution) {
+  for (Obstacle& obstacle : obstacles_) {
+    const btRigidBody* const rigid = movable(obstacle.object);
+    if (rigid == nullptr) continue;
+    const btTransform end = to_solution ? solved_place(*rigid) : rigid->getCenterOfMassTransform();
+    obstacle.motion = end * obstacle.object_place.inverse();
+  }
+}
+
+// The contact that is known of a node and an obstacle, after list_known().
+RigidContact* FastBody::known_contact(const RigidContact& found) {
+  for (int c = last_contact_[static_cast<std::size_t>(found.node)]; c >= 0;
+       c = contact_before_[static_cast<std::size_t>(c)]) {
+    RigidContact& known = contacts_[static_cast<std::size_t>(c)];
+    if (known.obstacle == found.obstacle) return &known;
+  }
+  return nullptr;
+}
+
+void FastBody::list_known(const btSoftBody& body) {
+  last_contact_.assign(static_cast<std::size_t>(body.m_nodes.size()), -1);
+  contact_before_.resize(contacts_.size());
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    int& last = last_contact_[static_cast<std::size_t>(contacts_[c].node)];
+    contact_before_[c] = last;
+    last = static_cast<int>(c);
+  }
+}
+
+// Whether the solution needs contacts that are not known. Those that it keeps to anyway are left out. Where a dynamic object
+// was met by another place of the node than it has come to, the plane there counts from now on.
+bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
+  deep_.clear();
+  if (obstacles_.empty()) return false;
+  write_places(body);
+  found_.clear();
+  ways_.outdate();
+  for (const Obstacle& obstacle : obstacles_) find_contacts(body, obstacle, time_step, found_);
+  if (found_.empty()) return false;
+  list_known(body);
+  const btScalar margin = body.getCollisionShape()->getMargin();
+  const std::size_t num_known = contacts_.size();
+  bool is_any_wrong = false;
+  for (RigidContact& found : found_) {
+    const btVector3& place = body.m_nodes[found.node].m_x;
+    const btScalar gap = btDot(found.normal, place) - found.offset;
+    const btRigidBody* const rigid = movable(found.object);
+    if (gap < -kDepthShare * margin && rigid == nullptr) deep_.push_back(found);
+    RigidContact* const known = known_contact(found);
+    if (known != nullptr && rigid != nullptr) {
+      RigidContact solved = *known;
+      follow_object(solved, solved_place(*rigid));
+      const btScalar known_gap = btDot(solved.normal, place) - solved.offset;
+      if (std::abs(std::min(gap, known_gap)) < margin &&
+          std::abs(gap - known_gap) > kPlaneShare * margin) {
+        *known = found;
+        is_any_wrong = true;
+      }
+    } else if (known == nullptr && gap < 0) {
+      contacts_.push_back(found);
+    }
+  }
+  for (RigidContact& contact : contacts_) {
+    if (const btRigidBody* const rigid = movable(contact.object)) {
+      follow_object(contact, rigid->getCenterOfMassTransform());
+    }
+  }
+  return is_any_wrong || contacts_.size() > num_known;
+}
+
+// Contacts that only the last solution shows: nodes that slide from one facet into the next. Not out of dynamic objects, which would have
+// to be pushed for that: a node that is left inside of one comes out in the next step.
+void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
+  if (!is_unfinished()) return;
+  const std::size_t num_solved = contacts_.size();
+  for (int look = 0; look <= kMostLooks && find_missed_contacts(body, time_step); ++look) {
+    for (const RigidContact& contact : contacts_) {
+      if (movable(contact.object) != nullptr) continue;
+      is_projected_ = true;
+      if (look == kMostLooks && &contact >= &contacts_[num_solved]) {  // between two facets
+        places_.col(contact.node) =
+            starts_.col(contact.node) + from_bullet<btScalar>(contact.motion);
+        continue;
+      }
+      const Vector3<btScalar> normal = from_bullet<btScalar>(contact.normal);
+      const btScalar gap = normal.dot(places_.col(contact.node) + origin_) - contact.offset;
+      if (gap < 0) places_.col(contact.node) -= gap * normal;
+    }
+  }
+  contacts_.resize(num_solved);  // the others have no force in the solution
+}
+
+// A node is held by one plane at a time; where facets meet, that of one may let it into another. Where the step
+// began it was outside.
+void FastBody::leave_depths() {
+  is_projected_ = is_projected_ || !deep_.empty();
+  for (const RigidContact& contact : deep_) {
+    const Vector3<btScalar> normal = from_bullet<btScalar>(contact.normal);
+    const Vector3<btScalar> start =
+        starts_.col(contact.node) + from_bullet<btScalar>(contact.motion);
+    if (normal.dot(start) > normal.dot(places_.col(contact.node)))
+      places_.col(contact.node) = start;
+  }
+}
+
+// Other cloth may have pushed nodes into what does not give way.
+void FastBody::stay_outside(btSoftBody& body) const {
+  for (const RigidContact& contact : contacts_) {
+    if (movable(contact.object) != nullptr) continue;
+    btSoftBody::Node& node = body.m_nodes[contact.node];
+    const btScalar gap = btDot(contact.normal, node.m_x) - contact.offset;
+    if (gap < 0 && node.m_im > 0) node.m_x -= gap * contact.normal;
+  }
+}
+
+// Those that are only near are not meant: a cloth that holds a body alone has to move all of it.
+void FastBody::list_pushed(const btSoftBody& body, std::vector<const btRigidBody*>& list) const {
+  const std::size_t num_before = list.size();
+  const auto add = [&](const btRigidBody* rigid) {
+    const auto mine = list.begin() + static_cast<std::ptrdiff_t>(num_before);
+    if (rigid != nullptr && std::find(mine, list.end(), rigid) == list.end()) list.push_back(rigid);
+  };
+  for (int a = 0; a < body.m_anchors.size(); ++a) add(movable(body.m_anchors[a].m_body));
+  for (const RigidContact& contact : contacts_) {
+    const btRigidBody* const rigid = movable(contact.object);
+    if (rigid == nullptr) continue;
+    const bool is_inside = btDot(contact.normal, body.m_nodes[contact.node].m_x) < contact.offset;
+    if (is_inside || !pushed_.way_of(*rigid).isZero(0)) add(rigid);
+  }
+}
+
+void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool is_again) {
+  pushed_.clear();
+  btDispatcher* const dispatcher = body.m_worldInfo->m_dispatcher;
+  const auto arm_of = [](const btRigidBody& rigid, const btVector3& place) {
+    return from_bullet<btScalar>(place - rigid.getCenterOfMassPosition());
+  };
+  plane_contacts_.clear();
+  for (const RigidContact& contact : contacts_) {
+    fast::PlaneContact<btScalar> plane;
+    plane.node = contact.node;
+    plane.normal = from_bullet<btScalar>(contact.normal);
+    plane.offset = contact.offset - plane.normal.dot(origin_);
+    plane.motion = from_bullet<btScalar>(contact.motion);
+    plane.friction = body.m_cfg.kDF * contact.object->getFriction();
+    if (const btRigidBody* const rigid = movable(contact.object)) {
+      plane.body = pushed_.number_of(*rigid, dispatcher, time_step, is_again);
+      // Where the surface holds the node, which is predicted to be deep inside.
+      const btVector3& place = body.m_nodes[contact.node].m_x;
+      const btScalar gap = btDot(contact.normal, place) - contact.offset;
+      plane.arm = arm_of(*rigid, place - std::min(btScalar(0), gap) * contact.normal);
+    }
+    plane_contacts_.push_back(plane);
+  }
+  led_.clear();
+  for (int a = 0; a < body.m_anchors.size(); ++a) {
+    const btSoftBody::Anchor& anchor = body.m_anchors[a];
+    const auto node = static_cast<int>(anchor.m_node - &body.m_nodes[0]);
+    if (!is_free_[static_cast<std::size_t>(node)]) continue;
+    const bool is_led = std::any_of(led_.begin(), led_.end(),
+                                    [&](const auto& other) { return other.node == node; });
+    if (is_led) continue;  // by an anchor before
+    const btVector3 place = anchor.m_body->getWorldTransform() * anchor.m_local;
+    fast::LedNode<btScalar> led;
+    led.node = node;
+    led.place = from_bullet<btScalar>(place) - origin_;
+    if (const btRigidBody* const rigid = movable(anchor.m_body)) {
+      led.body = pushed_.number_of(*rigid, dispatcher, time_step, is_again);
+      led.arm = arm_of(*rigid, place);
+    }
+    led_.push_back(led);
+  }
+}
+
+void FastBody::give_impulses(btSoftBody& body, btScalar time_step) {
+  given_to_bodies_ = -pushed_.kinetic_energy();
+  pushed_.give_impulses(time_step);
+  for (int a = 0; a < body.m_anchors.size(); ++a) {  // that push with a part only
+    const btSoftBody::Anchor& anchor = body.m_anchors[a];
+    if (anchor.m_influence == 1 || movable(anchor.m_body) == nullptr) continue;
+    const auto node = static_cast<int>(anchor.m_node - &body.m_nodes[0]);
+    // A force that acts with the whole step.
+    const btScalar share = inertia_step_ * inertia_step_ / (time_step * time_step);
+    const btVector3 impulse = share * time_step * to_bullet(solver_->holding_force(node));
+    push(*anchor.m_body, (1 - anchor.m_influence) * impulse, in_world(node));
+  }
+  given_to_bodies_ += pushed_.kinetic_energy();
+  pushed_.move_at_once(time_step);
+}
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

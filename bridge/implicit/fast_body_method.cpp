@@ -1,0 +1,191 @@
+// The methods that integrate a step: implicit Euler, BDF2 and that of ForceHistory, and the energy that is left to a step.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <weft/bridge/bullet/bullet_vector.hpp>
+#include <weft/bridge/implicit/energy_limit.hpp>
+#include <weft/bridge/implicit/fast_body.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+namespace {
+
+/// How much a step may gain by rounding, as a share of m |y - q|^2 / (2 h^2) [-].
+constexpr double kEnergySlack = 0.01;
+
+/// How much a method may seem to gain whose velocities are those of the middle of a step, as a share of all energy [-].
+constexpr double kBalanceSlack = 3e-2;
+/// How fast a dynamic body is that springs throw back, or what they have done to it, over what gravity does in a step [-].
+constexpr btScalar kLively = btScalar(2.5);
+
+}  // namespace
+
+// BDF2 takes a change of velocity between steps for the beginning of a trend, and makes 4/3 of it: such a step is implicit
+// Euler, which counts it once. The steps after it have a history that has had that velocity. Velocities of pins belong to
+// whoever leads them, and are part of no history.
+bool FastBody::was_pushed() {
+  if (impulses_.cols() > 0) return true;
+  if (left_velocities_.cols() != start_velocities_.cols()) return false;
+  for (const int pin : pins_) left_velocities_.col(pin) = start_velocities_.col(pin);
+  return left_velocities_ != start_velocities_;
+}
+
+bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
+  if (!settings_.is_second_order || last_step_ != time_step || !contacts_.empty() ||
+      body.m_scontacts.size() > 0 || was_pushed()) {
+    return false;
+  }
+  return are_places_kept();
+}
+
+// With dynamic bodies that springs throw back. What only lies there comes to rest by the damping of implicit Euler.
+bool FastBody::may_use_forces(const btSoftBody& body, btScalar time_step) {
+  if (!settings_.is_second_order || !force_history_.fits(starts_.cols(), time_step) ||
+      body.m_scontacts.size() > 0) {
+    return false;
+  }
+  const auto is_lively = [&](const RigidContact& contact) {
+    const btRigidBody* const rigid = movable(contact.object);
+    if (rigid == nullptr) return false;
+    const btScalar least = kLively * rigid->getGravity().length() * time_step;
+    const btScalar change = pushed_.way_of(*rigid).template head<3>().norm() / time_step;
+    return rigid->getLinearVelocity().length() > least || change > least;
+  };
+  return std::any_of(contacts_.begin(), contacts_.end(), is_lively) && are_places_kept();
+}
+
+// Somebody may have moved a node since the last step.
+bool FastBody::are_places_kept() {
+  if (places_.cols() != starts_.cols()) return false;
+  for (const int pin : pins_) places_.col(pin) = starts_.col(pin);
+  std::array<bool, fast::ThreadTeam::kMostParts> is_same;
+  is_same.fill(true);
+  fast::run_parts(team_, static_cast<int>(starts_.cols()), [&](int part, int begin, int end) {
+    is_same[static_cast<std::size_t>(part)] =
+        places_.middleCols(begin, end - begin) == starts_.middleCols(begin, end - begin);
+  });
+  return std::all_of(is_same.begin(), is_same.end(), [](bool same) { return same; });
+}
+
+FastBody::Method FastBody::choose_method(const btSoftBody& body, btScalar time_step) {
+  if (may_use_history(body, time_step)) return Method::kBdf2;
+  return may_use_forces(body, time_step) ? Method::kForces : Method::kEuler;
+}
+
+// From what Bullet has predicted, velocities v + h a: where nodes would go without springs.
+void FastBody::set_targets(const btSoftBody& body, Method method, btScalar time_step) {
+  const bool uses_history = method == Method::kBdf2;
+  method_ = method;
+  inertia_step_ = uses_history                ? time_step * 2 / 3
+                  : method == Method::kForces ? std::sqrt(ForceHistory::kShare) * time_step
+                                              : time_step;
+  velocity_step_ = uses_history ? inertia_step_ : time_step;
+  if (method == Method::kForces) force_history_.begin_step(time_step);
+  for (Matrix3X<btScalar>* vectors : {&origins_, &targets_, &places_}) {
+    vectors->resize(3, starts_.cols());
+  }
+  for_nodes([&](int begin, int count) {
+    const auto of = [&](Matrix3X<btScalar>& vectors) { return vectors.middleCols(begin, count); };
+    if (uses_history) {
+      of(origins_) = (4 * of(starts_) - of(last_starts_)) / 3;
+      of(targets_) = of(origins_) +
+                     inertia_step_ * ((4 * of(start_velocities_) - of(last_velocities_)) / 3 +
+                                      (of(predicted_) - of(start_velocities_)) * btScalar(2) / 3);
+    } else {
+      of(origins_) = of(starts_);
+      of(targets_) = of(origins_) + time_step * of(predicted_);
+    }
+    if (method == Method::kForces) {
+      for (int i = begin; i < begin + count; ++i) {
+        const auto mass = static_cast<btScalar>(masses_[i]);
+        if (mass > 0) targets_.col(i) += time_step * time_step / mass * force_history_.known(i);
+      }
+    }
+    of(places_) = of(starts_) + time_step * of(start_velocities_);
+    // Springs may hold back at once what a force would do alone.
+    if (impulses_.cols() > 0) of(places_) -= time_step * of(impulses_);
+  });
+  for (const int pin : pins_) {
+    targets_.col(pin) = from_bullet<btScalar>(body.m_nodes[pin].m_x) - origin_;
+  }
+}
+
+void FastBody::find_velocities() {
+  velocities_.resize(3, places_.cols());
+  for_nodes([&](int begin, int count) {
+    auto velocities = velocities_.middleCols(begin, count);
+    velocities = places_.middleCols(begin, count) - origins_.middleCols(begin, count);
+    solver_->add_remainders(begin, velocities);
+    velocities /= velocity_step_;
+  });
+}
+
+// Pins and anchors that lead, led obstacles and other cloth do work that nobody knows.
+bool FastBody::gets_work_from_outside() const {
+  if (!led_.empty()) return true;
+  for (const RigidContact& contact : contacts_) {
+    if (contact.motion.length2() > 0 && movable(contact.object) == nullptr) return true;
+    if (btRigidBody::upcast(contact.object) == nullptr)
+      return true;  // a ghost, a link: nobody knows how it moves
+  }
+  return std::any_of(pins_.begin(), pins_.end(),
+                     [&](int pin) { return places_.col(pin) != starts_.col(pin); });
+}
+
+// Only where a dynamic body is near enough that springs may have to throw it back.
+void FastBody::keep_forces(btScalar time_step) {
+  const bool is_any_near =
+      std::any_of(obstacles_.begin(), obstacles_.end(),
+                  [](const Obstacle& obstacle) { return movable(obstacle.object) != nullptr; });
+  if (!is_any_near) return force_history_.forget();
+  force_history_.resize(places_.cols(), time_step);
+  for_nodes([&](int begin, int count) {
+    solver_->get_forces(begin, force_history_.coming(begin, count));
+    force_history_.add(begin, count);
+  });
+}
+
+FastBody::EnergyBalance FastBody::energy_balance(btScalar time_step, double for_bodies) {
+  weights_.resize(3, masses_.size());
+  for (int axis = 0; axis < 3; ++axis) weights_.row(axis) = masses_.transpose().cast<btScalar>();
+  for (const int pin : pins_) weights_.col(pin).setZero();
+  const double given =
+      energy_put_in({weights_, starts_, start_velocities_, predicted_, places_, time_step}, team_);
+  const double start = solver_->spring_energy(starts_, team_);
+  const double end = solver_->spring_energy(places_, team_);
+  const bool is_between = method_ == Method::kForces;
+  // Where velocities are those of the middle of a step, what springs store from middle to middle counts.
+  double stored = end - start;
+  if (is_between) {
+    const btScalar share = std::min(btScalar(1), time_step / last_spacing_);
+    stored += static_cast<double>(share) * (start - solver_->spring_energy(last_starts_, team_));
+    stored /= 2;
+  }
+  const double slack =
+      !is_between ? kEnergySlack * solver_->step_energy() : kBalanceSlack * (given + start);
+  return {kinetic_energy(weights_, velocities_, team_),
+          given - for_bodies - stored - excess_ + slack};
+}
+
+// A node that is put out of a surface after the solution stretches springs, and a very stiff sheet would throw it back with
+// energy that nobody has given to it. What is stored in springs cannot be taken away without another step: it is kept in mind
+// until it comes out as motion. Solutions without contacts that stay as they are gain nothing and are not looked at; a plane may
+// have a node's start behind it, where the surface is curved and the node fast.
+void FastBody::keep_energy(btScalar time_step) {
+  if (gets_work_from_outside()) {
+    excess_ = 0;
+    return;
+  }
+  const bool is_free = contacts_.empty() && pushed_.empty() && !is_projected_;
+  if (solver_->report().is_converged && is_free && excess_ == 0) return;
+  const EnergyBalance balance = energy_balance(time_step, given_to_bodies_);
+  if (balance.kinetic > balance.most) {
+    limit_energy(weights_, balance.most, pins_.empty(), velocities_, team_);
+  }
+  const bool is_debt = is_projected_ || !pushed_.empty() || excess_ > 0;
+  excess_ = is_debt ? std::max(0.0, -balance.most) : 0.0;
+}
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

@@ -1,0 +1,120 @@
+// A step in parts: where a dynamic body comes so far in one that its surface has turned away from the nodes that it met.
+#include <algorithm>
+#include <cmath>
+
+#include <weft/bridge/bullet/bullet_vector.hpp>
+#include <weft/bridge/implicit/fast_body.hpp>
+#include <weft/bridge/rigid/rigid_parts.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+namespace {
+
+/// How far a shape may come towards a node in one part, as a share of its smallest half extent [-].
+constexpr btScalar kPartShare = btScalar(0.2);
+/// Likewise: how far springs may push it back in one.
+constexpr btScalar kPushShare = btScalar(0.05);
+constexpr int kMostParts = 32;
+
+btScalar smallest_half_extent(const btCollisionShape& shape) {
+  btVector3 low;
+  btVector3 high;
+  shape.getAabb(btTransform::getIdentity(), low, high);
+  const btVector3 size = (high - low) / 2;
+  return std::min({size.x(), size.y(), size.z()});
+}
+
+}  // namespace
+
+int FastBody::num_parts(const btSoftBody& body, btScalar time_step) const {
+  btScalar most = 1;
+  bool touches_dynamic = false;
+  for (const RigidContact& contact : contacts_) {
+    const btRigidBody* const rigid = movable(contact.object);
+    if (rigid == nullptr) continue;
+    touches_dynamic = true;
+    const Obstacle& obstacle = obstacles_[static_cast<std::size_t>(contact.obstacle)];
+    const btVector3 normal = obstacle.object_place.getBasis() * contact.normal_by_object;
+    const btScalar way = btDot(normal, body.m_nodes[contact.node].m_q - contact.met);
+    // By what cloth has done to it in the last solve: so it will go on.
+    const btScalar weight = 2 * time_step * time_step * rigid->getGravity().length();
+    const btScalar pushed = pushed_.push_in(*rigid, time_step) - weight;
+    const btScalar size =
+        std::max(smallest_half_extent(*obstacle.shape), body.getCollisionShape()->getMargin());
+    most = std::max({most, way / (kPartShare * size), pushed / (kPushShare * size)});
+  }
+  // Not much fewer than before: what short steps have begun goes on.
+  if (touches_dynamic) most = std::max(most, static_cast<btScalar>(last_parts_) / 2);
+  return std::min(kMostParts, static_cast<int>(std::ceil(most)));
+}
+
+void FastBody::list_dynamic(const btSoftBody& body, std::vector<btRigidBody*>& list) const {
+  const auto add = [&](const btCollisionObject* object) {
+    btRigidBody* const rigid = movable(object);
+    if (rigid != nullptr && std::find(list.begin(), list.end(), rigid) == list.end()) {
+      list.push_back(rigid);
+    }
+  };
+  for (const Obstacle& obstacle : obstacles_) add(obstacle.object);
+  for (int a = 0; a < body.m_anchors.size(); ++a) add(body.m_anchors[a].m_body);
+}
+
+void FastBody::begin_parts(const btSoftBody& body, btScalar time_step) {
+  whole_starts_ = starts_;
+  accelerations_ = (predicted_ - start_velocities_) / time_step;
+  pin_places_.clear();
+  for (const int pin : pins_) pin_places_.push_back(body.m_nodes[pin].m_x);
+}
+
+void FastBody::begin_part(btSoftBody& body, const RigidParts& rigid, int part, int num_parts,
+                          btScalar part_step) {
+  if (part > 0) {
+    last_starts_ = starts_;
+    last_spacing_ = part_step;
+    for (int i = 0; i < body.m_nodes.size(); ++i) {
+      starts_.col(i) = from_bullet<btScalar>(body.m_nodes[i].m_x) - origin_;
+    }
+    start_velocities_ = velocities_;
+    impulses_.resize(3, 0);
+  }
+  last_step_ = 0;  // BDF2 knows no parts
+  parts_ = num_parts;
+  const btScalar reached = static_cast<btScalar>(part + 1) / static_cast<btScalar>(num_parts);
+  predicted_ = start_velocities_ + part_step * accelerations_;
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    btSoftBody::Node& node = body.m_nodes[i];
+    node.m_q = to_bullet((starts_.col(i) + origin_).eval());
+    if (node.m_im > 0)
+      node.m_x = to_bullet((starts_.col(i) + part_step * predicted_.col(i) + origin_).eval());
+  }
+  for (std::size_t k = 0; k < pins_.size(); ++k) {
+    const btVector3 start = to_bullet((whole_starts_.col(pins_[k]) + origin_).eval());
+    body.m_nodes[pins_[k]].m_x =
+        part + 1 == num_parts ? pin_places_[k] : start.lerp(pin_places_[k], reached);
+  }
+  contacts_.clear();
+  pushed_.begin_step();
+  is_support_missing_ = false;
+  ways_.outdate();
+  for (Obstacle& obstacle : obstacles_) {
+    const btRigidBody* const dynamic = movable(obstacle.object);
+    if (dynamic == nullptr) continue;
+    const btTransform start = rigid.start_of(*dynamic);
+    obstacle.place = start * obstacle.object_place.inverse() * obstacle.place;
+    obstacle.object_place = start;
+  }
+}
+
+void FastBody::end_parts(btSoftBody& body, btScalar time_step) {
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    btSoftBody::Node& node = body.m_nodes[i];
+    node.m_q = to_bullet((whole_starts_.col(i) + origin_).eval());
+    if (node.m_im <= 0) node.m_v = (node.m_x - node.m_q) / time_step;
+  }
+  starts_ = whole_starts_;
+  velocity_step_ = time_step;  // rates of damping count for the whole step
+  last_step_ = 0;
+}
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

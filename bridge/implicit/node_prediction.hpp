@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <weft/bridge/bullet/precision.hpp>
+#include <weft/core/types.hpp>
+#include <weft/fast_solver/threads/thread_team.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+/// Whether predict_nodes() is enough for a body: its constants are up to date, and it has neither clusters nor a frame
+/// that its pose is matched to, nor Bullet's own air and pressure.
+[[nodiscard]] bool is_plain(const btSoftBody& body);
+
+/// btSoftBody::predictMotion for a plain body, to the same bits of m_x, m_q, m_v and m_f, in one pass over its nodes.
+/// The broadphase is not told; m_bounds hold where nodes are and where they will be.
+///
+/// Boxes of the tree of nodes hold what Bullet's would. A node that has left its own is put into the tree anew, as
+/// Bullet does it; if many have, all boxes grow to hold the ways of the next steps instead, which costs less by far:
+/// neighbours in a cloth stay neighbours, so that the tree stays good.
+/// last_velocities: at the start of the step before, 3 x n [m/s], or of another size if not known: how fast ways bend.
+/// By a team, with the same bits for any. scratch: memory that is kept from step to step.
+void predict_nodes(btSoftBody& body, btScalar time_step, ConstMatrix3XRef<btScalar> last_velocities,
+                   std::vector<int>& scratch, fast::ThreadTeam& team);
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+#include <weft/bridge/bullet/precision.hpp>
+#include <weft/fast_solver/threads/node_parts.hpp>
+#include <weft/fast_solver/threads/thread_team.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+/// Threads that work on the nodes of one body.
+class NodeTeam {
+ public:
+  /// That may work at a time, with the one that calls.
+  void set_num_threads(int num_threads) { num_threads_ = num_threads; }
+  /// They stay as long as the scope has them: between the stages of a step too.
+  [[nodiscard]] fast::ThreadTeam::Scope hold_threads() { return {team_, team_size()}; }
+  void hold_threads(std::optional<fast::ThreadTeam::Scope>& scope) {
+    scope.emplace(team_, team_size());
+  }
+  /// work(first node, number of nodes) for each part of the nodes, by them.
+  template <class Work>
+  void for_nodes(const Work& work) {
+    fast::run_parts(team_, num_nodes_, [&](int, int begin, int end) { work(begin, end - begin); });
+  }
+
+ protected:
+  void set_num_nodes(Eigen::Index num_nodes) { num_nodes_ = static_cast<int>(num_nodes); }
+  /// What threads gain with one part each, they lose waiting for one another.
+  [[nodiscard]] int team_size() const {
+    return std::clamp(fast::NodeParts(num_nodes_).count() / 2, 1, num_threads_);
+  }
+
+  fast::ThreadTeam team_;
+
+ private:
+  int num_threads_ = 1;
+  int num_nodes_ = 0;
+};
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <weft/bridge/bullet/precision.hpp>
+#include <weft/bridge/rigid/rigid_motion.hpp>
+#include <weft/fast_solver/implicit_solver.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+/// Dynamic bodies that a cloth may push in a step: what its solver knows of them, and what they get of the solution.
+class PushedBodies {
+ public:
+  void begin_step();
+  /// pushed: those of all bodies, in order. Of one that several may push each has a part of its inertia.
+  void begin_solve(std::span<const btRigidBody* const> pushed) {
+    of_all_.assign(pushed.begin(), pushed.end());
+  }
+  /// The next solve names its bodies anew.
+  void clear();
+  /// The number of a body in the solver; one that is pushed for the first time in this solve gets the next number. is_again: from where the
+  /// last solution has moved it to.
+  [[nodiscard]] int number_of(const btRigidBody& rigid, btDispatcher* dispatcher,
+                              btScalar time_step, bool is_again);
+  [[nodiscard]] bool empty() const { return bodies_.empty(); }
+  [[nodiscard]] std::span<const fast::RigidInertia<btScalar>> inertias() const { return inertias_; }
+
+  /// After a solve.
+  void take_ways(const fast::ImplicitSolver<btScalar>& solver, btScalar time_step);
+  /// How far a body gave way in the last solution; zero for others.
+  [[nodiscard]] RigidWay way_of(const btRigidBody& rigid) const;
+  /// How far the same push would have moved it in a step of time_step [s], [m].
+  [[nodiscard]] btScalar push_in(const btRigidBody& rigid, btScalar time_step) const;
+  /// Whether bodies were pushed into others that had not held them in the last solution, or the other way round.
+  [[nodiscard]] bool are_supports_wrong(btScalar time_step);
+
+  [[nodiscard]] double kinetic_energy() const;
+  /// That give_impulses() will give them [J].
+  [[nodiscard]] double energy_to_come(btScalar time_step) const;
+  /// The momentum of the motion that the solution has given to each.
+  void give_impulses(btScalar time_step);
+  /// That motion too: Bullet has moved them before, and would leave nodes inside of them until the next step. Not what touches
+  /// something else, whose friction may hold it.
+  void move_at_once(btScalar time_step);
+
+ private:
+  [[nodiscard]] const std::vector<Support>& supports_of(const btRigidBody& rigid,
+                                                        btDispatcher* dispatcher,
+                                                        btScalar time_step);
+
+  std::vector<const btRigidBody*> bodies_;  ///< by their numbers
+  std::vector<fast::RigidInertia<btScalar>> inertias_;
+  std::vector<std::pair<btVector3, btVector3>> velocities_before_;  ///< and angular
+  std::vector<Support> supports_;                                   ///< of supported_
+  std::vector<const btRigidBody*> supported_;
+  std::vector<const btRigidBody*> last_held_;  ///< with a loaded support in the step before
+  std::vector<const btRigidBody*> of_all_;     ///< that any cloth pushes, in order
+  std::vector<const btRigidBody*> last_;       ///< in the last solution, and how far
+  std::vector<RigidWay> last_ways_;
+  btScalar last_step_ = 0;  ///< [s] of it
+};
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

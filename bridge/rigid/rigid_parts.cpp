@@ -1,0 +1,57 @@
+#include <weft/bridge/rigid/rigid_parts.hpp>
+
+#include <algorithm>
+
+#include <LinearMath/btTransformUtil.h>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+namespace {
+
+btTransform moved(const btTransform& place, const btRigidBody& body, btScalar time) {
+  btTransform result;
+  btTransformUtil::integrateTransform(place, body.getLinearVelocity(), body.getAngularVelocity(),
+                                      time, result);
+  return result;
+}
+
+}  // namespace
+
+RigidParts::RigidParts(const std::vector<btRigidBody*>& bodies, btScalar time_step, int num_parts)
+    : part_(time_step / static_cast<btScalar>(num_parts)) {
+  for (btRigidBody* const body : bodies) {
+    const btTransform& now = body->getCenterOfMassTransform();
+    entries_.push_back({body, now, moved(now, *body, -time_step), now});
+  }
+}
+
+void RigidParts::begin_part() {
+  for (Entry& one : entries_) {
+    one.alone = moved(one.start, *one.body, part_);
+    one.body->setCenterOfMassTransform(one.alone);
+  }
+}
+
+void RigidParts::end_part() {
+  for (Entry& one : entries_) {
+    const btTransform going_on = moved(one.start, *one.body, part_);
+    const bool is_moved = !(one.body->getCenterOfMassTransform() == one.alone);
+    one.is_held = one.is_held || (!is_moved && !(going_on == one.alone));
+    one.start = is_moved ? one.body->getCenterOfMassTransform() : going_on;
+  }
+}
+
+void RigidParts::finish() {
+  for (const Entry& one : entries_) {
+    one.body->setCenterOfMassTransform(one.is_held ? one.moved : one.start);
+  }
+}
+
+const btTransform& RigidParts::start_of(const btRigidBody& body) const {
+  return std::find_if(entries_.begin(), entries_.end(),
+                      [&](const Entry& one) { return one.body == &body; })
+      ->start;
+}
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

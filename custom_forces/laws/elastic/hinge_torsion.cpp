@@ -1,0 +1,252 @@
+#include <weft/custom_forces/laws/elastic/hinge_torsion.hpp>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <weft/core/error.hpp>
+#include <weft/custom_forces/law_input.hpp>
+#include <weft/mesh/hinges.hpp>
+
+namespace weft::forces {
+namespace {
+
+constexpr ParameterInfo kParameters[] = {
+    {.name = "rigidity", .symbol = "D", .unit = "N*m", .summary = "plate rigidity"},
+    {.name = "clamp_factor",
+     .symbol = "factor",
+     .unit = "1",
+     .summary = "stiffness of a hinge at a clamp over that of others; 2: half a cell is in front",
+     .required = false,
+     .default_value = 2.0},
+};
+
+/// A hinge at rest, unfolded into a plane with the edge along t and n across it.
+struct RestHinge {
+  double length = 0;       ///< of the edge [m]
+  double heights[2] = {};  ///< of the triangles above the edge [m]
+  double feet[2] = {};     ///< of the heights, from the edge's first node [m]
+  [[nodiscard]] double areas() const { return length * (heights[0] + heights[1]) / 2; }
+};
+
+RestHinge rest_hinge(const ClothMesh& mesh, const Eigen::Vector4i& nodes) {
+  const auto x = [&](int corner) -> Vector3<double> {
+    return mesh.rest_positions.col(nodes[corner]);
+  };
+  const Vector3<double> edge = x(1) - x(0);
+  RestHinge hinge;
+  hinge.length = edge.norm();
+  for (int side = 0; side < 2; ++side) {
+    const Vector3<double> wing = x(2 + side) - x(0);
+    const double twice_area = edge.cross(wing).norm();
+    if (!(twice_area > 0) || !std::isfinite(twice_area)) {
+      throw InvalidArgument("hinge_torsion: area of the triangle of nodes " +
+                            std::to_string(nodes[0]) + ", " + std::to_string(nodes[1]) + " and " +
+                            std::to_string(nodes[2 + side]) + " = " +
+                            std::to_string(twice_area / 2) + " [m^2], expected > 0 and finite");
+    }
+    hinge.heights[side] = twice_area / hinge.length;
+    hinge.feet[side] = wing.dot(edge) / hinge.length;
+  }
+  return hinge;
+}
+
+/// S : S [m^2], see the header.
+double squared_response(const RestHinge& hinge) {
+  const auto& [h1, h2] = hinge.heights;
+  const auto& [f1, f2] = hinge.feet;
+  const double l = hinge.length;
+  const double across = (h1 + h2) / 2;
+  const double along = (f1 * (f1 - l) / h1 + f2 * (f2 - l) / h2) / 2;
+  const double mixed = (f1 - f2) / 2;
+  return across * across + along * along + 2 * mixed * mixed;
+}
+
+/// k / D, see the header.
+double weight(const RestHinge& hinge, bool is_cut_both_ways) {
+  if (is_cut_both_ways) return hinge.areas() / (2 * squared_response(hinge));
+  return hinge.length * hinge.length / hinge.areas();  // l / h with the mean height h = areas / l
+}
+
+/// Whether the angle depends on one free node only, and on pinned ones besides.
+bool is_at_clamp(const RestHinge& hinge, const std::vector<bool>& pinned,
+                 const Eigen::Vector4i& nodes) {
+  const auto is_free = [&](int corner) { return !pinned[static_cast<std::size_t>(nodes[corner])]; };
+  const auto& [h1, h2] = hinge.heights;
+  const auto& [f1, f2] = hinge.feet;
+  // The angle's derivative by the height of the edge's second node, and of the first.
+  const double by_second = f1 / h1 + f2 / h2;
+  const double by_first = (hinge.length - f1) / h1 + (hinge.length - f2) / h2;
+  constexpr double kInactive = 1e-9;  // rounding of a right angle
+  const double threshold = kInactive * (by_first + by_second);
+  int num_free = int{is_free(2)} + int{is_free(3)};
+  if (std::abs(by_first) > threshold && is_free(0)) ++num_free;
+  if (std::abs(by_second) > threshold && is_free(1)) ++num_free;
+  return num_free == 1;
+}
+
+Hinges bending_hinges(const ClothMesh& mesh) {
+  const Hinges one_way = hinges_of_triangles(mesh.triangles);
+  const Hinges other_way = hinges_of_triangles(mesh.crossed_triangles);
+  Hinges hinges(4, one_way.cols() + other_way.cols());
+  hinges << one_way, other_way;
+  return hinges;
+}
+
+/// dtheta/dx of the four nodes, and theta.
+template <class Number>
+struct HingeAngle {
+  Number theta;
+  std::array<Vector3<Number>, 4> gradient;
+};
+
+/// False for a hinge with a triangle too small to have a normal.
+template <class Number, class Scalar>
+bool hinge_angle(const std::array<Vector3<Number>, 4>& x, const Scalar& smallest_first,
+                 const Scalar& smallest_second, HingeAngle<Number>& angle) {
+  using std::atan2;
+  using std::sqrt;
+  const Vector3<Number> edge = x[1] - x[0];
+  const Vector3<Number> wing1 = x[2] - x[0];
+  const Vector3<Number> wing2 = x[3] - x[0];
+  const Vector3<Number> n1 = edge.cross(wing1);
+  const Vector3<Number> n2 = wing2.cross(edge);
+  const Number squared1 = n1.squaredNorm();
+  const Number squared2 = n2.squaredNorm();
+  if (!(squared1 > Number(smallest_first)) || !(squared2 > Number(smallest_second))) return false;
+  const Number squared_length = edge.squaredNorm();
+  const Number length = sqrt(squared_length);
+  // n1 x n2 lies along the edge: this is |n1| |n2| sin(theta) and cos(theta), times the length.
+  const Number sine = n1.cross(n2).dot(edge);
+  const Number cosine = n1.dot(n2) * length;
+  angle.theta = atan2(sine, cosine);
+  // Raising a wing along its normal closes the hinge by 1 / height; the edge's nodes balance force
+  // and torque.
+  const Vector3<Number> by_wing1 = n1 * Number(length / squared1);
+  const Vector3<Number> by_wing2 = n2 * Number(length / squared2);
+  const Number foot1 = wing1.dot(edge) / squared_length;
+  const Number foot2 = wing2.dot(edge) / squared_length;
+  angle.gradient[2] = -by_wing1;
+  angle.gradient[3] = -by_wing2;
+  angle.gradient[1] = by_wing1 * foot1 + by_wing2 * foot2;
+  angle.gradient[0] = by_wing1 + by_wing2 - angle.gradient[1];
+  return true;
+}
+
+}  // namespace
+
+template <class Scalar>
+const LawInfo HingeTorsion<Scalar>::kInfo{
+    .id = "hinge_torsion",
+    .summary = "Bending of a surface by torsion springs in its hinges",
+    .formula =
+        "E = k (theta - theta0)^2 / 2, k = D A / (2 S : S) on cells cut both ways (D / 2 on "
+        "squares), "
+        "D l / h elsewhere, times factor at a clamp",
+    .source =
+        "own derivation: energy of a quadratic surface; length weighting as in Feng et al. 2022",
+    .checked_by =
+        "cases plate_rigidity, cantilever, engine_cantilever, heavy_strip; tests HingeTorsion.*",
+    .traits = {.internal = true,
+               .ignores_rigid_motion = true,
+               .free_at_rest = true,
+               .has_energy = true,
+               .elements = ElementKind::kHinges},
+    .parameters = kParameters};
+
+template <class Scalar>
+HingeTorsion<Scalar>::HingeTorsion(const LawSpecification& specification, const ClothMesh& mesh)
+    : hinges_(bending_hinges(mesh), mesh.num_nodes(), 4),
+      stiffness_(hinges_.size()),
+      rest_angles_(hinge_angles(mesh.rest_positions, hinges_.elements()).template cast<Scalar>()),
+      smallest_normals_(3, hinges_.size()) {
+  const double rigidity = law_scalar(specification, "rigidity");
+  const double clamp_factor = law_scalar(specification, "clamp_factor");
+  const bool is_cut_both_ways = mesh.crossed_triangles.cols() > 0;
+  std::vector<bool> pinned(static_cast<std::size_t>(mesh.num_nodes()), false);
+  for (const int node : mesh.pinned) pinned[static_cast<std::size_t>(node)] = true;
+  for (Eigen::Index h = 0; h < hinges_.size(); ++h) {
+    const Eigen::Vector4i nodes = hinges_.elements().col(h);
+    const RestHinge hinge = rest_hinge(mesh, nodes);
+    const double factor = is_at_clamp(hinge, pinned, nodes) ? clamp_factor : 1.0;
+    stiffness_[h] = Scalar(rigidity * factor * weight(hinge, is_cut_both_ways));
+    for (int side = 0; side < 2; ++side) {
+      const double smallest = kMinAreaRatio * hinge.length * hinge.heights[side];
+      smallest_normals_(side, h) = Scalar(smallest * smallest);
+    }
+    smallest_normals_(2, h) = Scalar(0);
+  }
+}
+
+template <class Scalar>
+template <class Number>
+void HingeTorsion<Scalar>::add_hinge(Eigen::Index h, const std::array<Vector3<Number>, 4>& x,
+                                     ElementForces<Number, 4>& parts) const {
+  HingeAngle<Number> angle;
+  if (!hinge_angle(x, smallest_normals_(0, h), smallest_normals_(1, h), angle)) return;
+  const Number moment = Number(stiffness_[h]) * (Number(rest_angles_[h]) - angle.theta);
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    parts[corner] = angle.gradient[corner] * moment;
+  }
+}
+
+template <class Scalar>
+void HingeTorsion<Scalar>::add_forces(const State<Scalar>& state, Matrix3XRef<Scalar> scratch,
+                                      Matrix3XRef<Scalar> forces) const {
+  hinges_.add_forces(
+      state,
+      [this](Eigen::Index h, const auto& hinge, auto& parts) {
+        this->add_hinge(h, hinge.x, parts);
+      },
+      scratch, forces);
+}
+
+template <class Scalar>
+void HingeTorsion<Scalar>::add_stiffness_product(const State<Scalar>& state,
+                                                 ConstMatrix3XRef<Scalar> displacements,
+                                                 Matrix3XRef<Scalar> scratch,
+                                                 Matrix3XRef<Scalar> product) const {
+  hinges_.add_stiffness_product(
+      state,
+      [this](Eigen::Index h, const auto& hinge, auto& parts) {
+        this->add_hinge(h, hinge.x, parts);
+      },
+      displacements, scratch, product);
+}
+
+template <class Scalar>
+void HingeTorsion<Scalar>::add_rest_stiffness(const State<Scalar>& rest,
+                                              std::vector<PairStiffness<Scalar>>& pairs) const {
+  for (Eigen::Index h = 0; h < hinges_.size(); ++h) {
+    HingeAngle<Scalar> angle;
+    if (!hinge_angle(hinges_.at(rest, h).x, smallest_normals_(0, h), smallest_normals_(1, h),
+                     angle)) {
+      continue;
+    }
+    // Without a moment only the gradient's square is left of the second derivative.
+    const auto stiffness = [&](std::size_t corner, std::size_t other) -> Scalar {
+      return stiffness_[h] * angle.gradient[corner].dot(angle.gradient[other]);
+    };
+    hinges_.add_pairs(h, stiffness, pairs);
+  }
+}
+
+template <class Scalar>
+Scalar HingeTorsion<Scalar>::potential_energy(const State<Scalar>& state) const {
+  return hinges_.sum(state, [this](Eigen::Index h, const auto& hinge) -> Scalar {
+    HingeAngle<Scalar> angle;
+    if (!hinge_angle(hinge.x, smallest_normals_(0, h), smallest_normals_(1, h), angle)) {
+      return Scalar(0);
+    }
+    const Scalar turn = angle.theta - rest_angles_[h];
+    return Scalar(0.5) * stiffness_[h] * turn * turn;
+  });
+}
+
+template class HingeTorsion<float>;
+template class HingeTorsion<double>;
+template class HingeTorsion<Dual>;
+
+}  // namespace weft::forces

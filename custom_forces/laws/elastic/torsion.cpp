@@ -1,0 +1,304 @@
+#include <weft/custom_forces/laws/elastic/torsion.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include <weft/core/error.hpp>
+#include <weft/custom_forces/assembly/spring_set.hpp>
+#include <weft/custom_forces/law_input.hpp>
+#include <weft/custom_forces/laws/elastic/turning_angle.hpp>
+
+namespace weft::forces {
+namespace {
+
+constexpr ParameterInfo kParameters[] = {
+    {.name = "stiffness",
+     .symbol = "k",
+     .unit = "N/(m*rad)",
+     .summary = "force per lever arm and angle"},
+    {.name = "side_ratio",
+     .symbol = "ratio",
+     .unit = "1",
+     .summary = "stiffness of the second side over that of the first",
+     .required = false,
+     .default_value = 1.0},
+};
+
+/// The turn of A -> C -> B.
+template <class Number>
+struct Turn {
+  Vector3<Number> first;   ///< unit vector from A to C
+  Vector3<Number> second;  ///< unit vector from C to B
+  Number first_length;     ///< [m]
+  Number second_length;    ///< [m]
+  Number cosine;           ///< of theta
+  Number squared_sine;
+};
+
+/// False for a triple with a side too short to have a direction.
+template <class Number, class Scalar>
+bool turn_of(const std::array<Vector3<Number>, 3>& x, const Scalar& shortest_first,
+             const Scalar& shortest_second, Turn<Number>& turn) {
+  using std::sqrt;
+  const Vector3<Number> first = x[1] - x[0];
+  const Vector3<Number> second = x[2] - x[1];
+  const Number squared_first = first.squaredNorm();
+  const Number squared_second = second.squaredNorm();
+  if (!(squared_first > Number(shortest_first * shortest_first)) ||
+      !(squared_second > Number(shortest_second * shortest_second))) {
+    return false;
+  }
+  turn.first_length = sqrt(squared_first);
+  turn.second_length = sqrt(squared_second);
+  turn.first = first / turn.first_length;
+  turn.second = second / turn.second_length;
+  turn.cosine = turn.first.dot(turn.second);
+  turn.squared_sine = turn.first.cross(turn.second).squaredNorm();
+  return true;
+}
+
+Triples law_triples(const LawSpecification& specification, const ClothMesh& mesh) {
+  Triples triples(3, 0);
+  const auto append = [&](const Triples& more) {
+    const Eigen::Index old = triples.cols();
+    triples.conservativeResize(3, old + more.cols());
+    triples.rightCols(more.cols()) = more;
+  };
+  std::string known;
+  for (const LineSet& set : mesh.line_sets) known += (known.empty() ? "" : ", ") + set.name;
+  for (const LineSet& set : mesh.line_sets) {
+    if (specification.sets.empty()) append(set.triples);
+  }
+  for (const std::string& name : specification.sets) {
+    bool found = false;
+    for (const LineSet& set : mesh.line_sets) {
+      if (set.name != name) continue;
+      append(set.triples);
+      found = true;
+    }
+    if (!found) {
+      throw InvalidArgument("torsion: line_sets = '" + name +
+                            "', expected sets of the mesh: " + known);
+    }
+  }
+  if (triples.size() > 0 && (triples.minCoeff() < 0 || triples.maxCoeff() >= mesh.num_nodes())) {
+    throw InvalidArgument("torsion: a line names a node outside 0 to " +
+                          std::to_string(mesh.num_nodes() - 1));
+  }
+  return triples;
+}
+
+double rest_side(const ClothMesh& mesh, int from, int to) {
+  const double length = (mesh.rest_positions.col(to) - mesh.rest_positions.col(from)).norm();
+  if (!(length > 0) || !std::isfinite(length)) {
+    throw InvalidArgument("torsion: rest length between nodes " + std::to_string(from) + " and " +
+                          std::to_string(to) + " = " + std::to_string(length) +
+                          " [m], expected > 0 and finite");
+  }
+  return length;
+}
+
+}  // namespace
+
+template <class Scalar>
+const LawInfo Torsion<Scalar>::kInfo{
+    .id = "torsion",
+    .summary = "Bending of lines by torsion springs over three points",
+    .formula =
+        "E = kappa (s theta - theta0)^2 / 2, kappa = (k' d'^2 + k'' d''^2) / 2, k' = k, "
+        "k'' = ratio k",
+    .source = "Werth 2008: torsion over three points with rest lengths as lever arms; energy ours",
+    .checked_by = "case torsion_beam; tests Torsion.*",
+    .traits = {.internal = true,
+               .ignores_rigid_motion = true,
+               .free_at_rest = true,
+               .has_energy = true,
+               .elements = ElementKind::kLines},
+    .parameters = kParameters};
+
+template <class Scalar>
+Torsion<Scalar>::Torsion(const LawSpecification& specification, const ClothMesh& mesh)
+    : lines_(law_triples(specification, mesh), mesh.num_nodes(), 3),
+      stiffness_(lines_.size()),
+      rest_angles_(VectorX<Scalar>::Constant(lines_.size(), Scalar(0))),
+      shortest_(3, lines_.size()),
+      faces_(3, 0) {
+  using std::atan2;
+  using std::sqrt;
+  const double first = law_scalar(specification, "stiffness");
+  const double second = first * law_scalar(specification, "side_ratio");
+  std::vector<std::vector<Eigen::Index>> faces_of_node(static_cast<std::size_t>(mesh.num_nodes()));
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    for (const int node : mesh.triangles.col(t)) {
+      faces_of_node[static_cast<std::size_t>(node)].push_back(t);
+    }
+  }
+  const Matrix3X<Scalar> rest_positions = mesh.rest_positions.template cast<Scalar>();
+  const Matrix3X<Scalar> still = Matrix3X<Scalar>::Constant(3, mesh.num_nodes(), Scalar(0));
+  const VectorX<Scalar> masses = mesh.masses.template cast<Scalar>();
+  const State<Scalar> rest{rest_positions, still, masses};
+  first_face_.push_back(0);
+  for (Eigen::Index e = 0; e < lines_.size(); ++e) {
+    const Eigen::Vector3i nodes = lines_.elements().col(e);
+    const double d1 = rest_side(mesh, nodes[0], nodes[1]);
+    const double d2 = rest_side(mesh, nodes[1], nodes[2]);
+    stiffness_[e] = Scalar((first * d1 * d1 + second * d2 * d2) / 2);
+    shortest_.col(e) << Scalar(kMinLengthRatio * d1), Scalar(kMinLengthRatio * d2), Scalar(0);
+
+    const Vector3<double> a =
+        (mesh.rest_positions.col(nodes[1]) - mesh.rest_positions.col(nodes[0])) / d1;
+    const Vector3<double> b =
+        (mesh.rest_positions.col(nodes[2]) - mesh.rest_positions.col(nodes[1])) / d2;
+    const double theta = std::atan2(a.cross(b).norm(), a.dot(b));
+    // What rounding leaves of a straight line is no bend.
+    constexpr double kStraight = 1e-7;  // [rad]
+    const auto& faces = faces_of_node[static_cast<std::size_t>(nodes[1])];
+    if (theta > kStraight) {
+      for (const Eigen::Index t : faces) {
+        faces_.conservativeResize(3, faces_.cols() + 1);
+        faces_.rightCols(1) = mesh.triangles.col(t);
+      }
+    }
+    first_face_.push_back(faces_.cols());
+    if (theta > kStraight) {
+      rest_angles_[e] = Scalar(theta);  // not 0: side() looks at the normal
+      rest_angles_[e] = Scalar(theta) * side(rest, e, lines_.at(rest, e));
+    }
+  }
+}
+
+template <class Scalar>
+Vector3<Scalar> Torsion<Scalar>::normal_at(const State<Scalar>& state, Eigen::Index e) const {
+  Vector3<Scalar> normal = Vector3<Scalar>::Constant(Scalar(0));
+  for (Eigen::Index f = first_face_[static_cast<std::size_t>(e)];
+       f < first_face_[static_cast<std::size_t>(e) + 1]; ++f) {
+    const Vector3<Scalar> origin = state.positions.col(faces_(0, f));
+    const Vector3<Scalar> u = state.positions.col(faces_(1, f)) - origin;
+    const Vector3<Scalar> v = state.positions.col(faces_(2, f)) - origin;
+    normal += u.cross(v);
+  }
+  return normal;
+}
+
+template <class Scalar>
+Scalar Torsion<Scalar>::side(const State<Scalar>& state, Eigen::Index e,
+                             const ElementState<Scalar, 3>& line) const {
+  if (rest_angles_[e] == Scalar(0)) return Scalar(1);
+  const Vector3<Scalar> normal = normal_at(state, e);
+  Turn<Scalar> turn;
+  if (!turn_of(line.x, shortest_(0, e), shortest_(1, e), turn)) return Scalar(1);
+  // The line turns away from the normal where the front is convex.
+  const Scalar towards = Vector3<Scalar>(turn.second - turn.first).dot(normal);
+  return towards > Scalar(0) ? Scalar(-1) : Scalar(1);
+}
+
+template <class Scalar>
+template <class Number>
+void Torsion<Scalar>::add_line(const State<Scalar>& state, Eigen::Index e,
+                               const ElementState<Number, 3>& line,
+                               ElementForces<Number, 3>& parts) const {
+  Turn<Number> turn;
+  if (!turn_of(line.x, shortest_(0, e), shortest_(1, e), turn)) return;
+  if (is_opposite(turn.cosine, turn.squared_sine)) return;
+  // -dE/dtheta / sin(theta)
+  Number pull = -angle_over_sine(turn.cosine, turn.squared_sine);
+  if (rest_angles_[e] != Scalar(0)) {
+    using std::sqrt;
+    if (!(turn.squared_sine > Number(kOppositeSquaredSine))) return;  // bent at rest, straight now
+    const Scalar s = side(state, e, lines_.at(state, e));
+    pull += Number(s * rest_angles_[e]) / Number(sqrt(turn.squared_sine));
+  }
+  pull = pull * Number(stiffness_[e]);
+  // sin(theta) dtheta/dA = (second - cos first) / |first|, and likewise for B.
+  const Vector3<Number> at_first =
+      (turn.second - turn.first * turn.cosine) * Number(pull / turn.first_length);
+  const Vector3<Number> at_second =
+      (turn.second * turn.cosine - turn.first) * Number(pull / turn.second_length);
+  parts[0] = at_first;
+  parts[2] = at_second;
+  parts[1] = -at_first - at_second;
+}
+
+template <class Scalar>
+void Torsion<Scalar>::add_forces(const State<Scalar>& state, Matrix3XRef<Scalar> scratch,
+                                 Matrix3XRef<Scalar> forces) const {
+  const auto kernel = [&](Eigen::Index e, const auto& line, auto& parts) {
+    add_line(state, e, line, parts);
+  };
+  lines_.add_forces(state, kernel, scratch, forces);
+}
+
+template <class Scalar>
+void Torsion<Scalar>::add_stiffness_product(const State<Scalar>& state,
+                                            ConstMatrix3XRef<Scalar> displacements,
+                                            Matrix3XRef<Scalar> scratch,
+                                            Matrix3XRef<Scalar> product) const {
+  const auto kernel = [&](Eigen::Index e, const auto& line, auto& parts) {
+    add_line(state, e, line, parts);
+  };
+  lines_.add_stiffness_product(state, kernel, displacements, scratch, product);
+}
+
+template <class Scalar>
+void Torsion<Scalar>::add_rest_stiffness(const State<Scalar>& rest,
+                                         std::vector<PairStiffness<Scalar>>& pairs) const {
+  for (Eigen::Index e = 0; e < lines_.size(); ++e) {
+    Turn<Scalar> turn;
+    if (!turn_of(lines_.at(rest, e).x, shortest_(0, e), shortest_(1, e), turn)) continue;
+    // Unit vectors along which moving either end makes the turn grow.
+    Vector3<Scalar> across_first = turn.second - turn.first * turn.cosine;
+    Vector3<Scalar> across_second = turn.second * turn.cosine - turn.first;
+    Scalar directions(1);
+    if (rest_angles_[e] == Scalar(0)) {
+      // A straight line turns about either of two axes alike.
+      across_first = Vector3<Scalar>(Scalar(1), Scalar(0), Scalar(0));
+      across_second = across_first;
+      directions = Scalar(2);
+    } else {
+      using std::sqrt;
+      if (!(turn.squared_sine > Scalar(kOppositeSquaredSine))) continue;
+      const Scalar sine = sqrt(turn.squared_sine);
+      across_first = across_first / sine;
+      across_second = across_second / sine;
+    }
+    ElementForces<Scalar, 3> gradient;
+    gradient[0] = across_first / turn.first_length;
+    gradient[2] = across_second / turn.second_length;
+    gradient[1] = -gradient[0] - gradient[2];
+    const auto stiffness = [&](std::size_t corner, std::size_t other) -> Scalar {
+      return stiffness_[e] * directions * gradient[corner].dot(gradient[other]);
+    };
+    lines_.add_pairs(e, stiffness, pairs);
+  }
+}
+
+template <class Scalar>
+Scalar Torsion<Scalar>::potential_energy(const State<Scalar>& state) const {
+  return lines_.sum(state, [&](Eigen::Index e, const auto& line) -> Scalar {
+    using std::atan2;
+    using std::sqrt;
+    Turn<Scalar> turn;
+    if (!turn_of(line.x, shortest_(0, e), shortest_(1, e), turn)) return Scalar(0);
+    if (rest_angles_[e] == Scalar(0)) {
+      // theta^2 = (theta / sin)^2 sin^2 is smooth where the line is straight.
+      if (is_opposite(turn.cosine, turn.squared_sine)) {
+        const Scalar pi(std::numbers::pi);
+        return Scalar(0.5) * stiffness_[e] * pi * pi;
+      }
+      const Scalar ratio = angle_over_sine(turn.cosine, turn.squared_sine);
+      return Scalar(0.5) * stiffness_[e] * ratio * ratio * turn.squared_sine;
+    }
+    const Scalar theta = atan2(Scalar(sqrt(turn.squared_sine)), turn.cosine);
+    const Scalar off = side(state, e, line) * theta - rest_angles_[e];
+    return Scalar(0.5) * stiffness_[e] * off * off;
+  });
+}
+
+template class Torsion<float>;
+template class Torsion<double>;
+template class Torsion<Dual>;
+
+}  // namespace weft::forces

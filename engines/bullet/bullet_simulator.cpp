@@ -1,0 +1,200 @@
+#include <weft/engines/bullet/bullet_simulator.hpp>
+
+#include <utility>
+
+#include <weft/bridge/cloth_body.hpp>
+#include <weft/bridge/soft_world.hpp>
+#include <weft/core/error.hpp>
+#include <weft/custom_forces/registry.hpp>
+#include <weft/engines/blow_up_check.hpp>
+#include <weft/engines/bullet/bullet_bodies.hpp>
+#include <weft/engines/bullet/bullet_shapes.hpp>
+#include <weft/engines/bullet/bullet_tears.hpp>
+#include <weft/scenes/controllers/director.hpp>
+
+namespace weft::scenes {
+namespace {
+
+enum class Tension { kLinks, kLaws, kImplicit };
+
+class BulletSimulator final : public Simulator {
+ public:
+  explicit BulletSimulator(Tension tension) : tension_(tension) {}
+
+  void load(const Scene& scene) override;
+  [[nodiscard]] StepReport step(double time_step) override;
+  [[nodiscard]] const SceneState& state() const override { return bodies_.state(); }
+
+ private:
+  void add_cloth(const Cloth& cloth, const Scene& scene);
+  [[nodiscard]] bridge::LinkSet link_set(const Cloth& cloth,
+                                         const forces::LawSpecification& law) const;
+  void set_freedom(const Steering& steering);
+  [[nodiscard]] std::optional<BlowUp> find_blow_up() const;
+  [[nodiscard]] SolveReport solve_report() const;
+
+  Tension tension_;
+  double links_time_step_ = 0.0;
+  std::unique_ptr<bridge::SoftWorld> world_;
+  BulletBodies bodies_;
+  BulletTears tears_;
+  Director director_;
+  StepReport report_;
+  double reach_ = 0.0;  // [m] from the origin
+};
+
+void BulletSimulator::load(const Scene& scene) {
+  bodies_ = {};
+  tears_ = {};
+  report_ = {};
+  reach_ = distance_field_reach(scene);
+  links_time_step_ = scene.world.time_step;
+  world_ = std::make_unique<bridge::SoftWorld>(
+      bridge::SoftWorldSettings{scene.world.gravity, distance_field_voxel(scene)});
+  for (const Cloth& cloth : scene.cloths) add_cloth(cloth, scene);
+  for (const Collider& collider : scene.colliders) {
+    BulletCollider made = make_bullet_collider(collider, scene.bullet.concave);
+    bodies_.add(collider, world_->add(std::move(made.body), std::move(made.shape)));
+  }
+  tears_.make_first_cuts(world_->solver(), bodies_);
+  bodies_.read_state(0.0);
+  director_ = Director(scene, controllers());
+}
+
+bridge::LinkSet BulletSimulator::link_set(const Cloth& cloth,
+                                          const forces::LawSpecification& law) const {
+  if (law.parameters.at("compression_ratio").at(0) != 1.0) {
+    throw InvalidArgument("bullet_soft: cloth '" + cloth.name +
+                          "': tension.compression_ratio is not 1, but Bullet's links push as they "
+                          "pull; expected 1, or the engine bullet_forces");
+  }
+  return {law.sets, law.parameters.at("stiffness").at(0)};
+}
+
+void BulletSimulator::add_cloth(const Cloth& cloth, const Scene& scene) {
+  const ClothMesh mesh = make_mesh(cloth);
+  bridge::ClothSettings settings{.collision_margin = cloth.collision_margin,
+                                 .friction = cloth.friction,
+                                 .position_iterations = scene.bullet.position_iterations,
+                                 .time_step = links_time_step_};
+  std::vector<forces::LawSpecification> laws;
+  for (const forces::LawSpecification& given : cloth.laws) {
+    const forces::LawSpecification law = forces::checked(given);
+    if (law.law == "tension" && tension_ == Tension::kLinks) {
+      settings.links.push_back(link_set(cloth, law));
+    } else {
+      laws.push_back(law);
+    }
+  }
+  btSoftBody& body = world_->add(bridge::make_cloth_body(world_->info(), mesh, settings));
+  if (cloth.self_collision || cloth.soft_collision) {
+    const double margin = cloth.collision_margin;
+    world_->solver().set_cloth_contact(
+        body, {.with_itself = cloth.self_collision,
+               .with_others = cloth.soft_collision,
+               .self_thickness = cloth.self_thickness.value_or(2.0 * margin),
+               .margin = margin > 0 ? margin : 0.5 * *cloth.self_thickness,
+               .friction = cloth.friction});
+  }
+  // A skin is drawn only. Bullet would look each of its nodes up in the colliders' distance fields.
+  const auto* skin = std::get_if<SkinSource>(&cloth.source);
+  if (skin != nullptr && !skin->is_cloth) body.m_cfg.collisions = 0;
+  if (tension_ == Tension::kImplicit) {
+    // A scene's numbers are those of the solver, so that nothing sleeps.
+    if (const auto reason = world_->solver().attach_fast(body, mesh, laws, {.may_sleep = false})) {
+      throw Error("bullet_weft: cloth '" + cloth.name + "' cannot be stepped: " + *reason);
+    }
+  } else {
+    world_->solver().attach(body, mesh, laws);
+  }
+  bodies_.add(cloth, mesh, body);
+  if (cloth.tear) {
+    tears_.add(bodies_.cloths().size() - 1, *cloth.tear, mesh, std::move(settings),
+               std::move(laws));
+  }
+}
+
+void BulletSimulator::set_freedom(const Steering& steering) {
+  for (std::size_t c = 0; c < bodies_.cloths().size(); ++c) {
+    btSoftBody& body = *bodies_.cloths()[c];
+    const ClothSteering& lead = steering.cloths[c];
+    world_->solver().set_suspended(body, lead.placement.has_value());
+    if (!lead.placement) world_->solver().set_position_limits(body, lead.limits);
+  }
+}
+
+std::optional<BlowUp> BulletSimulator::find_blow_up() const {
+  for (std::size_t c = 0; c < bodies_.cloths().size(); ++c) {
+    if (const auto found = world_->solver().blow_up(*bodies_.cloths()[c])) {
+      return BlowUp{report_.step, report_.time, state().cloths[c].name, found->node, found->reason};
+    }
+  }
+  return first_blow_up(state(), report_.step, report_.time, reach_);
+}
+
+SolveReport BulletSimulator::solve_report() const {
+  SolveReport report;
+  for (const btSoftBody* cloth : bodies_.cloths()) {
+    const bridge::StepError error = world_->solver().step_error(*cloth);
+    report.error = std::max(report.error, error.distance);
+    report.is_within_tolerance = report.is_within_tolerance && error.is_within_tolerance;
+  }
+  return report;
+}
+
+StepReport BulletSimulator::step(double time_step) {
+  if (report_.blow_up) return report_;
+  if (tension_ == Tension::kLinks && time_step != links_time_step_) {
+    throw InvalidArgument(
+        "bullet_soft: the time step differs from the scene's, for which the links' stiffness was "
+        "mapped; expected the same time step");
+  }
+  // Bullet hands its soft bodies a single-precision step in both builds.
+  report_.time_step = static_cast<double>(static_cast<float>(time_step));
+  report_.step += 1;
+  if (report_.step == 1) report_.blow_up = first_blow_up(state(), 1, 0.0, reach_);
+  if (report_.blow_up) return report_;
+  report_.time += report_.time_step;
+  const Steering* steering =
+      director_.is_needed() ? &director_.steer(state(), report_.time) : nullptr;
+  bodies_.begin_step(steering, report_.time_step);
+  report_.blow_up = bodies_.predicted_blow_up(report_.step, report_.time, report_.time_step);
+  if (report_.blow_up) return report_;
+  if (steering) set_freedom(*steering);
+  world_->step(time_step);
+  bodies_.end_step(steering, report_.time_step);
+  report_.num_contacts = 0;
+  for (const btSoftBody* cloth : bodies_.cloths())
+    report_.num_contacts += world_->solver().num_contacts(*cloth);
+  if (tension_ == Tension::kImplicit) report_.solve = solve_report();
+  bodies_.read_state(report_.time);
+  report_.blow_up = find_blow_up();
+  if (!report_.blow_up && tears_.tear(world_->solver(), bodies_)) bodies_.read_state(report_.time);
+  return report_;
+}
+
+}  // namespace
+
+std::unique_ptr<Simulator> make_bullet_soft() {
+  return std::make_unique<BulletSimulator>(Tension::kLinks);
+}
+
+std::unique_ptr<Simulator> make_bullet_forces() {
+  return std::make_unique<BulletSimulator>(Tension::kLaws);
+}
+
+std::unique_ptr<Simulator> make_bullet_weft() {
+  return std::make_unique<BulletSimulator>(Tension::kImplicit);
+}
+
+StoredPrecision bullet_precision() {
+  return sizeof(btScalar) == sizeof(double) ? StoredPrecision::kFloat64 : StoredPrecision::kFloat32;
+}
+
+std::string bullet_version_text() {
+  return "Bullet " + std::to_string(BT_BULLET_VERSION / 100) + "." +
+         std::to_string(BT_BULLET_VERSION % 100) + ", " +
+         (sizeof(btScalar) == sizeof(double) ? "double" : "single") + " precision";
+}
+
+}  // namespace weft::scenes

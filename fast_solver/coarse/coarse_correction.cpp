@@ -1,0 +1,452 @@
+#include <weft/fast_solver/coarse/coarse_correction.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+namespace weft::fast {
+namespace {
+
+/// Hats are at least so many, or 2.5 sqrt(nodes): what it takes to factorise grows slower than the network then.
+constexpr int kLeastHats = 24;
+constexpr double kHatsPerRoot = 2.5;
+/// Terms below this share of a spring's largest one are left out [-]. Where springs are much stiffer than inertia, what is
+/// left out is all that holds some mode back, and the correction would overshoot it: with ten times as much left out here and
+/// below, up to 1e5 times.
+constexpr float kLeastTerm = 0.01F;
+/// A tie below this share of the largest one of each of its two hats is taken for none [-].
+constexpr float kLeastTie = 0.003F;
+/// Sum of the numbers of a spring's hats, from which on it ties them to what does not move: these springs all count.
+constexpr float kLeastBound = 0.05F;
+/// Springs of a hat that are enough to know the stiffness between it and its neighbours, about.
+constexpr int kSpringsOfHat = 60;
+/// At least one spring in so many of a network is looked at: about one at each node.
+constexpr double kMostForOne = 6;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+float sum_of(const HatWeights& of_node) {
+  return of_node.weights[0] + of_node.weights[1] + of_node.weights[2];
+}
+
+int hats_for(int num_unknowns) {
+  return std::max(kLeastHats, static_cast<int>(kHatsPerRoot * std::sqrt(num_unknowns)));
+}
+
+}  // namespace
+
+CoarseCorrection::CoarseCorrection(const IsotropicNetwork& network, const EdgeSlots& slots)
+    : num_nodes_(network.matrix.size()), parts_(num_nodes_), weights_(at(fill_up(num_nodes_))) {
+  alone_.resize(weights_.size());
+  patches_ = find_patches(network, hats_for(num_nodes_));
+  num_hats_ = patches_.count;
+  if (num_hats_ == 0) return;
+  const Interpolation hats =
+      smoothed_aggregates(network, std::vector<bool>(at(num_nodes_), true), patches_);
+  for (int node = 0; node < num_nodes_; ++node) set_hats(node, hats, node);
+  const double of_hat = 0.5 * static_cast<double>(network.matrix.columns.size()) / num_hats_;
+  springs_for_one_ = std::clamp(of_hat / kSpringsOfHat, 1.0, kMostForOne);
+  std::vector<int> names(at(num_nodes_));
+  std::iota(names.begin(), names.end(), 0);
+  find_pairs(ties_of(network, names));
+  make_band();
+  note_springs(slots, {});
+}
+
+// What depends on which hats know each other.
+void CoarseCorrection::make_band() {
+  first_pairs_.clear();
+  for (int hat = 0; hat <= num_hats_; ++hat) {
+    const auto first = std::lower_bound(pairs_.begin(), pairs_.end(), std::pair(hat, 0));
+    first_pairs_.push_back(static_cast<int>(first - pairs_.begin()));
+  }
+  band_ = BorderedBand(num_hats_, pairs_);
+  solution_.setZero(4, num_hats_);
+  sums_.assign(at(band_.num_blocks()) * kBlockNumbers, 0.0F);
+  for (auto* numbers : {&masses_, &inertia_}) numbers->assign(at(num_hats_), 0.0F);
+  for (int node = 0; node < num_nodes_; ++node) note_alone(node);
+  blocks_.clear();
+}
+
+void CoarseCorrection::set_free(const IsotropicNetwork& network, const Rings& rings,
+                                const std::vector<bool>& is_free, const EdgeSlots& slots) {
+  const std::vector<int>& names = rings.nodes;
+  if (num_hats_ == 0) return;
+  Patches patches{num_hats_, {}};
+  for (const int node : names) patches.of_unknown.push_back(patches_.of_unknown[at(node)]);
+  const Interpolation hats = smoothed_aggregates(network, is_free, patches, rings.ends);
+  for (int k = 0; k < hats.size(); ++k) set_hats(names[at(k)], hats, k);
+  if (add_pairs(ties_of(network, names))) {
+    make_band();
+  } else {
+    for (int k = 0; k < hats.size(); ++k) note_alone(names[at(k)]);
+  }
+  std::vector<char> blocks(at(slots.num_blocks()), 0);
+  for (int k = 0; k < rings.ends[kHatReach + 1]; ++k) blocks[at(names[at(k)] / kNodeBlock)] = 1;
+  note_springs(slots, blocks);
+}
+
+void CoarseCorrection::set_hats(int node, const Interpolation& hats, int unknown) {
+  HatWeights& of_node = weights_[at(node)];
+  of_node = {};
+  int k = 0;
+  for (int e = hats.starts[at(unknown)]; e < hats.starts[at(unknown) + 1]; ++e, ++k) {
+    of_node.hats[k] = hats.columns[at(e)];
+    of_node.weights[k] = static_cast<float>(hats.values[at(e)]);
+  }
+}
+
+// Where there is no part in a hat, one that is near, so that hats of a part of the nodes are.
+void CoarseCorrection::fill_gaps(NodeRange nodes) {
+  const auto begin = weights_.begin() + nodes.begin;
+  const auto end = weights_.begin() + nodes.end;
+  const auto first =
+      std::find_if(begin, end, [](const HatWeights& of_node) { return of_node.weights[0] != 0; });
+  int last = first != end ? first->hats[0] : 0;
+  for (auto of_node = begin; of_node != end; ++of_node) {
+    if (of_node->weights[0] != 0) last = of_node->hats[0];
+    for (int k = 0; k < kMostWeights; ++k) {
+      if (of_node->weights[k] == 0) of_node->hats[k] = last;
+    }
+  }
+}
+
+void CoarseCorrection::Row::add(int hat, float number) {
+  for (int k = 0; k < count; ++k) {
+    if (entries[at(k)].hat != hat) continue;
+    entries[at(k)].number += number;
+    return;
+  }
+  entries[at(count++)] = {hat, number};
+}
+
+CoarseCorrection::Row CoarseCorrection::row_of(int node) const {
+  const HatWeights& of_node = weights_[at(node)];
+  Row row;
+  for (int k = 0; k < kMostWeights; ++k) {
+    if (of_node.weights[k] != 0) row.add(of_node.hats[k], of_node.weights[k]);
+  }
+  return row;
+}
+
+CoarseCorrection::Ties CoarseCorrection::ties_of(const IsotropicNetwork& springs,
+                                                 const std::vector<int>& names) const {
+  const SymmetricMatrix& matrix = springs.matrix;
+  Ties higher(at(num_hats_));
+  for (int i = 0; i < matrix.size(); ++i) {
+    for (int e = matrix.starts[at(i)]; e < matrix.starts[at(i) + 1]; ++e) {
+      if (matrix.columns[at(e)] < i) continue;
+      const Row row = difference(names[at(i)], names[at(matrix.columns[at(e)])]);
+      const auto stiffness = static_cast<float>(-matrix.values[at(e)]);
+      for (const Row::Entry* one = row.begin(); one != row.end(); ++one) {
+        for (const Row::Entry* two = one + 1; two != row.end(); ++two) {
+          const auto [low, high] = std::minmax(one->hat, two->hat);
+          auto& list = higher[at(low)];
+          auto found = std::find_if(list.begin(), list.end(),
+                                    [h = high](const auto& tie) { return tie.first == h; });
+          if (found == list.end()) found = list.insert(list.end(), {high, 0.0F});
+          found->second -= stiffness * one->number * two->number;
+        }
+      }
+    }
+  }
+  for (auto& list : higher) std::sort(list.begin(), list.end());
+  return higher;
+}
+
+bool CoarseCorrection::counts(int hat, int other, float tie) const {
+  return std::abs(tie) > kLeastTie * std::min(largest_ties_[at(hat)], largest_ties_[at(other)]);
+}
+
+// Pairs of hats that springs tie together, but for those that others tie much more: patches that are not next to each other.
+void CoarseCorrection::find_pairs(const Ties& ties) {
+  largest_ties_.assign(at(num_hats_), 0.0F);
+  for (int hat = 0; hat < num_hats_; ++hat) {
+    for (const auto& [other, tie] : ties[at(hat)]) {
+      for (const int one : {hat, other}) {
+        largest_ties_[at(one)] = std::max(largest_ties_[at(one)], tie);
+      }
+    }
+  }
+  for (int hat = 0; hat < num_hats_; ++hat) {
+    for (const auto& [other, tie] : ties[at(hat)]) {
+      if (counts(hat, other, tie)) pairs_.emplace_back(hat, other);
+    }
+  }
+}
+
+// False: there are none that count and are new.
+bool CoarseCorrection::add_pairs(const Ties& ties) {
+  const std::size_t num_before = pairs_.size();
+  for (int hat = 0; hat < num_hats_; ++hat) {
+    for (const auto& [other, tie] : ties[at(hat)]) {
+      if (counts(hat, other, tie) && pair_of(hat, other) < 0) pairs_.emplace_back(hat, other);
+    }
+  }
+  if (pairs_.size() == num_before) return false;
+  std::sort(pairs_.begin(), pairs_.end());
+  return true;
+}
+
+/// The difference between the rows of two nodes.
+CoarseCorrection::Row CoarseCorrection::difference(int node, int other) const {
+  Row row = row_of(node);
+  for (const auto& [hat, weight] : row_of(other)) row.add(hat, -weight);
+  return row;
+}
+
+/// -1 for hats that do not know each other.
+int CoarseCorrection::pair_of(int a, int b) const {
+  const std::pair<int, int> both = std::minmax(a, b);
+  const auto end = pairs_.begin() + first_pairs_[at(both.first) + 1];
+  const auto found = std::lower_bound(pairs_.begin() + first_pairs_[at(both.first)], end, both);
+  return found != end && *found == both ? static_cast<int>(found - pairs_.begin()) : -1;
+}
+
+// The energy of sum d_a x_a over a spring, as springs between hats and to what does not move.
+void CoarseCorrection::add_terms(const Row& row, std::vector<CoarseTerm>& terms) const {
+  float sum = 0;
+  float largest = 0;
+  for (const auto& [hat, d] : row) {
+    sum += d;
+    largest = std::max(largest, std::abs(d));
+  }
+  const float least = kLeastTerm * largest * largest;
+  for (const Row::Entry* one = row.begin(); one != row.end(); ++one) {
+    const auto [hat, d] = *one;
+    for (const Row::Entry* two = one + 1; two != row.end(); ++two) {
+      const float factor = -d * two->number;
+      const int pair = pair_of(hat, two->hat);
+      if (pair >= 0 && std::abs(factor) > least) terms.push_back({band_.pair_block(pair), factor});
+    }
+    if (std::abs(d * sum) > least) terms.push_back({band_.own_block(hat), d * sum});
+  }
+}
+
+void CoarseCorrection::note_alone(int node) {
+  std::vector<CoarseTerm> terms;
+  add_terms(row_of(node), terms);
+  alone_[at(node)].num_terms = static_cast<int>(terms.size());
+  std::copy(terms.begin(), terms.end(), alone_[at(node)].terms);
+}
+
+void CoarseCorrection::add_copies(const std::vector<int>& origins) {
+  parts_ = NodeParts(num_nodes_ + static_cast<int>(origins.size()));
+  of_parts_.clear();
+  residuals_.clear();
+  for (const int origin : origins) {
+    const int node = num_nodes_++;
+    weights_.resize(at(fill_up(num_nodes_)));
+    alone_.resize(weights_.size());
+    weights_[at(node)] = weights_[at(origin)];
+    patches_.of_unknown.push_back(patches_.of_unknown[at(origin)]);
+    note_alone(node);
+  }
+}
+
+// One slot of a node in springs_for_one_ is taken, so that each node has its part; which ones is a multiple of the golden
+// section: even over nodes in a row, and over rows of whatever length.
+bool CoarseCorrection::is_in_sample(int node, int slot) const {
+  constexpr double kGolden = 0.6180339887498949;
+  const double number = kGolden * node + slot / springs_for_one_;
+  return springs_for_one_ * (number - std::floor(number)) < 1;
+}
+
+void CoarseCorrection::note_springs(const EdgeSlots& slots, const std::vector<char>& blocks) {
+  if (num_hats_ == 0) return;
+  const auto num_before = blocks_.size();
+  const auto is_changed = [&](int b) { return at(b) >= num_before || blocks[at(b)] != 0; };
+  blocks_.resize(at(slots.num_blocks()));
+  for (int b = 0; b < slots.num_blocks(); ++b) {
+    if (!is_changed(b)) continue;
+    Block& block = blocks_[at(b)];
+    block.springs.clear();
+    block.terms.clear();
+    const SlotRange& range = slots.blocks[at(b)];
+    for (int slot = range.begin; slot < range.end; ++slot) {
+      for (int lane = 0; lane < kNodeBlock; ++lane) {
+        const auto place = at(slot) * kNodeBlock + at(lane);
+        const int node = b * kNodeBlock + lane;
+        const int other = slots.others[place];
+        if (slots.edges[place] < 0 || node >= slots.num_nodes || other <= node) continue;
+        const bool is_bound =
+            std::abs(sum_of(weights_[at(node)]) - sum_of(weights_[at(other)])) > kLeastBound;
+        if (!is_bound && !is_in_sample(node, slot - range.begin)) continue;
+        const std::size_t first = block.terms.size();
+        add_terms(difference(node, other), block.terms);
+        block.springs.push_back({slot, lane, node, other,
+                                 static_cast<int>(block.terms.size() - first),
+                                 is_bound ? 1.0F : static_cast<float>(springs_for_one_)});
+      }
+    }
+  }
+  const bool are_new = of_parts_.empty();
+  of_parts_.resize(at(parts_.count()));
+  for (int p = 0; p < parts_.count(); ++p) {
+    bool any = are_new;
+    for (int b = parts_[p].begin / kNodeBlock; b < parts_[p].end / kNodeBlock; ++b) {
+      any = any || (b < slots.num_blocks() && is_changed(b));
+    }
+    if (any) find_ranges(p);
+  }
+  residuals_.clear();
+  for (const Part& part : of_parts_) {
+    residuals_.push_back({part.residual.data(), part.hats.begin, part.hats.end});
+  }
+}
+
+// A network's nodes are in an order in which few hats are those of a part's nodes.
+void CoarseCorrection::find_ranges(int p) {
+  Part& part = of_parts_[at(p)];
+  part.hats = {num_hats_, 0};
+  part.sums = {band_.num_blocks(), 0};
+  const auto include = [](int number, Range& range) {
+    range.begin = std::min(range.begin, number);
+    range.end = std::max(range.end, number + 1);
+  };
+  const NodeRange nodes = parts_[p];
+  fill_gaps(nodes);
+  for (int i = nodes.begin; i < nodes.end; ++i) {
+    for (const int hat : weights_[at(i)].hats) include(hat, part.hats);
+  }
+  for (int b = nodes.begin / kNodeBlock; b < nodes.end / kNodeBlock; ++b) {
+    if (at(b) >= blocks_.size()) break;
+    for (const CoarseTerm& term : blocks_[at(b)].terms) include(term.sum, part.sums);
+    for (const CoarseSpring& spring : blocks_[at(b)].springs) {
+      for (const int node : {spring.node, spring.other}) {
+        const CoarseNode& alone = alone_[at(node)];
+        for (int k = 0; k < alone.num_terms; ++k) include(alone.terms[k].sum, part.sums);
+      }
+    }
+  }
+  const auto num_hats = static_cast<std::size_t>(std::max(0, part.hats.end - part.hats.begin));
+  const auto num_sums = static_cast<std::size_t>(std::max(0, part.sums.end - part.sums.begin));
+  part.blocks.assign(num_sums * kBlockNumbers, 0.0F);
+  for (Fours* sums : {&part.residual, &part.other_residual}) sums->setZero(4, long(num_hats));
+}
+
+void CoarseCorrection::set_bending(const EdgeSlots& slots,
+                                   const std::function<double(std::size_t)>& stiffness) {
+  if (num_hats_ == 0) return;
+  std::vector<double> sums(at(band_.num_blocks()), 0.0);
+  for (int b = 0; b < slots.num_blocks(); ++b) {
+    for (int slot = slots.blocks[at(b)].begin; slot < slots.blocks[at(b)].end; ++slot) {
+      for (int lane = 0; lane < kNodeBlock; ++lane) {
+        const auto place = at(slot) * kNodeBlock + at(lane);
+        const int node = b * kNodeBlock + lane;
+        const int other = slots.others[place];
+        if (slots.edges[place] < 0 || node >= slots.num_nodes || other <= node) continue;
+        const double w = stiffness(place);
+        const Row row = difference(node, other);
+        double sum = 0;
+        for (const auto& [hat, d] : row) sum += static_cast<double>(d);
+        for (const Row::Entry* one = row.begin(); one != row.end(); ++one) {
+          const auto d = static_cast<double>(one->number);
+          sums[at(band_.own_block(one->hat))] += w * d * sum;
+          for (const Row::Entry* two = one + 1; two != row.end(); ++two) {
+            const int pair = pair_of(one->hat, two->hat);
+            if (pair >= 0)
+              sums[at(band_.pair_block(pair))] -= w * d * static_cast<double>(two->number);
+          }
+        }
+      }
+    }
+  }
+  bending_.assign(sums.begin(), sums.end());
+}
+
+void CoarseCorrection::set_masses(const VectorX<float>& masses) {
+  std::fill(masses_.begin(), masses_.end(), 0.0F);
+  for (int i = 0; i < num_nodes_ && num_hats_ > 0; ++i) {
+    const HatWeights& of_node = weights_[at(i)];
+    for (int k = 0; k < kMostWeights; ++k) {
+      masses_[at(of_node.hats[k])] += masses[i] * of_node.weights[k];
+    }
+  }
+}
+
+void CoarseCorrection::factorise(const unsigned short* linear, float root_scale,
+                                 const std::vector<Hold>& holds, float inertia_over_mass,
+                                 ThreadTeam& team) {
+  if (num_hats_ == 0) return;
+  static_assert(sizeof(Hold) == 1 && Hold::kFree == Hold{});
+  const CoarseKernel& kernel = coarse_kernel();
+  const float scale = 1 / (root_scale * root_scale);
+  team.run(parts_.count(), [&](int p) {
+    Part& part = of_parts_[at(p)];
+    std::fill(part.blocks.begin(), part.blocks.end(), 0.0F);
+    const NodeRange nodes = parts_[p];
+    for (int b = nodes.begin / kNodeBlock; b < nodes.end / kNodeBlock; ++b) {
+      if (at(b) >= blocks_.size()) break;
+      const Block& block = blocks_[at(b)];
+      kernel.add_springs(
+          {block.springs.data(), static_cast<int>(block.springs.size()), block.terms.data(),
+           alone_.data(), reinterpret_cast<const unsigned char*>(holds.data()), linear, scale,
+           part.sums.begin},
+          part.blocks.data());
+    }
+  });
+  const std::int64_t num_numbers = std::ssize(sums_);
+  team.run(parts_.count(), [&](int share) {
+    const std::int64_t begin = num_numbers * share / parts_.count();
+    const std::int64_t end = num_numbers * (share + 1) / parts_.count();
+    std::fill(sums_.begin() + begin, sums_.begin() + end, 0.0F);
+    for (const Part& part : of_parts_) {
+      const std::int64_t first = std::int64_t{part.sums.begin} * kBlockNumbers;
+      const std::int64_t last = std::min(end, first + std::ssize(part.blocks));
+      for (std::int64_t k = std::max(begin, first); k < last; ++k) {
+        sums_[static_cast<std::size_t>(k)] += part.blocks[static_cast<std::size_t>(k - first)];
+      }
+    }
+  });
+  for (std::size_t block = 0; block < bending_.size(); ++block) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      sums_[block * kBlockNumbers + axis] += bending_[block];
+    }
+  }
+  for (std::size_t k = 0; k < masses_.size(); ++k) inertia_[k] = inertia_over_mass * masses_[k];
+  band_.factorise(sums_.data(), inertia_.data(), team);
+}
+
+void CoarseCorrection::restrict_residual(int part, const std::vector<int>& held,
+                                         const NodeArrays<float>& residual) {
+  if (num_hats_ == 0) return;
+  Part& of_part = of_parts_[at(part)];
+  of_part.residual.setZero();
+  of_part.other_residual.setZero();
+  const NodeRange nodes = parts_[part];
+  coarse_kernel().restrict_to(weights_.data(), nodes.begin, nodes.end, residual.data(),
+                              residual.rows(), of_part.hats.begin, of_part.residual.data(),
+                              of_part.other_residual.data());
+  of_part.residual += of_part.other_residual;
+  for (const int i : in_range(held, nodes)) {
+    const HatWeights& of_node = weights_[at(i)];
+    for (int k = 0; k < kMostWeights; ++k) {
+      of_part.residual.col(of_node.hats[k] - of_part.hats.begin).head<3>() -=
+          of_node.weights[k] * residual.row(i).transpose();
+    }
+  }
+}
+
+void CoarseCorrection::solve(ThreadTeam& team) {
+  if (num_hats_ == 0) return;
+  band_.solve(residuals_, solution_.data(), team);
+}
+
+void CoarseCorrection::interpolate(int part, const std::vector<int>& held,
+                                   NodeArrays<float>& correction) const {
+  const NodeRange nodes = parts_[part];
+  const auto stride = correction.rows();
+  if (num_hats_ == 0) {
+    correction.middleRows(nodes.begin, nodes.end - nodes.begin).setZero();
+    return;
+  }
+  coarse_kernel().interpolate(weights_.data(), nodes.begin, nodes.end, solution_.data(),
+                              correction.data(), stride);
+  for (const int i : in_range(held, nodes)) correction.row(i).setZero();
+}
+
+}  // namespace weft::fast

@@ -1,0 +1,82 @@
+// What hats need to know of a network: which nodes are near each other, and how much springs tie them.
+#include <weft/fast_solver/network/isotropic_network.hpp>
+
+#include <cstddef>
+
+#include <weft/fast_solver/network/network_forces.hpp>
+
+namespace weft::fast {
+namespace {
+
+constexpr double kTimeStep = 1.0 / 60;  // [s]
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// take(other, place) for each spring of a node.
+template <class Take>
+void for_each_spring(const EdgeSlots& slots, int node, const Take& take) {
+  const SlotRange& range = slots.blocks[at(node / kNodeBlock)];
+  for (int slot = range.begin; slot < range.end; ++slot) {
+    const std::size_t place = at(slot) * kNodeBlock + at(node % kNodeBlock);
+    if (slots.edges[place] >= 0) take(slots.others[place], place);
+  }
+}
+
+}  // namespace
+
+template <class Scalar>
+IsotropicNetwork NetworkForces<Scalar>::isotropic_network(const std::vector<int>& names) const {
+  std::vector<int> unknown_of(at(num_nodes()), -1);
+  for (std::size_t k = 0; k < names.size(); ++k) unknown_of[at(names[k])] = static_cast<int>(k);
+  IsotropicNetwork result;
+  SymmetricMatrix& matrix = result.matrix;
+  matrix.starts.push_back(0);
+  for (const int node : names) {
+    double sum = 0;
+    for_each_spring(slots_, node, [&](int other, std::size_t place) {
+      const Scalar* const spring =
+          springs_.data() + place / kNodeBlock * 3 * kNodeBlock + place % kNodeBlock;
+      const double stiffness =
+          static_cast<double>(spring[kNodeBlock]) +
+          (has_damping_ ? static_cast<double>(damping_[place]) / kTimeStep : 0.0) +
+          (has_bending_ ? static_cast<double>(bending_[place]) : 0.0);
+      sum += stiffness;
+      const int unknown = unknown_of[at(other)];
+      if (unknown < 0) return;
+      matrix.columns.push_back(unknown);
+      matrix.values.push_back(-stiffness);
+      result.lengths.push_back(static_cast<double>(spring[0]));
+    });
+    matrix.diagonal.push_back(sum);
+    matrix.starts.push_back(static_cast<int>(matrix.columns.size()));
+  }
+  return result;
+}
+
+template <class Scalar>
+Rings NetworkForces<Scalar>::rings_around(const std::vector<int>& nodes, int num_springs) const {
+  std::vector<char> is_in(at(num_nodes()), 0);
+  for (const int node : nodes) is_in[at(node)] = 1;
+  Rings rings{nodes, {static_cast<int>(nodes.size())}};
+  std::size_t next = 0;
+  for (int ring = 1; ring <= num_springs; ++ring) {
+    for (; next < at(rings.ends.back()); ++next) {
+      for_each_spring(slots_, rings.nodes[next], [&](int other, std::size_t) {
+        if (is_in[at(other)] != 0) return;
+        is_in[at(other)] = 1;
+        rings.nodes.push_back(other);
+      });
+    }
+    rings.ends.push_back(static_cast<int>(rings.nodes.size()));
+  }
+  return rings;
+}
+
+template IsotropicNetwork NetworkForces<float>::isotropic_network(const std::vector<int>&) const;
+template IsotropicNetwork NetworkForces<double>::isotropic_network(const std::vector<int>&) const;
+template Rings NetworkForces<float>::rings_around(const std::vector<int>&, int) const;
+template Rings NetworkForces<double>::rings_around(const std::vector<int>&, int) const;
+
+}  // namespace weft::fast

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <weft/fast_solver/coarse/coarse_correction.hpp>
+#include <weft/fast_solver/network/edge_slots.hpp>
+#include <weft/fast_solver/network/isotropic_network.hpp>
+#include <weft/fast_solver/network/network_kernel.hpp>
+#include <weft/fast_solver/network/node_arrays.hpp>
+#include <weft/fast_solver/network/spring_network.hpp>
+
+namespace weft::fast {
+
+/// The forces of a SpringNetwork and their linearisation, several edges at a time on the vector unit.
+///
+/// Linearised at x, the stiffness of an edge is s u u^T + t (I - u u^T) with s = k' + c / h along it
+/// and t = max(0, f / l) + w across: the part that a compressed spring takes away is left out, so that
+/// the matrix stays positive definite (Choi and Ko 2002).
+/// Scalar: of places and forces. Products are in single precision, for they only make corrections.
+/// Threads  what takes nodes may run for several parts of them at once; all else from one thread at a time. Allocates
+///          nothing after construction, but for replace() and what describes the network.
+template <class Scalar>
+class NetworkForces {
+ public:
+  NetworkForces(const SpringNetwork& network, int num_nodes);
+
+  [[nodiscard]] int num_nodes() const { return slots_.num_nodes; }
+
+  /// Puts springs in the place of all that have an end among the nodes that are changed (flags of
+  /// num_nodes nodes; there may be more nodes than before, and all new ones are changed). springs: each
+  /// has such an end; without bending, those with one such end only are taken to be as they were.
+  /// Takes time for what changes only: blocks that grow are laid out anew behind the others. Results are
+  /// those of a network made anew, but for the order in which the springs of some nodes are summed.
+  /// Returns flags of the blocks of kNodeBlock nodes that were laid out anew.
+  std::vector<char> replace(const SpringNetwork& springs, const std::vector<char>& is_changed,
+                            int num_nodes);
+  /// Share of the slots that no block uses any more [-].
+  [[nodiscard]] double unused_share() const;
+
+  [[nodiscard]] NodeRange all_nodes() const { return {0, fill_up(num_nodes())}; }
+
+  /// To be called before begin_step() of each part: the time step of dampers [s], > 0.
+  void set_time_step(Scalar time_step);
+  /// Notes what the rest of the step needs of its start; starts: q of all nodes [m].
+  void begin_step(NodeRange nodes, const NodeArrays<Scalar>& starts);
+
+  /// From the next add_forces() on t is at least this share of s, 0 to 1. With 1 no spring can store more than its
+  /// linearisation says, so that a step that the linear system thinks good is good (as the global step of Bouaziz et
+  /// al. 2014); with 0 steps of Newton's method are as large as they can be.
+  void set_least_across(Scalar share) { least_across_ = share; }
+
+  /// forces += those of the network at places x of all nodes [N], and linearises there unless told not to.
+  void add_forces(NodeRange nodes, const NodeArrays<Scalar>& places, NodeArrays<Scalar>& forces,
+                  bool linearises = true);
+
+  /// What add_forces() is minus the gradient of, the nodes' part [J].
+  [[nodiscard]] double potential(NodeRange nodes, const NodeArrays<Scalar>& places) const;
+
+  /// product = inertia displacements + stiffness displacements [N], with the stiffness of the last
+  /// linearisation. inertia: rows_for(n) [N/m].
+  void multiply(NodeRange nodes, const VectorX<float>& inertia,
+                const NodeArrays<float>& displacements, NodeArrays<float>& product) const;
+
+  /// The same at the nodes of some blocks of kNodeBlock only.
+  void multiply(const std::vector<int>& blocks, const VectorX<float>& inertia,
+                const NodeArrays<float>& displacements, NodeArrays<float>& product) const;
+
+  /// The 3 x 3 blocks of the diagonal of that stiffness [N/m].
+  [[nodiscard]] const BlockArrays& diagonal_blocks() const { return diagonal_; }
+
+  [[nodiscard]] const EdgeSlots& slots() const { return slots_; }
+  /// The springs between some nodes; what ties them to others is in the diagonal only. Dampers count as in steps of 1/60 s.
+  [[nodiscard]] IsotropicNetwork isotropic_network(const std::vector<int>& names) const;
+  /// Rings 0 to num_springs around some nodes.
+  [[nodiscard]] Rings rings_around(const std::vector<int>& nodes, int num_springs) const;
+  /// Tells a correction of the stiffness of bending; to be called whenever its basis or the network has changed.
+  void note_bending(CoarseCorrection& correction) const;
+  /// Makes a correction for the last linearisation.
+  void factorise(CoarseCorrection& correction, const std::vector<Hold>& holds,
+                 float inertia_over_mass, ThreadTeam& team) const {
+    correction.factorise(linear_.data(), root_scale_, holds, inertia_over_mass, team);
+  }
+
+ private:
+  /// A spring as one of its ends sees it.
+  struct Spring {
+    std::uint64_t place;  ///< in the order of a network's edges
+    EdgeLane lane;
+    Scalar rest_length;
+    Scalar stiffness;
+    Scalar compressed;  ///< what compression adds to the stiffness
+    Scalar damping;
+    float bending;
+  };
+  [[nodiscard]] NetworkView<Scalar> view() const;
+  void note_stiffest(const SpringNetwork& springs);
+  void choose_scale(double time_step);
+  void reserve(std::size_t num_slots);
+  void resize_arrays();
+  [[nodiscard]] std::vector<char> blocks_to_change(const SpringNetwork& springs,
+                                                   const std::vector<char>& is_changed) const;
+  void keep_springs(int block, const std::vector<char>& is_changed,
+                    std::vector<Spring>& result) const;
+  void lay_out(int block, std::vector<Spring>& springs);
+  void write(std::size_t place, const Spring& spring);
+
+  EdgeSlots slots_;
+  std::vector<int> room_;  ///< of each block: slots from its first one on
+  SlotMaker maker_;
+  AlignedVector<Scalar> springs_;
+  bool has_damping_ = false;  ///< without: no array
+  bool has_bending_ = false;
+  AlignedVector<Scalar> damping_;  ///< of each lane [N s/m]
+  AlignedVector<Scalar> dampers_;
+  AlignedVector<float> bending_;
+  Scalar least_across_ = 0;
+  double stiffest_ = 0;     ///< [N/m]
+  double most_damped_ = 0;  ///< [N s/m]
+  mutable AlignedVector<std::uint16_t> linear_;
+  float root_scale_ = 1;
+  Scalar time_step_ = 1;  ///< [s]
+  BlockArrays diagonal_;
+};
+
+extern template class NetworkForces<float>;
+extern template class NetworkForces<double>;
+
+}  // namespace weft::fast

@@ -1,0 +1,171 @@
+#include <weft/fast_solver/network/spring_network.hpp>
+
+#include <map>
+#include <utility>
+
+#include <weft/custom_forces/law_input.hpp>
+#include <weft/custom_forces/registry.hpp>
+#include <weft/fast_solver/network/rest_stiffness.hpp>
+#include <weft/mesh/mesh_part.hpp>
+
+namespace weft::fast {
+namespace {
+
+struct Entry {
+  double rest_length = 0;
+  double stiffness = 0;
+  double compressed = 0;
+  double damping = 0;
+  double bending = 0;
+};
+using Entries = std::map<std::pair<int, int>, Entry>;
+
+void add_springs(const forces::LawSpecification& law, const ClothMesh& mesh, Entries& entries) {
+  const Edges edges = forces::law_edges(law, mesh);
+  const VectorX<double> lengths = forces::law_rest_lengths(law, mesh, edges);
+  const bool is_tension = law.law == "tension";
+  const double stiffness = is_tension ? forces::law_scalar(law, "stiffness") : 0.0;
+  const double ratio = is_tension ? forces::law_scalar(law, "compression_ratio") : 1.0;
+  const double damping = is_tension ? 0.0 : forces::law_scalar(law, "damping");
+  for (Eigen::Index e = 0; e < edges.cols(); ++e) {
+    Entry& entry = entries[std::minmax(edges(0, e), edges(1, e))];
+    entry.rest_length = lengths[e];
+    entry.stiffness += stiffness;
+    entry.compressed += ratio * stiffness;
+    entry.damping += damping;
+  }
+}
+
+}  // namespace
+
+bool is_bending(std::string_view law) {
+  return law == "hinge_torsion" || law == "torsion";
+}
+
+bool is_implicit(const forces::LawSpecification& law) {
+  return law.law == "tension" || law.law == "spring_damping";
+}
+
+SpringNetwork make_network(const ClothMesh& mesh,
+                           const std::vector<forces::LawSpecification>& laws) {
+  Entries entries;
+  std::vector<forces::LawSpecification> bending;
+  for (const forces::LawSpecification& given : laws) {
+    const forces::LawSpecification law = forces::checked(given);
+    if (is_implicit(law)) add_springs(law, mesh, entries);
+    if (is_bending(law.law)) bending.push_back(law);
+  }
+  for (const MatrixPart& part : rest_stiffness(mesh, bending)) {
+    Entry& entry = entries[{part.row, part.column}];
+    entry.bending -= part.value;
+    if (entry.rest_length > 0) continue;
+    const double distance =
+        (mesh.rest_positions.col(part.row) - mesh.rest_positions.col(part.column)).norm();
+    entry.rest_length =
+        distance > 0 ? distance : 1.0;  // of no spring, but a length to compare with
+  }
+  SpringNetwork network;
+  const auto m = static_cast<Eigen::Index>(entries.size());
+  network.edges.resize(2, m);
+  for (auto* values : {&network.rest_lengths, &network.stiffness, &network.compressed_stiffness,
+                       &network.damping, &network.bending}) {
+    values->resize(m);
+  }
+  Eigen::Index e = 0;
+  for (const auto& [nodes, entry] : entries) {
+    network.edges.col(e) << nodes.first, nodes.second;
+    network.rest_lengths[e] = entry.rest_length;
+    network.stiffness[e] = entry.stiffness;
+    network.compressed_stiffness[e] = entry.compressed;
+    network.damping[e] = entry.damping;
+    network.bending[e] = entry.bending;
+    ++e;
+  }
+  return network;
+}
+
+namespace {
+
+bool is_marked(const std::vector<char>& flags, int node) {
+  return flags[static_cast<std::size_t>(node)] != 0;
+}
+
+void resize(Eigen::Index num_springs, SpringNetwork& network) {
+  network.edges.resize(2, num_springs);
+  for (auto* values : {&network.rest_lengths, &network.stiffness, &network.compressed_stiffness,
+                       &network.damping, &network.bending}) {
+    values->resize(num_springs);
+  }
+}
+
+void copy_springs(const SpringNetwork& from, Eigen::Index first, Eigen::Index count,
+                  Eigen::Index to, SpringNetwork& network) {
+  network.edges.middleCols(to, count) = from.edges.middleCols(first, count);
+  for (auto values :
+       {&SpringNetwork::rest_lengths, &SpringNetwork::stiffness,
+        &SpringNetwork::compressed_stiffness, &SpringNetwork::damping, &SpringNetwork::bending}) {
+    (network.*values).segment(to, count) = (from.*values).segment(first, count);
+  }
+}
+
+}  // namespace
+
+SpringNetwork make_network_at(const std::vector<char>& is_wanted, const ClothMesh& mesh,
+                              const std::vector<forces::LawSpecification>& laws) {
+  const MeshPart part = part_around(mesh, is_wanted);
+  const SpringNetwork of_part = make_network(part.mesh, laws);
+  SpringNetwork network;
+  resize(of_part.edges.cols(), network);
+  Eigen::Index count = 0;
+  for (Eigen::Index e = 0; e < of_part.edges.cols(); ++e) {
+    const int a = part.nodes[static_cast<std::size_t>(of_part.edges(0, e))];
+    const int b = part.nodes[static_cast<std::size_t>(of_part.edges(1, e))];
+    if (!is_marked(is_wanted, a) && !is_marked(is_wanted, b)) continue;
+    copy_springs(of_part, e, 1, count, network);
+    network.edges.col(count++) << a, b;
+  }
+  SpringNetwork result;
+  resize(count, result);
+  copy_springs(network, 0, count, 0, result);
+  return result;
+}
+
+void replace_springs(const std::vector<char>& is_changed, const SpringNetwork& springs,
+                     SpringNetwork& network) {
+  const auto is_old = [&](Eigen::Index e) {
+    const int a = network.edges(0, e);
+    const int b = network.edges(1, e);
+    return is_marked(is_changed, a) || is_marked(is_changed, b);
+  };
+  Eigen::Index num_old = 0;
+  for (Eigen::Index e = 0; e < network.edges.cols(); ++e) num_old += is_old(e) ? 1 : 0;
+  SpringNetwork result;
+  resize(network.edges.cols() - num_old + springs.edges.cols(), result);
+  const auto key = [](const SpringNetwork& of, Eigen::Index e) {
+    return std::pair(of.edges(0, e), of.edges(1, e));
+  };
+  Eigen::Index to = 0;
+  Eigen::Index next = 0;  // of springs
+  for (Eigen::Index e = 0; e < network.edges.cols();) {
+    if (is_old(e)) {
+      ++e;
+      continue;
+    }
+    for (; next < springs.edges.cols() && key(springs, next) < key(network, e); ++next) {
+      copy_springs(springs, next, 1, to++, result);
+    }
+    // As far as nothing comes between.
+    Eigen::Index end = e + 1;
+    while (end < network.edges.cols() && !is_old(end) &&
+           (next == springs.edges.cols() || key(network, end) < key(springs, next))) {
+      ++end;
+    }
+    copy_springs(network, e, end - e, to, result);
+    to += end - e;
+    e = end;
+  }
+  copy_springs(springs, next, springs.edges.cols() - next, to, result);
+  network = std::move(result);
+}
+
+}  // namespace weft::fast

@@ -1,0 +1,156 @@
+// What a solver is made of: nodes and springs, and what pins, led nodes and tears change between steps.
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <string>
+
+#include <weft/core/error.hpp>
+#include <weft/fast_solver/implicit_solver.hpp>
+
+namespace weft::fast {
+namespace {
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+void check_size(const std::vector<bool>& is_free, Eigen::Index num_nodes) {
+  if (static_cast<Eigen::Index>(is_free.size()) == num_nodes) return;
+  throw InvalidArgument("implicit solver: " + std::to_string(is_free.size()) +
+                        " flags of free nodes, expected one for each of the " +
+                        std::to_string(num_nodes) + " nodes");
+}
+
+}  // namespace
+
+template <class Scalar>
+ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const VectorX<double>& masses,
+                                       const std::vector<bool>& is_free)
+    : forces_(network, static_cast<int>(masses.size())) {
+  parts_ = NodeParts(static_cast<int>(masses.size()));
+  check_size(is_free, masses.size());
+  set_nodes(masses, is_free);
+  std::vector<int> all(at(num_nodes()));
+  std::iota(all.begin(), all.end(), 0);
+  coarse_correction_ = CoarseCorrection(forces_.isotropic_network(all), forces_.slots());
+  change_correction(pinned_);
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
+                                       const std::vector<bool>& is_free) {
+  is_free_ = is_free;
+  const Eigen::Index n = masses.size();
+  parts_ = NodeParts(static_cast<int>(n));
+  list_pinned();
+  held_.clear();
+  held_.reserve(at(static_cast<int>(n)));
+  contact_of_.assign(at(static_cast<int>(n)), -1);
+  for (auto* vectors : {&normals_, &friction_}) vectors->setZero(3, n);
+  const Eigen::Index num_rows = rows_for(static_cast<int>(n));
+  for (auto* holds : {&holds_, &held_before_}) {
+    holds->assign(static_cast<std::size_t>(num_rows), Hold::kFree);
+  }
+  for (Nodes* vectors : {&targets_, &starts_, &places_, &unbalanced_, &holding_forces_, &unmoved_,
+                         &last_places_, &last_results_, &remainders_}) {
+    vectors->setZero(num_rows, 3);
+  }
+  for (Matrix3X<Scalar>* vectors : {&more_places_, &more_forces_}) vectors->setZero(3, n);
+  masses_.setZero(num_rows);
+  masses_.head(n) = masses.cast<Scalar>();
+  inertia_.setZero(num_rows);
+  system_inertia_.setZero(num_rows);
+  drag_.setZero(n);
+  friction_bounds_.setZero(n);
+  weights_.setZero(num_rows);
+  if (blocks_.rows() == num_rows) return;  // the others keep no number from one step to the next
+  blocks_.setZero(num_rows, 6);
+  for (Floats* vectors : {&step_, &residual_vector_, &direction_, &direction_product_, &smoothed_,
+                          &correction_product_, &work_, &coarse_}) {
+    vectors->setZero(num_rows, 3);
+  }
+  anderson_.resize(num_rows);
+  for (Floats& correction : corrections_) correction.setZero(num_rows, 3);
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::set_free(const std::vector<bool>& is_free) {
+  check_size(is_free, num_nodes());
+  std::vector<int> changed;
+  for (int i = 0; i < num_nodes(); ++i) {
+    if (is_free[at(i)] != is_free_[at(i)]) changed.push_back(i);
+  }
+  if (changed.empty()) return;
+  is_free_ = is_free;
+  list_pinned();
+  change_correction(changed);
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::change_correction(const std::vector<int>& changed) {
+  const Rings rings = forces_.rings_around(changed, 2 * kHatReach);
+  coarse_correction_.set_free(forces_.isotropic_network(rings.nodes), rings, have_hats(rings.nodes),
+                              forces_.slots());
+  coarse_correction_.set_masses(masses_.template cast<float>());
+  forces_.note_bending(coarse_correction_);
+}
+
+// Flags of some nodes: neither pinned nor led.
+template <class Scalar>
+std::vector<bool> ImplicitSolver<Scalar>::have_hats(const std::vector<int>& nodes) const {
+  std::vector<bool> result;
+  for (const int node : nodes) {
+    result.push_back(is_free_[at(node)] && !std::binary_search(led_.begin(), led_.end(), node));
+  }
+  return result;
+}
+
+// Led nodes are held like pins, for many steps: hats are low near them as well.
+template <class Scalar>
+void ImplicitSolver<Scalar>::follow_led(const StepProblem<Scalar>& problem) {
+  next_led_.clear();
+  for (const LedNode<Scalar>& led : problem.led) next_led_.push_back(led.node);
+  std::sort(next_led_.begin(), next_led_.end());
+  next_led_.erase(std::unique(next_led_.begin(), next_led_.end()), next_led_.end());
+  if (next_led_ == led_) return;
+  std::vector<int> changed;
+  std::set_symmetric_difference(led_.begin(), led_.end(), next_led_.begin(), next_led_.end(),
+                                std::back_inserter(changed));
+  led_ = next_led_;
+  change_correction(changed);
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::list_pinned() {
+  pinned_.clear();
+  for (int i = 0; i < static_cast<int>(is_free_.size()); ++i) {
+    if (!is_free_[at(i)]) pinned_.push_back(i);
+  }
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::tear(const SpringNetwork& springs, const std::vector<char>& is_changed,
+                                  const VectorX<double>& masses, const std::vector<int>& origins) {
+  std::vector<bool> is_free = is_free_;
+  for (const int origin : origins) is_free.push_back(is_free_[at(origin)]);
+  const std::vector<char> blocks =
+      forces_.replace(springs, is_changed, static_cast<int>(masses.size()));
+  set_nodes(masses, is_free);
+  coarse_correction_.add_copies(origins);
+  coarse_correction_.note_springs(forces_.slots(), blocks);
+  coarse_correction_.set_masses(masses_.template cast<float>());
+  forces_.note_bending(coarse_correction_);
+  // A copy of what is led has no hats yet, and nothing leads it.
+  std::vector<int> of_led;
+  const int first = num_nodes() - static_cast<int>(origins.size());
+  for (std::size_t k = 0; k < origins.size(); ++k) {
+    const bool is_led = std::binary_search(led_.begin(), led_.end(), origins[k]);
+    if (is_led) of_led.push_back(first + static_cast<int>(k));
+  }
+  if (!of_led.empty()) change_correction(of_led);
+}
+
+template class ImplicitSolver<float>;
+template class ImplicitSolver<double>;
+
+}  // namespace weft::fast

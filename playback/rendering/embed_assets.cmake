@@ -1,0 +1,20 @@
+# weft_embed_assets(<out variable> <file>...): a generated source file that defines find_asset() of assets.hpp, so
+# that shaders and the font travel inside the library and are found at every place it is run from.
+function(weft_embed_assets out_variable)
+  set(text "#include <weft/playback/rendering/assets.hpp>\n\n#include <iterator>\n\nnamespace weft::scenes {\nnamespace {\n")
+  set(table "")
+  set(index 0)
+  foreach(file IN LISTS ARGN)
+    file(READ "${CMAKE_CURRENT_SOURCE_DIR}/${file}" hex HEX)
+    string(REGEX REPLACE "(..)" "0x\\1," bytes "${hex}")
+    string(APPEND text "constexpr unsigned char kAsset${index}[] = {${bytes}};\n")
+    string(APPEND table "    {\"${file}\", kAsset${index}, std::size(kAsset${index})},\n")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
+    math(EXPR index "${index} + 1")
+  endforeach()
+  string(APPEND text "constexpr Asset kAssets[] = {\n${table}};\n}  // namespace\n\n"
+         "std::span<const Asset> assets() { return kAssets; }\n\n}  // namespace weft::scenes\n")
+  set(generated "${CMAKE_CURRENT_BINARY_DIR}/assets_data.cpp")
+  file(CONFIGURE OUTPUT "${generated}" CONTENT "@text@" @ONLY)
+  set(${out_variable} "${generated}" PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <weft/playback/rendering/meshes/surface_mesh.hpp>
+#include <weft/playback/rendering/opengl/gl_functions.hpp>
+
+namespace weft::scenes {
+
+/// A surface in the buffers of a context. It lives as long as its context.
+class GpuMesh {
+ public:
+  explicit GpuMesh(const GlFunctions& gl);
+
+  void upload(const SurfaceMesh& mesh);
+  void draw() const;
+
+ private:
+  const GlFunctions* gl_;
+  GLuint array_ = 0;
+  GLuint vertices_ = 0;
+  GLuint indices_ = 0;
+  GLsizei num_indices_ = 0;
+};
+
+}  // namespace weft::scenes

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include <weft/playback/rendering/opengl/shader_program.hpp>
+#include <weft/playback/rendering/paint/pattern.hpp>
+#include <weft/scenes/scene.hpp>
+
+namespace weft::scenes {
+
+/// How a body is painted. It lives as long as its context.
+struct BodyPaint {
+  /// Where in its picture a place of the body is; as in surface.frag.
+  enum class Mapping {
+    kNoTexture,
+    kByCoordinates,  ///< texture coordinates
+    kByDirection,    ///< longitude and latitude of the place at rest, seen from the middle
+    kFromFront,      ///< angle from the body's z axis, as Pattern::kEyeball
+  };
+
+  Eigen::Vector3f front{1, 1, 1};  ///< linear light
+  Eigen::Vector3f back{1, 1, 1};   ///< linear light
+  Mapping mapping = Mapping::kNoTexture;
+  GLuint texture = 0;
+  Eigen::Vector2f repeat{1, 1};
+  bool texture_on_back = false;
+  bool is_flat = false;
+  bool is_visible = true;
+  bool is_two_tone = false;  ///< octants in both colours, which show how a plain ball turns
+
+  void set(const GlFunctions& gl, const ShaderProgram& program, GLint texture_unit) const;
+};
+
+/// index chooses from the palette; has_coordinates: whether the mesh has texture coordinates.
+[[nodiscard]] BodyPaint cloth_paint(const GlFunctions& gl, const Scene& scene, std::size_t index,
+                                    bool has_coordinates);
+[[nodiscard]] BodyPaint collider_paint(const GlFunctions& gl, const Scene& scene,
+                                       const Collider& collider);
+
+}  // namespace weft::scenes

@@ -1,0 +1,114 @@
+// What a step says of its own error, beside what it is: the same step solved to the last digit.
+#include <weft/bridge/step_error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include <weft/bridge/classic/node_state.hpp>
+
+#include "tests/bridge/fast_scene.hpp"
+
+namespace weft::bridge {
+namespace {
+
+// Without a history, so that a step depends on nothing but its start.
+FastSettings settings_of(const fast::SolverEffort& effort) {
+  return {.effort = effort, .is_second_order = false, .may_sleep = false};
+}
+
+/// Two cloths that begin each step alike.
+class Pair {
+ public:
+  Pair(const ClothMesh& mesh, double stiffness, const fast::SolverEffort& effort)
+      : exact_(mesh, laws(stiffness), 0.5,
+               settings_of({.rounds = 400, .iterations = 32, .tolerance = 1e-6})),
+        asked_(mesh, laws(stiffness), 0.5, settings_of(effort)),
+        masses_(mesh.masses) {
+    for (Scene* scene : {&exact_, &asked_}) {
+      scene->add(box(0.2, 0.1, 0.2), 0, at(0, -0.35, 0));
+    }
+  }
+  void step() {
+    place_body(exact_.positions(), exact_.velocities(), asked_.body());
+    exact_.step();
+    asked_.step();
+  }
+  /// Root mean square over the mass [m].
+  [[nodiscard]] double true_error() const {
+    const VectorX<double> squares =
+        (asked_.positions() - exact_.positions()).colwise().squaredNorm().transpose();
+    return std::sqrt(masses_.dot(squares) / masses_.sum());
+  }
+  [[nodiscard]] StepError reported() { return asked_.solver().step_error(asked_.body()); }
+
+ private:
+  static std::vector<forces::LawSpecification> laws(double stiffness) {
+    return {kGravity, law("tension", "stiffness", stiffness)};
+  }
+  Scene exact_;
+  Scene asked_;
+  VectorX<double> masses_;
+};
+
+ClothMesh hanging_cloth() {
+  ClothMesh mesh = cloth(21, 0.8, 0);
+  mesh.pinned = {0, 20};
+  return mesh;
+}
+
+/// What rounding makes of a place within a metre of the origin, in two different solutions [m].
+constexpr double kRounding = sizeof(btScalar) == 4 ? 2e-6 : 1e-9;
+constexpr int kNumSteps = 90;
+
+// The bound takes for granted that springs resist. Those of a sheet that crumples are compressed, and some of its steps are
+// farther off.
+constexpr double kBoundedShare = 0.9;
+constexpr double kMostTooLarge =
+    50;  ///< times: an estimate that is farther off than that says nothing
+constexpr double kRoundedStiffness =
+    1e5;  ///< [N/m] from which on single precision leaves errors of its own
+constexpr double kRightShare = 0.95;  ///< of the steps that are said to be within tolerance
+
+TEST(StepError, IsNoLessThanTheTrueOne) {
+  for (const double stiffness : {1e2, 1e4, 1e6}) {
+    Pair pair(hanging_cloth(), stiffness, {});
+    int num_right = 0;
+    int num_wrong_promises = 0;
+    int num_useless = 0;
+    for (int step = 0; step < kNumSteps; ++step) {
+      pair.step();
+      const StepError reported = pair.reported();
+      const bool is_right = pair.true_error() <= 2 * reported.distance + kRounding;
+      if (is_right) ++num_right;
+      if (reported.distance > kMostTooLarge * pair.true_error() + kRounding) ++num_useless;
+      if (!is_right && reported.is_within_tolerance) ++num_wrong_promises;
+    }
+    EXPECT_GE(num_right, kBoundedShare * kNumSteps) << stiffness;
+    if (stiffness < kRoundedStiffness) {
+      EXPECT_LE(num_useless, kNumSteps / 2) << stiffness;
+    }
+    EXPECT_LE(num_wrong_promises, (1 - kRightShare) * kNumSteps) << stiffness;
+  }
+}
+
+TEST(StepError, SaysThatTheBudgetEndedFirst) {
+  Pair pair(hanging_cloth(), 1e4, {.rounds = 1, .iterations = 2});
+  int num_small = 0;
+  double largest = 0;
+  for (int step = 0; step < kNumSteps; ++step) {
+    pair.step();
+    const StepError reported = pair.reported();
+    EXPECT_EQ(reported.rounds, 1);
+    EXPECT_FALSE(reported.is_within_tolerance) << step;
+    largest = std::max(largest, pair.true_error());
+    if (pair.true_error() > 2 * reported.distance + kRounding) ++num_small;
+  }
+  EXPECT_GT(largest, 1e-4);
+  EXPECT_LE(num_small, (1 - kBoundedShare) * kNumSteps);
+}
+
+}  // namespace
+}  // namespace weft::bridge

@@ -1,0 +1,221 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include <weft/fast_solver/coarse/coarse_correction.hpp>
+#include <weft/fast_solver/coarse/smoothed_aggregates.hpp>
+#include <weft/fast_solver/network/network_forces.hpp>
+#include <weft/mesh/cloth_grid.hpp>
+
+#include "tests/fast_solver/node_arrays.hpp"
+
+namespace weft::fast {
+namespace {
+
+constexpr int kSide = 14;
+
+/// A sheet of which one side is pinned, crumpled a little, and its correction.
+struct Sheet {
+  explicit Sheet(float inertia_of_node) {
+    ClothGrid grid;
+    grid.nodes = {kSide, kSide};
+    mesh = make_cloth_grid(grid);
+    const SpringNetwork network = make_network(mesh, {{"tension", {}, {{"stiffness", {50.0}}}}});
+    forces.emplace(network, mesh.num_nodes());
+    for (int i = 0; i < mesh.num_nodes(); ++i) {
+      names.push_back(i);
+      is_free.push_back(true);
+    }
+    springs = forces->isotropic_network(names);
+    correction = CoarseCorrection(springs, forces->slots());
+    pin(side());
+    std::srand(4);
+    const Matrix3X<double> x =
+        mesh.rest_positions + 0.02 * Matrix3X<double>::Random(3, mesh.num_nodes());
+    begin_step(*forces, mesh.rest_positions, 1.0 / 60);
+    (void)forces_at(*forces, x);
+    const int rows = rows_for(mesh.num_nodes());
+    inertia.setConstant(rows, inertia_of_node);
+    inertia.tail(rows - mesh.num_nodes()).setZero();
+    holds.assign(static_cast<std::size_t>(rows), Hold::kFree);
+  }
+  [[nodiscard]] static std::vector<int> side() {
+    std::vector<int> result(kSide);
+    std::iota(result.begin(), result.end(), 0);
+    return result;
+  }
+  void pin(const std::vector<int>& pins) {
+    std::vector<int> changed;
+    for (const int i : names) {
+      const bool is_pin = std::find(pins.begin(), pins.end(), i) != pins.end();
+      if (is_free[at(i)] == is_pin) changed.push_back(i);
+      is_free[at(i)] = !is_pin;
+    }
+    const Rings rings = forces->rings_around(changed, 2 * kHatReach);
+    std::vector<bool> are_free;
+    for (const int i : rings.nodes) are_free.push_back(is_free[at(i)]);
+    correction.set_free(forces->isotropic_network(rings.nodes), rings, are_free, forces->slots());
+  }
+  void factorise() {
+    correction.set_masses(inertia);
+    forces->factorise(correction, holds, 1, team);
+  }
+  [[nodiscard]] NodeArrays<float> corrected(const NodeArrays<float>& residual) {
+    NodeArrays<float> zeros(residual.rows(), 3);
+    NodeArrays<float> result(residual.rows(), 3);
+    const NodeParts parts(mesh.num_nodes());
+    for (int part = 0; part < parts.count(); ++part) {
+      correction.restrict_residual(part, held, residual);
+    }
+    correction.solve(team);
+    for (int part = 0; part < parts.count(); ++part) correction.interpolate(part, held, result);
+    return result;
+  }
+  [[nodiscard]] NodeArrays<float> stiffness_times(const NodeArrays<float>& displacements) {
+    NodeArrays<float> product(displacements.rows(), 3);
+    forces->multiply(forces->all_nodes(), inertia, displacements, product);
+    clear_held(product);
+    return product;
+  }
+  [[nodiscard]] NodeArrays<float> any_residual() const {
+    NodeArrays<float> residual = NodeArrays<float>::Random(inertia.rows(), 3);
+    clear_held(residual);
+    residual.bottomRows(inertia.rows() - mesh.num_nodes()).setZero();
+    return residual;
+  }
+
+  void clear_held(NodeArrays<float>& vectors) const {
+    for (const int i : names) {
+      if (!is_free[at(i)]) vectors.row(i).setZero();
+    }
+    for (const int i : held) vectors.row(i).setZero();
+  }
+  [[nodiscard]] static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+  ClothMesh mesh;
+  std::optional<NetworkForces<double>> forces;
+  std::vector<int> names;
+  std::vector<bool> is_free;
+  IsotropicNetwork springs;
+  CoarseCorrection correction;
+  VectorX<float> inertia;
+  std::vector<Hold> holds;
+  std::vector<int> held;
+  ThreadTeam team;
+};
+
+TEST(SmoothedAggregates, AreFewHatsThatShareEveryNode) {
+  const Sheet sheet(1);
+  const Patches patches = find_patches(sheet.springs, 30);
+  const Interpolation hats = smoothed_aggregates(sheet.springs, sheet.is_free, patches);
+  EXPECT_LE(hats.num_coarse, 30);
+  EXPECT_GT(hats.num_coarse, 8);
+  std::vector<double> of_hat(static_cast<std::size_t>(hats.num_coarse), 0.0);
+  for (int i = 0; i < hats.size(); ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    ASSERT_LE(hats.starts[row + 1] - hats.starts[row], kMostWeights);
+    double sum = 0;
+    for (auto e = static_cast<std::size_t>(hats.starts[row]);
+         e < static_cast<std::size_t>(hats.starts[row + 1]); ++e) {
+      EXPECT_GT(hats.values[e], 0);
+      sum += hats.values[e];
+      of_hat[static_cast<std::size_t>(hats.columns[e])] += hats.values[e];
+    }
+    // The pinned side pulls down what is near it, and nothing else does.
+    const bool is_far = i / kSide > 11;
+    EXPECT_LE(sum, 1 + 1e-12);
+    if (is_far) {
+      EXPECT_NEAR(sum, 1, 1e-12) << i;
+    }
+    if (i / kSide <= 1) {
+      EXPECT_LT(sum, i / kSide == 0 ? 1e-12 : 0.9) << i;
+    }
+  }
+  // A patch in the corner of three others may lose each of its nodes to them.
+  EXPECT_GT(std::count_if(of_hat.begin(), of_hat.end(), [](double sum) { return sum > 0; }),
+            9 * hats.num_coarse / 10);
+}
+
+TEST(SmoothedAggregates, HavePiecesAndLooseNodesToo) {
+  IsotropicNetwork network;  // forty pairs, and forty nodes alone
+  for (int i = 0; i < 120; ++i) {
+    network.matrix.starts.push_back(std::min(i, 80));
+    network.matrix.diagonal.push_back(i < 80 ? 1 : 0);
+    if (i >= 80) continue;
+    network.matrix.columns.push_back(i ^ 1);
+    network.matrix.values.push_back(-1);
+    network.lengths.push_back(0.1);
+  }
+  network.matrix.starts.push_back(80);
+  const std::vector<bool> is_free(120, true);
+  const Interpolation hats = smoothed_aggregates(network, is_free, find_patches(network, 30));
+  EXPECT_EQ(hats.num_coarse, 40);  // none of loose nodes
+  EXPECT_EQ(hats.starts.back(), 80);
+}
+
+// A displacement that hats can have is its own correction, whatever directions the springs have: what is left to differ
+// are terms that are left out, and masses that are lumped.
+TEST(CoarseCorrection, FindsADisplacementFromItsForces) {
+  Sheet sheet(0.01F);
+  for (const bool is_held : {false, true}) {
+    if (is_held) {
+      sheet.held = {40, 75, 76, 90, 150};
+      for (const int i : sheet.held) {
+        sheet.holds[static_cast<std::size_t>(i)] = i % 2 == 0 ? Hold::kFixed : Hold::kOnPlane;
+      }
+    }
+    sheet.factorise();
+    const NodeArrays<float> displacements = sheet.corrected(sheet.any_residual());
+    for (const int i : sheet.held) EXPECT_TRUE(displacements.row(i).isZero(0));
+    const NodeArrays<float> found = sheet.corrected(sheet.stiffness_times(displacements));
+    EXPECT_LT((found - displacements).norm(), 0.1F * displacements.norm()) << is_held;
+    EXPECT_GT(displacements.norm(), 0);
+  }
+}
+
+// What is pinned later is not moved, what is let go is, and the matrix is that of the new hats.
+TEST(CoarseCorrection, FollowsPins) {
+  const std::vector<int> side = Sheet::side();
+  Sheet sheet(0.01F);
+  const std::vector<std::vector<int>> pins = {{0, 13, 100}, {0, 13},     {195}, {},
+                                              side,         sheet.names, {7},   side};
+  for (const std::vector<int>& pinned : pins) {
+    sheet.pin(pinned);
+    sheet.factorise();
+    const NodeArrays<float> displacements = sheet.corrected(sheet.any_residual());
+    for (const int i : sheet.names) {
+      EXPECT_EQ(displacements.row(i).isZero(0), !sheet.is_free[static_cast<std::size_t>(i)]) << i;
+    }
+    const NodeArrays<float> found = sheet.corrected(sheet.stiffness_times(displacements));
+    EXPECT_LE((found - displacements).norm(), 0.1F * displacements.norm()) << pinned.size();
+  }
+}
+
+TEST(CoarseCorrection, ASheetWithoutSpringsMovesAsItsMassesDo) {
+  Sheet sheet(1e6F);
+  sheet.factorise();
+  NodeArrays<float> residual(sheet.inertia.rows(), 3);
+  residual.col(1).setConstant(1e6F);
+  sheet.clear_held(residual);
+  const NodeArrays<float> found = sheet.corrected(residual);
+  const int last = sheet.mesh.num_nodes() - 1;
+  EXPECT_NEAR(found(last, 1), 1, 1e-3);
+  EXPECT_NEAR(found(last, 0), 0, 1e-6);
+}
+
+TEST(CoarseCorrection, CorrectsNothingWhereAllIsPinned) {
+  CoarseCorrection correction(IsotropicNetwork{{{0, 0, 0, 0}, {}, {}, {1, 1, 1}}, {}}, {});
+  NodeArrays<float> values = NodeArrays<float>::Ones(rows_for(3), 3);
+  ThreadTeam team;
+  correction.restrict_residual(0, {}, values);
+  correction.solve(team);
+  correction.interpolate(0, {}, values);
+  EXPECT_TRUE(values.isZero(0));
+}
+
+}  // namespace
+}  // namespace weft::fast

@@ -1,0 +1,114 @@
+#include <weft/validation/cases/engines/collision_comparison.hpp>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace weft::validation {
+namespace {
+
+constexpr auto kFloat32 = scenes::StoredPrecision::kFloat32;
+constexpr auto kFloat64 = scenes::StoredPrecision::kFloat64;
+const EngineChoice kReference{"reference", kFloat64};
+
+constexpr std::array kNodes = {12, 18, 26};  ///< along each side: every 55, 35 and 24 mm
+constexpr int kLongStep = 8;                 ///< 1/250 s, for an engine that needs no short ones
+
+scenes::Scene edited(scenes::Scene scene, const Sabotage& sabotage) {
+  sabotage.edit_scene(scene);
+  return scene;
+}
+
+}  // namespace
+
+std::string SweepEngine::title() const {
+  return step_factor == 1 ? choice.title()
+                          : fmt::format("{}, {} x step", choice.title(), step_factor);
+}
+
+std::string SweepEngine::id(const std::string& run) const {
+  return step_factor == 1 ? run : fmt::format("{}_x{}", run, step_factor);
+}
+
+bool SweepEngine::has_coulomb_friction() const {
+  return choice.engine != "bullet_soft";
+}
+
+std::vector<SweepEngine> sweep_engines(const CollisionScene& scene, bool with_bullet) {
+  if (!with_bullet) return {};
+  std::vector<SweepEngine> list{{{"bullet_weft", kFloat32}},
+                                {{"bullet_weft", kFloat32}, kLongStep},
+                                {{"bullet_weft", kFloat64}, kLongStep},
+                                {{"bullet_forces", kFloat32}},
+                                {{"bullet_forces", kFloat64}},
+                                {{"bullet_soft", kFloat32}}};
+  if (!scene.is_led) list.push_back({{"bullet_deformable", kFloat64}});
+  return list;
+}
+
+std::vector<int> sweep_resolutions(const CollisionScene& scene) {
+  if (scene.slides) return {kNodes[1]};  // there to show a size, which one resolution does
+  return {kNodes.begin(), kNodes.end()};
+}
+
+Comparison::Comparison(const CaseInfo& info, const CollisionScene& row, int nodes)
+    : row_(row),
+      nodes_(nodes),
+      id_(fmt::format("{}_{}_{}", info.id, row.id, nodes)),
+      metrics_(make_collision_scene(row, nodes)) {}
+
+bool Comparison::is_coarsest() const {
+  return nodes_ == sweep_resolutions(row_).front();
+}
+
+LevelPlan Comparison::level_plan() const {
+  return {id_, metrics_.scene(), row_.finest_division};
+}
+
+void Comparison::plan(bool with_bullet, EngineRuns& runs) const {
+  const scenes::Scene& scene = metrics_.scene();
+  for (const SweepEngine& engine : sweep_engines(row_, with_bullet)) {
+    scenes::Scene own = scene;
+    own.world.time_step *= engine.step_factor;
+    runs.add(
+        {engine.choice.label(engine.id(id_)), own, engine.choice.engine, engine.choice.precision});
+  }
+  plan_levels(level_plan(), runs);
+  if (!is_coarsest()) return;
+  const auto add_wrong = [&](const char* name, const Sabotage& sabotage) {
+    runs.add({kReference.label(id_ + name), edited(scene, sabotage), kReference.engine,
+              kReference.precision});
+  };
+  add_wrong("_wrong_early", row_.early());
+  add_wrong("_wrong_late", row_.late());
+}
+
+void Comparison::load(bool with_bullet, const EngineRuns& runs) {
+  levels_ = {ReferenceLevels(level_plan(), runs)};
+  engines_ = sweep_engines(row_, with_bullet);
+  for (const SweepEngine& engine : engines_) {
+    histories_.push_back(load_history(runs, engine.id(id_), engine.choice));
+  }
+  if (!is_coarsest()) return;
+  wrong_early_ = load_history(runs, id_ + "_wrong_early", kReference).frames;
+  wrong_late_ = load_history(runs, id_ + "_wrong_late", kReference).frames;
+}
+
+Window Comparison::window(bool at_rest) const {
+  if (at_rest) return {Quantity::kRmsDistance, row_.duration, row_.duration};
+  return {Quantity::kRmsDistance, 0.0, kEarlyEnd};
+}
+
+double Comparison::distance(const Frames& a, const Frames& b, bool at_rest) const {
+  const Window of = window(at_rest);
+  return metrics_.largest(of.quantity, a, b, of.begin, of.end);
+}
+
+double Comparison::end_speed() const {
+  if (reference().empty()) return std::numeric_limits<double>::infinity();
+  return std::sqrt(reference().back().cloths[0].velocities.colwise().squaredNorm().mean());
+}
+
+}  // namespace weft::validation

@@ -1,0 +1,167 @@
+#include <weft/validation/cases/scenes/scene_cases.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <weft/scenes/catalog.hpp>
+#include <weft/validation/cases/scenes/scene_section.hpp>
+#include <weft/validation/cases/scenes/scene_truth.hpp>
+
+namespace weft::validation {
+namespace {
+
+/// The fast solver is there for steps of a picture: that a short one is right says little of it. Scenes whose own step is as
+/// long keep it.
+constexpr double kFastStep = 1.0 / 100;  // [s]: divides every frame interval
+
+scenes::Scene scene_for(const scenes::Scene& scene, const EngineChoice& engine) {
+  if (engine.engine != "bullet_weft") return scene;
+  scenes::Scene own = scenes::load_scene(scene.name);
+  own.world.time_step = std::max(own.world.time_step, kFastStep);
+  return scenes::with_bullets_time_step(std::move(own));
+}
+
+const History* find_history(const std::vector<History>& histories, const EngineChoice& engine) {
+  for (const History& history : histories) {
+    if (history.engine.engine == engine.engine && history.engine.precision == engine.precision) {
+      return &history;
+    }
+  }
+  return nullptr;
+}
+
+SabotageResult try_sabotage(const SceneGate& gate, const Sabotage& sabotage,
+                            const SceneMetrics& metrics, const History& history,
+                            const Frames& reference) {
+  Frames wrong = run_sabotaged(metrics.scene(), sabotage, gate.end);
+  // A depth belongs to one run, so there the wrong run is judged, against colliders that stand
+  // where they should; a distance belongs to the pair.
+  const bool alone = gate.quantity == Quantity::kDepth;
+  if (alone) {
+    for (std::size_t f = 0; f < std::min(wrong.size(), reference.size()); ++f) {
+      wrong[f].rigids = reference[f].rigids;
+    }
+  }
+  const Frames& judged = alone ? wrong : history.frames;
+  const double measured =
+      gate.against == Against::kSeeds
+          ? std::abs(metrics.mean_shape_number(gate.quantity, judged, gate.begin, gate.end) -
+                     metrics.mean_shape_number(gate.quantity, wrong, gate.begin, gate.end))
+          : metrics.largest(gate.quantity, judged, wrong, gate.begin, gate.end);
+  // A mistake must show in the number that the bound holds: a sabotaged run that blows up has no such number.
+  const bool noticed = std::isfinite(measured) && judge(measured, gate.tolerance) == Verdict::kFail;
+  return {sabotage.name, measured, noticed};
+}
+
+CheckResult check_gate(const CaseInfo& info, const SceneGate& gate, const SceneTruth& truth,
+                       const SceneMetrics& metrics, const History& history,
+                       const Frames& reference) {
+  CheckResult check;
+  check.case_id = info.id;
+  check.engine = gate.engine.title();
+  check.claim = gate.claim;
+  check.metric =
+      gate.begin == gate.end
+          ? fmt::format("{} at {:g} s", metric_text(gate.quantity), gate.end)
+          : fmt::format("{}, {:g} to {:g} s", metric_text(gate.quantity), gate.begin, gate.end);
+  check.unit = unit_of(gate.quantity);
+  check.source = truth.source(gate);
+  check.tolerance = gate.tolerance;
+  check.note = gate.note;
+  if (!history.failure.empty()) {
+    check.measured = std::nan("");
+    check.verdict = Verdict::kFail;
+    check.note = history.failure;
+    return check;
+  }
+  check.measured = truth.measured(gate, metrics, history.frames, reference);
+  check.verdict = judge(check.measured, gate.tolerance);
+  for (const Sabotage& sabotage : gate.sabotages) {
+    check.sabotages.push_back(try_sabotage(gate, sabotage, metrics, history, reference));
+  }
+  return check;
+}
+
+struct KnownDeparture {
+  const char* scene;  ///< empty: every scene
+  const char* engine;
+  const char* what;
+  const char* reason;
+};
+
+constexpr KnownDeparture kDepartures[] = {
+    {"", "bullet_soft", "final shape",
+     "Bullet's links are projected one after the other: their stiffness follows the map of N/m "
+     "exactly for a link on its own, and depends on order, iterations and time step in a mesh"},
+    {"drop_ground", "bullet_soft", "where a sliding cloth stops",
+     "Bullet's friction is not Coulomb's while a node slides: each contact visit takes away a "
+     "fixed "
+     "share of the sideways motion, so that the cloth stops almost at once; the reference slides "
+     "on by v^2 / (2 mu g)"},
+};
+
+void add_departures(const CaseInfo& info, const SceneMetrics& metrics,
+                    const std::vector<History>& histories, Report& report) {
+  const Frames& reference = histories.back().frames;
+  if (reference.empty()) return;  // the reference itself failed: its checks say so
+  for (const KnownDeparture& departure : kDepartures) {
+    if (*departure.scene != '\0' && info.id != departure.scene) continue;
+    for (const History& history : histories) {
+      if (history.engine.engine != departure.engine || history.frames.empty()) continue;
+      const double end = reference.back().time;
+      const double rms =
+          metrics.largest(Quantity::kRmsDistance, history.frames, reference, end, end);
+      report.departures.push_back(
+          {history.engine.title(), fmt::format("{}: {}", info.id, departure.what),
+           fmt::format("RMS {:.2g} % of cloth size at {:.3g} s", 100 * rms, end),
+           departure.reason});
+    }
+  }
+}
+
+}  // namespace
+
+void plan_scene(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
+  const std::string id(info.id);
+  const scenes::Scene scene = scenes::with_bullets_time_step(scenes::load_scene(id));
+  for (const EngineChoice& engine : cross_validated_engines(options.bullet)) {
+    runs.add({engine.label(id), scene_for(scene, engine), engine.engine, engine.precision});
+  }
+  SceneTruth(id, scene, options.bullet).plan(runs);
+}
+
+void evaluate_scene(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
+                    Report& report) {
+  const std::string id(info.id);
+  const SceneMetrics metrics(scenes::with_bullets_time_step(scenes::load_scene(id)));
+  std::vector<History> histories;
+  for (const EngineChoice& engine : cross_validated_engines(options.bullet)) {
+    histories.push_back(load_history(runs, id, engine));
+  }
+  SceneTruth truth(id, metrics.scene(), options.bullet);
+  truth.load(metrics, runs);
+  for (const SceneGate& gate : truth.gates()) {
+    const History* history = find_history(histories, gate.engine);
+    if (!history) continue;
+    report.checks.push_back(
+        check_gate(info, gate, truth, metrics, *history, histories.back().frames));
+  }
+  for (CheckResult& check : truth.own_checks(info, metrics))
+    report.checks.push_back(std::move(check));
+  Section section = scene_section(metrics, histories, options.pictures);
+  if (options.bullet) {
+    section.summary +=
+        fmt::format("; bullet_weft takes steps of 1/{:.0f} s, the others of 1/{:.0f} s",
+                    1 / scene_for(metrics.scene(), histories.front().engine).world.time_step,
+                    1 / metrics.scene().world.time_step);
+  }
+  Table own = truth.own_table(metrics);
+  if (!own.rows.empty()) section.tables.push_back(std::move(own));
+  report.sections.push_back(std::move(section));
+  add_departures(info, metrics, histories, report);
+}
+
+}  // namespace weft::validation
