@@ -1,23 +1,32 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds Weft and writes the validation report; weft prints where it is.
+# Installs what is missing, builds the command and writes a validation report; weft prints where it is.
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/tools/step.sh"
 
 case ${1:-} in
   -h | --help)
     cat <<TXT
-usage: ./run.sh [OPTION...]
+usage: ./run.sh [--all] [OPTION...]
 
-Installs missing packages (tools/packages.txt), builds the release preset, runs every validation case and writes the
-report to weft-report/. Options go to 'weft validate'; see build/release/bin/weft validate --help.
+Installs missing packages (tools/packages.txt), builds the command (preset release), runs the quick validation cases and
+writes the report, with pictures, to weft-report/. --all runs every case. Other options go to 'weft validate'; see
+build/release/bin/weft validate --help.
 TXT
     exit 0
     ;;
 esac
 
 output=(--output "$step_root/weft-report")
+tier=(--quick)
+before=
 for argument in "$@"; do
   case $argument in --output | --output=* | -o*) output=() ;; esac
+  # Named cases, the other tier and the list say for themselves what to run.
+  case $before,$argument in
+    -o,* | --output,* | -e,* | --engine,*) ;;
+    *,--all | *,--quick | *,--list | *,--render-only | *,[a-z]*) tier=() ;;
+  esac
+  before=$argument
 done
 
 step "set up" tools/setup.sh build
@@ -25,4 +34,7 @@ step "configure" configure release
 step "build" build release apps/all
 
 echo "== validate"
-"$step_root/build/release/bin/weft" validate "${output[@]}" "$@" || fail "FAILED at: validate (exit status $?)" $?
+"$step_root/build/release/bin/weft" validate "${output[@]}" "${tier[@]}" "$@" || fail "FAILED at: validate (exit status $?)" $?
+echo "== summary"
+print_step_times
+((${#tier[@]} == 0)) || echo "This was the quick tier. Every case, some 30 minutes on two cores: ./run.sh --all"

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds Weft with warnings as errors and runs the tests.
+# Installs what is missing, builds Weft in the folder that run.sh uses, and runs the tests.
 set -euo pipefail
 source "$(dirname -- "${BASH_SOURCE[0]}")/tools/step.sh"
 
-preset=ci
+preset=release
 selection=(--label-exclude '^slow$')
 while (($#)); do
   case $1 in
@@ -11,8 +11,8 @@ while (($#)); do
       cat <<TXT
 usage: ./test.sh [--all] [--preset NAME]
 
-Installs missing packages (tools/packages.txt), builds a preset of CMakePresets.json (default: ci, release with
-warnings as errors) and runs its tests. --all runs those with the label slow too.
+Installs missing packages (tools/packages.txt), builds a preset of CMakePresets.json (default: release, as
+./run.sh does; ci has warnings as errors) and runs its tests. --all runs those with the label slow too.
 TXT
       exit 0
       ;;

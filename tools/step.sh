@@ -35,10 +35,24 @@ configure() { # preset [option...]
   cmake --preset "$@" --log-level=WARNING >/dev/null
 }
 
-# On a terminal ninja shows one moving line; in a log it stays silent unless something fails.
+# On a terminal ninja shows one moving line; in a log a line for each tenth of the build, and what fails.
 build() { # preset [target...]
-  local preset=$1 quiet=()
+  local preset=$1
   shift
-  [[ -t 1 ]] || quiet=(-- --quiet)
-  cmake --build --preset "$preset" ${1:+--target "$@"} "${quiet[@]}"
+  if [[ -t 1 ]]; then
+    cmake --build --preset "$preset" ${1:+--target "$@"}
+  else
+    NINJA_STATUS='[%f %t %e] ' cmake --build --preset "$preset" ${1:+--target "$@"} | show_tenths
+  fi
+}
+
+# Of ninja's lines '[done total seconds] ...' one for each tenth; all that is no such line.
+show_tenths() {
+  awk '/^\[[0-9]+ [0-9]+ [0-9.]+\] / {
+         tenth = int(10 * substr($1, 2) / $2)
+         if (tenth > last) { printf "build: %d of %d (%d s)\n", substr($1, 2), $2, $3; fflush() }
+         last = tenth
+         next
+       }
+       { print; fflush() }'
 }

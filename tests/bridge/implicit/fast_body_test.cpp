@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
@@ -89,30 +88,6 @@ TEST(FastBody, HangsWithTheStretchOfItsSpringsAtAnyStep) {
     // Single precision: the place 1 m is known to 1.2e-7 m, and m / h^2 = 57600 N/m make 7 mN of it.
     EXPECT_NEAR(scene.positions()(1, 1), -1.00981, 1e-5) << h;
   }
-}
-
-// Large enough for threads within the body; with contacts, a body that gives way, dampers and bending.
-TEST(FastBody, ThreadsChangeNoBit) {
-  const auto run = [](int num_threads) {
-    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 4);
-    tbb::task_arena arena(num_threads);
-    Matrix3X<double> result;
-    arena.execute([&] {
-      EXPECT_EQ(tbb::this_task_arena::max_concurrency(), num_threads);
-      Scene scene(cloth(70, 1, 0.3),
-                  {kGravity, law("tension", "stiffness", 500), law("spring_damping", "damping", 1),
-                   law("hinge_torsion", "rigidity", 1e-4)},
-                  0.5, {.effort = {.rounds = 6}, .may_sleep = false});
-      scene.add(std::make_shared<btSphereShape>(btScalar(0.2)), 0, at(0, 0, 0));
-      scene.add(std::make_shared<btSphereShape>(btScalar(0.1)), 0.3, at(0.3, 0.42, 0));
-      scene.step(30);
-      EXPECT_GT(scene.solver().num_contacts(scene.body()), 200);
-      result = scene.positions();
-    });
-    return result;
-  };
-  const Matrix3X<double> alone = run(1);
-  for (const int num_threads : {2, 4}) EXPECT_EQ(run(num_threads), alone) << num_threads;
 }
 
 class FastBodyDrop : public testing::TestWithParam<double> {};
