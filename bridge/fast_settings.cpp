@@ -25,8 +25,8 @@ void require_not_negative(const char* name, double value, const char* unit) {
 }  // namespace
 
 void check(const FastSettings& settings) {
-  require_positive("effort.rounds", settings.effort.rounds);
-  require_positive("effort.iterations", settings.effort.iterations);
+  require_positive("solver.newton_iterations", settings.solver.newton_iterations);
+  require_positive("solver.linear_iterations", settings.solver.linear_iterations);
   require_not_negative("sleep_speed", settings.sleep_speed, "m/s");
   require_not_negative("sleep_time", settings.sleep_time, "s");
 }

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <weft/fast_solver/solver_effort.hpp>
+#include <weft/fast_solver/solver_settings.hpp>
 
 namespace weft::bridge {
 
 /// How a body with implicit springs is stepped.
 struct FastSettings {
-  fast::SolverEffort effort = {};  ///< work per step, against error (docs/fast_solver.md)
+  fast::SolverSettings solver = {};  ///< work per step, against error (docs/fast_solver.md)
   /// Second order (BDF2) while nothing touches the body; implicit Euler with contacts and at
   /// changes. Off: always implicit Euler, which takes much more energy out of a motion.
   bool is_second_order = true;
@@ -17,7 +17,7 @@ struct FastSettings {
   double sleep_time = 1.0;     ///< [s] >= 0
 };
 
-/// Throws InvalidArgument for an effort below 1 and for a speed or time that is negative or not finite.
+/// Throws InvalidArgument for fewer than one iteration and for a speed or time that is negative or not finite.
 void check(const FastSettings& settings);
 
 }  // namespace weft::bridge

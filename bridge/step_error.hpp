@@ -14,16 +14,16 @@ struct StepError {
   /// Of a node from where the equations put it, root mean square over the mass [m]: a bound, from what more iterations would
   /// gain by estimate (fast::SolverReport). Sheets that crumple are farther off in one step of ten.
   double distance = 0.0;
-  int rounds =
+  int newton_iterations =
       0;  ///< linearisations of the last solution; 0 for a body that sleeps, or has blown up
-  /// To FastSettings::effort.tolerance, or as far as rounding allows. If not, its budget ended first, mostly.
+  /// To FastSettings::solver.tolerance, or as far as rounding allows. If not, its budget ended first, mostly.
   bool is_within_tolerance = true;
 
   /// Makes it the larger of itself and that of a solution. inertia_step: h' of SolverReport [s]; mass: of the body [kg].
   void include(const fast::SolverReport& report, double inertia_step, double mass) {
     const double found = inertia_step * std::sqrt(2 * report.energy_left / mass);
     distance = found >= 0 ? std::max(distance, found) : std::numeric_limits<double>::infinity();
-    rounds = std::max(rounds, report.rounds);
+    newton_iterations = std::max(newton_iterations, report.newton_iterations);
     is_within_tolerance = is_within_tolerance && report.is_converged && std::isfinite(distance);
   }
 };

@@ -10,16 +10,16 @@
 namespace weft::fast {
 namespace {
 
-/// Share of the block correction that a smoothing takes: below 1, so that neighbours that move
+/// Share of the block correction that a smoothing takes: below 1, so that neighbors that move
 /// together do not overshoot; .5 to .7 converge alike.
 constexpr float kSmoothing = 0.6F;
 
-/// What is wrong with a solution moves the rigid bodies that give way to it: rounds on top, and the share of the first
-/// unbalanced forces that may be left.
-constexpr int kLinkedRounds = 1;
+/// What is wrong with a solution moves the rigid bodies that are coupled both ways: iterations on top, and the share of the first
+/// residual forces that may be left.
+constexpr int kLinkedIterations = 1;
 constexpr double kLinkedResidual = 0.02;
 
-/// An iteration that gains no more than this share of what its round has gained is the last of that round: with short steps
+/// An iteration that gains no more than this share of what its iteration has gained is the last of that iteration: with short steps
 /// inertia outweighs springs.
 constexpr double kLastGain = 1e-4;
 /// Less than this share of a correction's curvature, left across the direction before, is rounding [-].
@@ -40,75 +40,76 @@ void ImplicitSolver<Scalar>::load(const StepProblem<Scalar>& problem,
   forces_.set_time_step(problem.time_step);
   const Scalar squared_step = problem.inertia_step * problem.inertia_step;
   for_each_part([&](NodeRange nodes) {
-    to_arrays<Scalar>(problem.targets, nodes, targets_);
-    to_arrays<Scalar>(problem.starts, nodes, starts_);
-    to_arrays<Scalar>(guess, nodes, places_);
+    to_arrays<Scalar>(problem.inertial_positions, nodes, inertial_positions_);
+    to_arrays<Scalar>(problem.start_positions, nodes, start_positions_);
+    to_arrays<Scalar>(guess, nodes, positions_);
     for (int i = nodes.begin; i < nodes.end; ++i) {
       inertia_[i] = static_cast<float>(masses_[i] / squared_step);
     }
     for (const int node : in_range(pinned_, nodes)) {
       inertia_[node] = 0;
-      places_.row(node) = targets_.row(node);
+      positions_.row(node) = inertial_positions_.row(node);
     }
     for (int i = nodes.begin; i < nodes.end; ++i) weights_[i] = static_cast<Scalar>(inertia_[i]);
     const int count = nodes.end - nodes.begin;
     system_inertia_.segment(nodes.begin, count) = inertia_.segment(nodes.begin, count);
   });
-  for (const LedNode<Scalar>& led : problem.led) {
-    places_.row(led.node) = led.place.transpose();
+  for (const KinematicNode<Scalar>& kinematic : problem.kinematic) {
+    positions_.row(kinematic.node) = kinematic.position.transpose();
   }
   load_bodies(problem);
-  follow_led(problem);
-  for (const LedNode<Scalar>& led : problem.led) {
-    if (led.body >= 0) places_.row(led.node) = place_of(led).transpose();
+  follow_kinematic(problem);
+  for (const KinematicNode<Scalar>& kinematic : problem.kinematic) {
+    if (kinematic.body >= 0) positions_.row(kinematic.node) = position_of(kinematic).transpose();
   }
   const auto stride = static_cast<int>(weights_.size());
-  step_energy_ = 0.5 * sum_over_parts([&](NodeRange nodes) {
-                   forces_.begin_step(nodes, starts_);
-                   return sum_kernel<Scalar>().weighted_distance(weights_.data(), stride, nodes,
-                                                                 targets_.data(), starts_.data());
-                 });
+  step_energy_ =
+      0.5 * sum_over_parts([&](NodeRange nodes) {
+        forces_.begin_step(nodes, start_positions_);
+        return sum_kernel<Scalar>().weighted_distance(
+            weights_.data(), stride, nodes, inertial_positions_.data(), start_positions_.data());
+      });
 }
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::evaluate_step_forces() {
-  from_arrays<Scalar>(places_, {0, num_nodes()}, more_places_);
-  more_forces_.setZero();
-  more_forces_of_->add_forces(more_places_, more_forces_);
+  from_arrays<Scalar>(positions_, {0, num_nodes()}, step_force_positions_);
+  step_forces_.setZero();
+  step_force_law_->add_forces(step_force_positions_, step_forces_);
 }
 
 template <class Scalar>
-double ImplicitSolver<Scalar>::energy_of_step_forces(const Nodes& places) {
-  if (more_forces_of_ == nullptr) return 0;
-  from_arrays<Scalar>(places, {0, num_nodes()}, more_places_);
-  return more_forces_of_->energy(more_places_);
+double ImplicitSolver<Scalar>::energy_of_step_forces(const Nodes& positions) {
+  if (step_force_law_ == nullptr) return 0;
+  from_arrays<Scalar>(positions, {0, num_nodes()}, step_force_positions_);
+  return step_force_law_->energy(step_force_positions_);
 }
 
-// Forces at the present places, and what they would do along the last step.
+// Forces at the present positions, and what they would do along the last step.
 template <class Scalar>
-void ImplicitSolver<Scalar>::evaluate(bool linearises) {
-  if (more_forces_of_ != nullptr) evaluate_step_forces();
+void ImplicitSolver<Scalar>::evaluate(bool linearizes) {
+  if (step_force_law_ != nullptr) evaluate_step_forces();
   const auto stride = static_cast<int>(weights_.size());
   const SumKernel<Scalar>& sums = sum_kernel<Scalar>();
   const auto both =
-      sum_over_parts<Eigen::Array2d>([this, stride, linearises, &sums](NodeRange nodes) {
+      sum_over_parts<Eigen::Array2d>([this, stride, linearizes, &sums](NodeRange nodes) {
         const int count = nodes.end - nodes.begin;
         for (int axis = 0; axis < 3; ++axis) {
-          unbalanced_.col(axis).segment(nodes.begin, count) =
+          residual_forces_.col(axis).segment(nodes.begin, count) =
               weights_.segment(nodes.begin, count)
-                  .cwiseProduct(targets_.col(axis).segment(nodes.begin, count) -
-                                places_.col(axis).segment(nodes.begin, count));
+                  .cwiseProduct(inertial_positions_.col(axis).segment(nodes.begin, count) -
+                                positions_.col(axis).segment(nodes.begin, count));
         }
-        forces_.add_forces(nodes, places_, unbalanced_, linearises);
-        for (int i = nodes.begin; more_forces_of_ != nullptr && i < nodes.end; ++i) {
-          if (i < num_nodes()) unbalanced_.row(i) += more_forces_.col(i).transpose();
+        forces_.add_forces(nodes, positions_, residual_forces_, linearizes);
+        for (int i = nodes.begin; step_force_law_ != nullptr && i < nodes.end; ++i) {
+          if (i < num_nodes()) residual_forces_.row(i) += step_forces_.col(i).transpose();
         }
-        for (const int node : in_range(pinned_, nodes)) unbalanced_.row(node).setZero();
-        return Eigen::Array2d(sums.dot(unbalanced_.data(), step_.data(), stride, nodes),
-                              sums.squares(unbalanced_.data(), stride, nodes));
+        for (const int node : in_range(pinned_, nodes)) residual_forces_.row(node).setZero();
+        return Eigen::Array2d(sums.dot(residual_forces_.data(), step_.data(), stride, nodes),
+                              sums.squares(residual_forces_.data(), stride, nodes));
       });
   work_left_ = both[0];
-  unbalanced_squares_ = both[1];
+  residual_squares_ = both[1];
 }
 
 // By each node's own block of the diagonal, which says most about motion across the sheet.
@@ -145,7 +146,7 @@ void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body:
 template <class Scalar>
 void ImplicitSolver<Scalar>::smooth(int part) {
   smooth(parts_[part], smoothed_);
-  coarse_correction_.restrict_residual(part, held_, residual_vector_);
+  coarse_correction_.restrict_residual(part, constrained_, residual_vector_);
 }
 
 // correction = P residual, with its product with the stiffness. P is additive (Dryja and Widlund 1987): the sum of the
@@ -158,12 +159,12 @@ typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition(F
   coarse_correction_.solve(*team_);
   const auto stride = static_cast<int>(coarse_.rows());
   team_->run(parts_.count(), [this, &correction, stride](int part) {
-    coarse_correction_.interpolate(part, held_, coarse_);
+    coarse_correction_.prolongate(part, constrained_, coarse_);
     vector_kernel().add(smoothed_.data(), coarse_.data(), stride, parts_[part], correction.data());
   });
   for (Body& body : bodies_) body.correction = body.stiffness.solve(body.residual);
   add_motions(&Body::correction, correction);
-  std::array<VectorKernel::Products, ThreadTeam::kMostParts> of_part;
+  std::array<VectorKernel::Products, WorkerTeam::kMostParts> of_part;
   multiply(
       correction, &Body::correction, correction_product_, &Body::correction_product,
       [this, &correction, is_first, stride, products = of_part.data()](NodeRange nodes, int part) {
@@ -192,33 +193,35 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
     const int count = nodes.end - nodes.begin;
     step_.middleRows(nodes.begin, count).setZero();
     residual_vector_.middleRows(nodes.begin, count) =
-        unbalanced_.middleRows(nodes.begin, count).template cast<float>();
+        residual_forces_.middleRows(nodes.begin, count).template cast<float>();
     vector_kernel().invert_blocks(system_inertia_.data(), kSmoothing,
                                   static_cast<int>(blocks_.rows()), nodes,
                                   forces_.diagonal_blocks().data(), blocks_.data());
   });
   bool moves_held = false;
-  for (const int i : held_) {
+  for (const int i : constrained_) {
     if (contact_of_[at(i)] < 0) continue;
     const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
-    const Vector3<Scalar> with_body = motion_with(contact.body, contact.arm);
+    const Vector3<Scalar> with_body = motion_with(contact.body, contact.lever_arm);
     Vector3<Scalar> move = Vector3<Scalar>::Zero();
-    if (holds_[at(i)] == Hold::kFixed) {
-      move = at_node(starts_, i) + contact.motion + with_body - at_node(places_, i);
+    if (contact_states_[at(i)] == ContactState::kFixed) {
+      move = at_node(start_positions_, i) + contact.motion + with_body - at_node(positions_, i);
     }
     const Scalar height =
-        contact.normal.dot(at_node(places_, i) + move - with_body) - contact.offset;
+        contact.normal.dot(at_node(positions_, i) + move - with_body) - contact.offset;
     step_.row(i) = (move - height * contact.normal).template cast<float>().transpose();
-    if (holds_[at(i)] == Hold::kOnPlane) residual_vector_.row(i) += friction_.col(i).transpose();
+    if (contact_states_[at(i)] == ContactState::kOnPlane)
+      residual_vector_.row(i) += friction_.col(i).transpose();
     moves_held = true;
   }
-  for (const LedNode<Scalar>& led : problem.led) {
-    if (led.body < 0) continue;
-    step_.row(led.node) =
-        (place_of(led) - at_node(places_, led.node)).template cast<float>().transpose();
+  for (const KinematicNode<Scalar>& kinematic : problem.kinematic) {
+    if (kinematic.body < 0) continue;
+    step_.row(kinematic.node) = (position_of(kinematic) - at_node(positions_, kinematic.node))
+                                    .template cast<float>()
+                                    .transpose();
     moves_held = true;
   }
-  find_unbalanced(&Body::residual);
+  find_body_residuals(&Body::residual);
   team_->run(parts_.count(), [this, moves_held](int part) {
     const NodeRange nodes = parts_[part];
     if (moves_held) {
@@ -238,10 +241,11 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
 // m / h'^2, and the drag of nodes that slide.
 template <class Scalar>
 void ImplicitSolver<Scalar>::set_system_inertia() {
-  if (has_drag_ || !held_.empty()) system_inertia_ = inertia_;
-  has_drag_ = !held_.empty();
-  for (const int i : held_) {
-    if (holds_[at(i)] == Hold::kOnPlane) system_inertia_[i] += static_cast<float>(drag_[i]);
+  if (has_drag_ || !constrained_.empty()) system_inertia_ = inertia_;
+  has_drag_ = !constrained_.empty();
+  for (const int i : constrained_) {
+    if (contact_states_[at(i)] == ContactState::kOnPlane)
+      system_inertia_[i] += static_cast<float>(drag_[i]);
   }
 }
 
@@ -251,7 +255,7 @@ void ImplicitSolver<Scalar>::set_system_inertia() {
 template <class Scalar>
 LinearGain ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem, int iterations,
                                                 double least_gain) {
-  factorise_bodies();
+  factorize_bodies();
   start_linear(problem);
   for (Body& body : bodies_) {
     for (Floats6* vector : {&body.step, &body.direction, &body.direction_product})
@@ -270,21 +274,21 @@ LinearGain ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& probl
       sum.is_broken = !(gain == 0);
       break;
     }
-    const float share = overlaps.by_direction / curvature;
-    curvature = overlaps.by_product - share * overlaps.by_direction;
+    const float beta = overlaps.by_direction / curvature;
+    curvature = overlaps.by_product - beta * overlaps.by_direction;
     if (!(curvature > kLeastCurvature * overlaps.by_product)) {
       sum.is_broken = k == 0;
       break;
     }
-    const float length = gain / curvature;
-    directions_.add(share, length);
+    const float alpha = gain / curvature;
+    directions_.add(beta, alpha);
     for (Body& body : bodies_) {
-      body.direction = body.correction - share * body.direction;
-      body.direction_product = body.correction_product - share * body.direction_product;
-      body.step += length * body.direction;
-      body.residual -= length * body.direction_product;
+      body.direction = body.correction - beta * body.direction;
+      body.direction_product = body.correction_product - beta * body.direction_product;
+      body.step += alpha * body.direction;
+      body.residual -= alpha * body.direction_product;
     }
-    const double now = static_cast<double>(gain) * static_cast<double>(length);
+    const double now = static_cast<double>(gain) * static_cast<double>(alpha);
     last_gains[at(k % kGainDelay)] = now;
     sum.total += now;
     sum.left = std::accumulate(last_gains.begin(), last_gains.end(), 0.0);
@@ -292,9 +296,9 @@ LinearGain ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& probl
                          (k >= kGainDelay && sum.left <= kForcing * sum.total);
     if (k + 1 == iterations || is_done) break;
     team_->run(parts_.count(),
-               [this, share, length, is_first = k == 0, is_full = directions_.is_full()](int part) {
+               [this, beta, alpha, is_first = k == 0, is_full = directions_.is_full()](int part) {
                  const NodeRange nodes = parts_[part];
-                 vector_kernel().advance(correction_product_.data(), share, length, is_first,
+                 vector_kernel().advance(correction_product_.data(), beta, alpha, is_first,
                                          static_cast<int>(step_.rows()), nodes,
                                          direction_product_.data(), residual_vector_.data());
                  if (is_full) sum_up(nodes, true);
@@ -330,100 +334,105 @@ void ImplicitSolver<Scalar>::move() {
   const auto stride = static_cast<int>(step_.rows());
   work_done_ = sum_over_parts([this, stride](NodeRange nodes) {
     sum_up(nodes, false);
-    return sum_kernel<Scalar>().move(unbalanced_.data(), step_.data(), stride, nodes,
-                                     places_.data());
+    return sum_kernel<Scalar>().move(residual_forces_.data(), step_.data(), stride, nodes,
+                                     positions_.data());
   });
   move_bodies(1);
 }
 
 template <class Scalar>
-double ImplicitSolver<Scalar>::left_over() {
-  double sum = unbalanced_squares_;
-  for (const int i : held_) {
-    const Vector3<Scalar> force = at_node(unbalanced_, i);
-    sum += static_cast<double>((force + at_node(holding_forces_, i)).squaredNorm()) -
+double ImplicitSolver<Scalar>::residual_norm() {
+  double sum = residual_squares_;
+  for (const int i : constrained_) {
+    const Vector3<Scalar> force = at_node(residual_forces_, i);
+    sum += static_cast<double>((force + at_node(constraint_forces_, i)).squaredNorm()) -
            static_cast<double>(force.squaredNorm());
   }
-  find_unbalanced(&Body::unbalanced);
+  find_body_residuals(&Body::present_residual);
   for (const Body& body : bodies_) {
-    sum += static_cast<double>(body.unbalanced.template head<3>().squaredNorm());
+    sum += static_cast<double>(body.present_residual.template head<3>().squaredNorm());
   }
   return std::sqrt(std::max(0.0, sum));
 }
 
 template <class Scalar>
-void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem, const SolverEffort& effort,
-                                   Matrix3XRef<Scalar> places, ThreadTeam& team) {
+void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem,
+                                   const SolverSettings& solver_settings,
+                                   Matrix3XRef<Scalar> positions, WorkerTeam& team) {
   const TraceScope trace("implicit solve");
   team_ = &team;
-  more_forces_of_ = problem.forces;
-  load(problem, places);
+  step_force_law_ = problem.forces;
+  load(problem, positions);
   evaluate();
-  const double first = std::sqrt(unbalanced_squares_);
-  iterate(problem, effort);
-  for (int extra = 0; !links_.empty() && extra < kLinkedRounds; ++extra) {
-    find_holding_forces();
-    if (left_over() <= kLinkedResidual * first) break;
-    do_round(problem, {.iterations = effort.iterations});
+  const double first = std::sqrt(residual_squares_);
+  iterate(problem, solver_settings);
+  for (int extra = 0; !links_.empty() && extra < kLinkedIterations; ++extra) {
+    find_constraint_forces();
+    if (residual_norm() <= kLinkedResidual * first) break;
+    iterate_once(problem, {.iterations = solver_settings.linear_iterations});
   }
-  if (!report_.is_converged || !held_.empty()) descend(problem, effort.iterations);
+  if (!report_.is_converged || !constrained_.empty())
+    enforce_descent(problem, solver_settings.linear_iterations);
   update_friction(problem);
-  find_holding_forces();
-  residual_ = first > 0 ? left_over() / first : 0.0;
-  const std::optional<Vector3<Scalar>> shift = find_balance(problem);
+  find_constraint_forces();
+  residual_ = first > 0 ? residual_norm() / first : 0.0;
+  const std::optional<Vector3<Scalar>> shift = net_momentum_correction(problem);
   for_each_part([&](NodeRange nodes) {
     const int end = std::min(nodes.end, num_nodes());
     if (shift) {
       const int count = end - nodes.begin;
-      places_.middleRows(nodes.begin, count).rowwise() += shift->transpose();
-      unbalanced_.middleRows(nodes.begin, count) -=
+      positions_.middleRows(nodes.begin, count).rowwise() += shift->transpose();
+      residual_forces_.middleRows(nodes.begin, count) -=
           weights_.segment(nodes.begin, count) * shift->transpose();
     }
-    find_remainders(nodes);
-    from_arrays<Scalar>(places_, nodes, places);
+    update_compensation(nodes);
+    from_arrays<Scalar>(positions_, nodes, positions);
   });
-  for (const int i : held_) {
-    if (holds_[at(i)] != Hold::kOnPlane) remainders_.row(i).setZero();
+  for (const int i : constrained_) {
+    if (contact_states_[at(i)] != ContactState::kOnPlane) compensation_.row(i).setZero();
   }
   team_ = nullptr;
-  more_forces_of_ = nullptr;
+  step_force_law_ = nullptr;
 }
 
-// One step of Jacobi's method for the forces that are left, which places on their grid cannot follow.
+// One step of Jacobi's method for the residual forces, which positions on their grid cannot follow.
 template <class Scalar>
-void ImplicitSolver<Scalar>::find_remainders(NodeRange nodes) {
+void ImplicitSolver<Scalar>::update_compensation(NodeRange nodes) {
   constexpr Scalar kHalfRounding = std::numeric_limits<Scalar>::epsilon() / 2;
   const BlockArrays& blocks = forces_.diagonal_blocks();
   for (int axis = 0; axis < 3; ++axis) {
     for (int i = nodes.begin; i < nodes.end; ++i) {
       const Scalar stiffness = Scalar(inertia_[i] + blocks(i, axis));
-      const Scalar left = unbalanced_(i, axis) + holding_forces_(i, axis);
-      const Scalar most = kHalfRounding * std::abs(places_(i, axis));
-      const Scalar way = left / (stiffness > 0 ? stiffness : Scalar(1));
-      remainders_(i, axis) = way > most ? most : way < -most ? -most : way;
+      const Scalar left = residual_forces_(i, axis) + constraint_forces_(i, axis);
+      const Scalar most = kHalfRounding * std::abs(positions_(i, axis));
+      const Scalar displacement = left / (stiffness > 0 ? stiffness : Scalar(1));
+      compensation_(i, axis) = displacement > most    ? most
+                               : displacement < -most ? -most
+                                                      : displacement;
     }
   }
 }
 
 template <class Scalar>
-void ImplicitSolver<Scalar>::add_remainders(int first_node, Matrix3XRef<Scalar> ways) const {
-  for (Eigen::Index i = 0; i < ways.cols(); ++i)
-    ways.col(i) += at_node(remainders_, first_node + i);
+void ImplicitSolver<Scalar>::add_compensation(int first_node,
+                                              Matrix3XRef<Scalar> displacements) const {
+  for (Eigen::Index i = 0; i < displacements.cols(); ++i)
+    displacements.col(i) += at_node(compensation_, first_node + i);
 }
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::get_forces(int first_node, Matrix3XRef<Scalar> forces) const {
   for (Eigen::Index i = 0; i < forces.cols(); ++i) {
     const Eigen::Index node = first_node + i;
-    const Vector3<Scalar> without = at_node(targets_, node) - at_node(places_, node);
-    forces.col(i) = at_node(unbalanced_, node) - weights_[node] * without;
+    const Vector3<Scalar> without = at_node(inertial_positions_, node) - at_node(positions_, node);
+    forces.col(i) = at_node(residual_forces_, node) - weights_[node] * without;
   }
 }
 
 template <class Scalar>
-double ImplicitSolver<Scalar>::spring_energy(ConstMatrix3XRef<Scalar> places, ThreadTeam& team) {
+double ImplicitSolver<Scalar>::spring_energy(ConstMatrix3XRef<Scalar> positions, WorkerTeam& team) {
   team_ = &team;
-  for_each_part([&](NodeRange nodes) { to_arrays<Scalar>(places, nodes, unmoved_); });
+  for_each_part([&](NodeRange nodes) { to_arrays<Scalar>(positions, nodes, unmoved_); });
   const double energy =
       sum_over_parts([&](NodeRange nodes) { return forces_.potential(nodes, unmoved_); });
   team_ = nullptr;

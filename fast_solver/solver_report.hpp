@@ -2,7 +2,7 @@
 
 namespace weft::fast {
 
-/// How well a step was solved: by Newton's method, each round of which minimises a model of the step's energy
+/// How well a step was solved: by Newton's method, each iteration of which minimizes a model of the step's energy
 ///
 ///   E(x) = m |x - y|^2 / (2 h'^2) + V(x)
 ///
@@ -10,8 +10,8 @@ namespace weft::fast {
 /// least m / h'^2, and what is left to gain bounds the error: the root mean square of |e| over the mass is at most
 /// h' sqrt(2 energy_left / m). Compressed springs push nodes aside, and a sheet that crumples may be farther off.
 struct SolverReport {
-  int rounds = 0;            ///< linearisations
-  double energy_left = 0.0;  ///< what more rounds would gain, from how the last ones shrank [J]
+  int newton_iterations = 0;  ///< linearizations
+  double energy_left = 0.0;  ///< what more iterations would gain, from how the last ones shrank [J]
   bool is_converged =
       true;  ///< to the tolerance, or as far as rounding allows; false: the budget ended first
 };

@@ -7,7 +7,7 @@
 
 namespace weft::fast {
 
-/// Forces that follow the places within a step, beside those of the network: minus the gradient of an energy.
+/// Forces that follow the positions within a step, beside those of the network: minus the gradient of an energy.
 template <class Scalar>
 class StepForces {
  public:
@@ -15,10 +15,10 @@ class StepForces {
   StepForces(const StepForces&) = delete;
   StepForces& operator=(const StepForces&) = delete;
   virtual ~StepForces() = default;
-  /// forces += those at places, both 3 x n [m], [N].
-  virtual void add_forces(ConstMatrix3XRef<Scalar> places, Matrix3XRef<Scalar> forces) const = 0;
+  /// forces += those at positions, both 3 x n [m], [N].
+  virtual void add_forces(ConstMatrix3XRef<Scalar> positions, Matrix3XRef<Scalar> forces) const = 0;
   /// [J]
-  [[nodiscard]] virtual double energy(ConstMatrix3XRef<Scalar> places) const = 0;
+  [[nodiscard]] virtual double energy(ConstMatrix3XRef<Scalar> positions) const = 0;
 };
 
 /// One implicit step: find x with
@@ -28,15 +28,16 @@ class StepForces {
 /// f of a SpringNetwork and of StepForces, y where the node would go without f. Implicit Euler has h' = h.
 template <class Scalar>
 struct StepProblem {
-  Eigen::Ref<const Matrix3X<Scalar>> targets;  ///< y, 3 x n [m]; of pinned nodes: where they go
-  Eigen::Ref<const Matrix3X<Scalar>> starts;   ///< q, 3 x n [m] at the start of the step
-  Scalar time_step;                            ///< h [s]: of dampers
-  Scalar inertia_step;                         ///< h' [s]: of nodes and rigid bodies
+  Eigen::Ref<const Matrix3X<Scalar>>
+      inertial_positions;  ///< y, 3 x n [m]; of pinned nodes: where they go
+  Eigen::Ref<const Matrix3X<Scalar>> start_positions;  ///< q, 3 x n [m] at the start of the step
+  Scalar time_step;                                    ///< h [s]: of dampers
+  Scalar inertia_step;                                 ///< h' [s]: of nodes and rigid bodies
   std::span<const PlaneContact<Scalar>> contacts = {};
-  std::span<const LedNode<Scalar>> led = {};
+  std::span<const KinematicNode<Scalar>> kinematic = {};
   std::span<const RigidInertia<Scalar>> bodies = {};
   const StepForces<Scalar>* forces = nullptr;  ///< beside the network's
-  /// The step was solved before: places are the solution, and contacts are the same, with other planes or more of them behind.
+  /// The step was solved before: positions are the solution, and contacts are the same, with other planes or more of them behind.
   bool continues = false;
 };
 

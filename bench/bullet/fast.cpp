@@ -51,7 +51,7 @@ std::vector<Contender> contenders(const Workload& workload) {
                   WorkloadRun::laws(workload, workload.explicit_steps)});
   struct Setting {
     std::string name;
-    fast::SolverEffort effort = {};
+    fast::SolverSettings solver = {};
     int num_steps = 1;
     int substeps = 1;
     bool is_second_order = true;
@@ -61,10 +61,10 @@ std::vector<Contender> contenders(const Workload& workload) {
                               {"tolerance 0.03", {.tolerance = 0.03}},
                               {"tolerance 0.01", {.tolerance = 0.01}},
                               {"tolerance 0.003", {.tolerance = 0.003}},
-                              {"tolerance 0.0001", {.rounds = 200, .tolerance = 1e-4}},
-                              {"at most 1 x 4", {.rounds = 1, .iterations = 4}},
-                              {"at most 2 x 4", {.rounds = 2, .iterations = 4}},
-                              {"at most 4 x 8", {.rounds = 4, .iterations = 8}},
+                              {"tolerance 0.0001", {.newton_iterations = 200, .tolerance = 1e-4}},
+                              {"at most 1 x 4", {.newton_iterations = 1, .linear_iterations = 4}},
+                              {"at most 2 x 4", {.newton_iterations = 2, .linear_iterations = 4}},
+                              {"at most 4 x 8", {.newton_iterations = 4, .linear_iterations = 8}},
                               {"default each 2 steps", {}, 2},
                               {"default each 4 steps", {}, 4},
                               {"default in 2 steps", {}, 1, 2},
@@ -74,7 +74,7 @@ std::vector<Contender> contenders(const Workload& workload) {
         {"weft", one.name,
          WorkloadRun::fast(
              workload,
-             {.effort = one.effort, .is_second_order = one.is_second_order, .may_sleep = false},
+             {.solver = one.solver, .is_second_order = one.is_second_order, .may_sleep = false},
              one.substeps),
          one.num_steps});
   }

@@ -65,7 +65,7 @@ Matrix3X<double> rest_of(RestDrape drape, const DrapeSolver& solver) {
   } else {
     laws.push_back({"tension", {}, {{"stiffness", {kStiffness}}}});
     (void)world.solver().attach_fast(
-        body, mesh, laws, {.effort = {solver.rounds, solver.iterations}, .may_sleep = false});
+        body, mesh, laws, {.solver = {solver.rounds, solver.iterations}, .may_sleep = false});
   }
   const long num_steps = std::lround(kDuration / solver.time_step);
   for (long step = 0; step < num_steps; ++step) world.step(solver.time_step);

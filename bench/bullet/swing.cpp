@@ -25,7 +25,7 @@ using validation::SwingTrack;
 
 const std::filesystem::path kTruthFolder = WEFT_SOURCE_DIR "/bench/truth";
 /// Whether so many are enough, the residual tells.
-constexpr fast::SolverEffort kConverged = {30, 60};
+constexpr fast::SolverSettings kConverged = {30, 60};
 /// Explicit integration takes so many times the longest stable step, and is left out where it would need longer than some minutes.
 constexpr double kShareOfStableStep = 0.5;
 constexpr double kMostNodeSteps = 8e9;
@@ -206,7 +206,7 @@ void bench_swing_truth(const Settings& /*settings*/) {
       const scenes::Scene scene = validation::swinging_sheet(sheet.nodes, sheet.mass, stiffness);
       const ClothMesh mesh = make_mesh(scene.cloths[0]);
       SwingTruths truths;
-      Run run = fast_run(scene, {.effort = kConverged, .may_sleep = false});
+      Run run = fast_run(scene, {.solver = kConverged, .may_sleep = false});
       truths.sample = sampled(run.places, sheet.nodes);
       const double lacking = residual(scene, run.places);
       truths.converged = truth_of(mesh, std::move(run.places), lacking);

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <numeric>
 
-#include <weft/fast_solver/threads/node_parts.hpp>
+#include <weft/fast_solver/threads/node_partition.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -18,13 +18,13 @@ std::size_t at(int i) {
 }  // namespace
 
 // Bullet has no mark for a change of topology (nodes that move in memory, faces that are cut): corners are compared.
-bool NodeNormals::cross_edges(btSoftBody& body, fast::ThreadTeam& team) {
+bool NodeNormals::cross_edges(btSoftBody& body, fast::WorkerTeam& team) {
   const int num_faces = body.m_faces.size();
   const bool is_known = num_nodes_ == body.m_nodes.size() && corners_.size() == at(num_faces) &&
                         (num_nodes_ == 0 || first_node_ == &body.m_nodes[0]);
   corners_.resize(at(num_faces));
   crossings_.resize(at(num_faces));
-  std::array<bool, fast::ThreadTeam::kMostParts> is_same;
+  std::array<bool, fast::WorkerTeam::kMostParts> is_same;
   is_same.fill(is_known);
   fast::run_parts(team, num_faces, [&](int part, int begin, int end) {
     bool same = is_known;
@@ -67,7 +67,7 @@ void NodeNormals::list_faces(const btSoftBody& body) {
   }
 }
 
-void NodeNormals::update(btSoftBody& body, fast::ThreadTeam& team) {
+void NodeNormals::update(btSoftBody& body, fast::WorkerTeam& team) {
   if (!cross_edges(body, team)) list_faces(body);
   fast::run_parts(team, body.m_nodes.size(), [&](int, int begin, int end) {
     for (int i = begin; i < end; ++i) {

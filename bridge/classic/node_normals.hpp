@@ -6,7 +6,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/bullet/precision.hpp>
-#include <weft/fast_solver/threads/thread_team.hpp>
+#include <weft/fast_solver/threads/worker_team.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -16,13 +16,13 @@ inline namespace WEFT_BULLET_PRECISION {
 /// order.
 class NodeNormals {
  public:
-  void update(btSoftBody& body, fast::ThreadTeam& team);
+  void update(btSoftBody& body, fast::WorkerTeam& team);
 
  private:
   using Corners = std::array<const btSoftBody::Node*, 3>;
 
   /// False if nodes or corners of faces are not those of the last time.
-  [[nodiscard]] bool cross_edges(btSoftBody& body, fast::ThreadTeam& team);
+  [[nodiscard]] bool cross_edges(btSoftBody& body, fast::WorkerTeam& team);
   void list_faces(const btSoftBody& body);
 
   const btSoftBody::Node* first_node_ = nullptr;

@@ -101,7 +101,7 @@ void SoftBodySolver::solve_fast_bodies() {
       1, tbb::this_task_arena::max_concurrency() / std::max(1, static_cast<int>(bodies.size())));
   for (Attachment* one : bodies) one->fast->set_num_threads(num_each);
   Attachment* const single = bodies.size() == 1 ? bodies[0] : nullptr;
-  std::optional<fast::ThreadTeam::Scope> threads;
+  std::optional<fast::WorkerTeam::Scope> threads;
   if (single) single->fast->hold_threads(threads);  // to call for them takes longer than most loops
   in_parallel(bodies, [](Attachment& one) { one.fast->prepare(*one.body); });
   detect_contacts(time_step_);

@@ -166,7 +166,7 @@ btRigidBody* movable(const btCollisionObject* object) {
   return rigid != nullptr && !rigid->isStaticOrKinematicObject() ? rigid : nullptr;
 }
 
-void NodeWays::update(const btSoftBody& body, fast::ThreadTeam* team) {
+void NodeWays::update(const btSoftBody& body, fast::WorkerTeam* team) {
   if (is_of_now_) return;
   is_of_now_ = true;
   if (groups_.num_nodes() != body.m_nodes.size()) {
@@ -193,7 +193,7 @@ void NodeWays::update(const btSoftBody& body, fast::ThreadTeam* team) {
 
 void add_rigid_contacts(const btSoftBody& body, NodeWays& ways, const Obstacle& obstacle,
                         btScalar time_step, PinnedNodes pinned, std::vector<RigidContact>& contacts,
-                        fast::ThreadTeam* team) {
+                        fast::WorkerTeam* team) {
   if (!obstacle.object->hasContactResponse()) return;
   // Where the step begins is what Bullet knows of a dynamic body, and where it ends of a kinematic one.
   const btRigidBody* const dynamic = movable(obstacle.object);

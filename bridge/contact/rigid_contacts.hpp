@@ -10,7 +10,7 @@
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/contact/face_tree.hpp>
 #include <weft/bridge/contact/surface_distance.hpp>
-#include <weft/fast_solver/threads/thread_team.hpp>
+#include <weft/fast_solver/threads/worker_team.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -56,7 +56,7 @@ class NodeWays {
   /// The ways are others than at the last update().
   void outdate() { is_of_now_ = false; }
   /// Does nothing unless outdate() was called. Takes new memory only if the number of nodes is another.
-  void update(const btSoftBody& body, fast::ThreadTeam* team = nullptr);
+  void update(const btSoftBody& body, fast::WorkerTeam* team = nullptr);
   /// Boxes of groups of nodes, as NodeGroups has them.
   [[nodiscard]] const std::vector<MotionBox>& boxes() const { return boxes_; }
   [[nodiscard]] std::span<const int> group(std::size_t g) const { return groups_[g]; }
@@ -65,7 +65,7 @@ class NodeWays {
   /// work(first group, group behind the last, contacts) for parts of the groups, by a team; appends what each adds, in
   /// order.
   template <class Work>
-  void collect(const Work& work, fast::ThreadTeam* team, std::vector<RigidContact>& contacts) {
+  void collect(const Work& work, fast::WorkerTeam* team, std::vector<RigidContact>& contacts) {
     const std::size_t num_parts = num_parts_for(team);
     if (num_parts == 1) return work(std::size_t{0}, boxes_.size(), contacts);
     found_.resize(std::max(found_.size(), num_parts));
@@ -82,9 +82,9 @@ class NodeWays {
  private:
   /// Groups of a part: some microseconds.
   static constexpr std::size_t kGroups = 32;
-  [[nodiscard]] std::size_t num_parts_for(const fast::ThreadTeam* team) const {
+  [[nodiscard]] std::size_t num_parts_for(const fast::WorkerTeam* team) const {
     if (team == nullptr || team->num_threads() == 1) return 1;
-    return std::clamp<std::size_t>(boxes_.size() / kGroups, 1, fast::ThreadTeam::kMostParts);
+    return std::clamp<std::size_t>(boxes_.size() / kGroups, 1, fast::WorkerTeam::kMostParts);
   }
 
   NodeGroups groups_;
@@ -109,7 +109,7 @@ enum class PinnedNodes {
 /// object, it is not shot through. Anchored nodes are left out. By a team, in the same order for any.
 void add_rigid_contacts(const btSoftBody& body, NodeWays& ways, const Obstacle& obstacle,
                         btScalar time_step, PinnedNodes pinned, std::vector<RigidContact>& contacts,
-                        fast::ThreadTeam* team = nullptr);
+                        fast::WorkerTeam* team = nullptr);
 
 /// Takes the plane of a contact with a dynamic object to where the object is at the end of the step.
 void follow_object(RigidContact& contact, const btTransform& object_place);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include <weft/fast_solver/threads/node_parts.hpp>
+#include <weft/fast_solver/threads/node_partition.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -16,8 +16,8 @@ constexpr Eigen::Index kPiece = 128;
 
 /// term: of the first node and the number of nodes of a piece, their sum.
 template <class Term>
-double sum_over(Eigen::Index num_nodes, fast::ThreadTeam& team, const Term& term) {
-  std::array<double, fast::ThreadTeam::kMostParts> sums{};
+double sum_over(Eigen::Index num_nodes, fast::WorkerTeam& team, const Term& term) {
+  std::array<double, fast::WorkerTeam::kMostParts> sums{};
   fast::run_parts(team, static_cast<int>(num_nodes), [&](int part, int begin, int end) {
     double sum = 0;
     for (Eigen::Index first = begin; first < end; first += kPiece) {
@@ -30,7 +30,7 @@ double sum_over(Eigen::Index num_nodes, fast::ThreadTeam& team, const Term& term
 
 }  // namespace
 
-double energy_put_in(const StepMotion& motion, fast::ThreadTeam& team) {
+double energy_put_in(const StepMotion& motion, fast::WorkerTeam& team) {
   return sum_over(motion.starts.cols(), team, [&](Eigen::Index first, Eigen::Index count) {
     const auto of = [&](const Matrix3X<btScalar>& vectors) {
       return vectors.middleCols(first, count).array();
@@ -43,7 +43,7 @@ double energy_put_in(const StepMotion& motion, fast::ThreadTeam& team) {
 }
 
 double kinetic_energy(const Matrix3X<btScalar>& masses, const Matrix3X<btScalar>& velocities,
-                      fast::ThreadTeam& team) {
+                      fast::WorkerTeam& team) {
   return 0.5 * sum_over(velocities.cols(), team, [&](Eigen::Index first, Eigen::Index count) {
            const auto v = velocities.middleCols(first, count).array();
            return (masses.middleCols(first, count).array() * v * v).sum();
@@ -51,7 +51,7 @@ double kinetic_energy(const Matrix3X<btScalar>& masses, const Matrix3X<btScalar>
 }
 
 void limit_energy(const Matrix3X<btScalar>& masses, double most, bool keeps_momentum,
-                  Matrix3X<btScalar>& velocities, fast::ThreadTeam& team) {
+                  Matrix3X<btScalar>& velocities, fast::WorkerTeam& team) {
   Vector3<double> mean = Vector3<double>::Zero();
   double of_mean = 0;
   if (keeps_momentum) {

@@ -2,7 +2,7 @@
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/core/types.hpp>
-#include <weft/fast_solver/threads/thread_team.hpp>
+#include <weft/fast_solver/threads/worker_team.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -19,16 +19,16 @@ struct StepMotion {
 
 /// Kinetic energy that the free nodes had, and the work on the step's way of all that is not implicit [J].
 /// Summed by a team, with the same bits for any; so is kinetic_energy().
-[[nodiscard]] double energy_put_in(const StepMotion& motion, fast::ThreadTeam& team);
+[[nodiscard]] double energy_put_in(const StepMotion& motion, fast::WorkerTeam& team);
 
 /// Kinetic energy of the free nodes with velocities [m/s]. masses as in StepMotion.
 [[nodiscard]] double kinetic_energy(const Matrix3X<btScalar>& masses,
-                                    const Matrix3X<btScalar>& velocities, fast::ThreadTeam& team);
+                                    const Matrix3X<btScalar>& velocities, fast::WorkerTeam& team);
 
 /// Slows velocities down to a kinetic energy of `most` [J]. That of the centre of mass stays if keeps_momentum,
 /// and then `most` is only reached as far as it allows.
 void limit_energy(const Matrix3X<btScalar>& masses, double most, bool keeps_momentum,
-                  Matrix3X<btScalar>& velocities, fast::ThreadTeam& team);
+                  Matrix3X<btScalar>& velocities, fast::WorkerTeam& team);
 
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

@@ -117,7 +117,7 @@ void FastBody::take_impulses(btSoftBody& body, btScalar time_step) {
 }
 
 void FastBody::note_velocities(const btSoftBody& body) {
-  const fast::ThreadTeam::Scope scope(team_, team_size());
+  const fast::WorkerTeam::Scope scope(team_, team_size());
   left_velocities_.resize(3, body.m_nodes.size());
   for_nodes([&](int begin, int count) {
     for (int i = begin; i < begin + count; ++i) {
@@ -129,7 +129,7 @@ void FastBody::note_velocities(const btSoftBody& body) {
 
 void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btScalar>& positions,
                        const Matrix3X<btScalar>& velocities) {
-  const fast::ThreadTeam::Scope scope(team_, team_size());
+  const fast::WorkerTeam::Scope scope(team_, team_size());
   last_starts_.swap(starts_);
   last_spacing_ = time_step;
   last_velocities_.swap(start_velocities_);
@@ -163,7 +163,7 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
 // Reads the present velocities, because somebody may have pushed or pinned nodes since predict().
 void FastBody::read_prediction(const btSoftBody& body) {
   predicted_.resize(3, body.m_nodes.size());
-  std::array<bool, fast::ThreadTeam::kMostParts> has_pins{};
+  std::array<bool, fast::WorkerTeam::kMostParts> has_pins{};
   fast::run_parts(team_, body.m_nodes.size(), [&](int part, int begin, int end) {
     bool any = false;
     for (int i = begin; i < end; ++i) {
@@ -174,7 +174,7 @@ void FastBody::read_prediction(const btSoftBody& body) {
     has_pins[static_cast<std::size_t>(part)] = any;
   });
   pins_.clear();
-  const fast::NodeParts parts(body.m_nodes.size());
+  const fast::NodePartition parts(body.m_nodes.size());
   for (int part = 0; part < parts.count(); ++part) {
     if (!has_pins[static_cast<std::size_t>(part)]) continue;
     for (int i = parts[part].begin; i < std::min(parts[part].end, body.m_nodes.size()); ++i) {
@@ -216,7 +216,7 @@ void FastBody::prepare_solver(const btSoftBody& body) {
 
 void FastBody::set_free(const std::vector<bool>& is_free) {
   const TraceScope trace("factorise");
-  const fast::ThreadTeam::Pause pause(team_);  // helpers would wait for long
+  const fast::WorkerTeam::Pause pause(team_);  // helpers would wait for long
   if (solver_) return solver_->set_free(is_free);
   fast::SpringNetwork limited = network_;
   limited_.step = limited_.asked_step;
@@ -266,7 +266,7 @@ bool FastBody::take_pushed_places(const btSoftBody& body) {
 
 void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
   const TraceScope trace("write back");
-  const fast::ThreadTeam::Scope scope(team_, team_size());
+  const fast::WorkerTeam::Scope scope(team_, team_size());
   is_predicted_ = false;
   const bool is_pushed = is_placed_ && take_pushed_places(body);
   const bool meets_cloth = body.m_scontacts.size() > 0 || is_pushed;
@@ -300,29 +300,29 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
 
 void FastBody::update_normals(btSoftBody& body) {
   const TraceScope trace("normals");
-  const fast::ThreadTeam::Scope scope(team_, team_size());
+  const fast::WorkerTeam::Scope scope(team_, team_size());
   normals_.update(body, team_);
   has_normals_ = true;
 }
 
-void FastBody::solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort,
-                     bool is_again) {
+void FastBody::solve(btSoftBody& body, btScalar time_step,
+                     const fast::SolverSettings& solver_settings, bool is_again) {
   read_constraints(body, time_step, is_again);
   solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, led_,
                   pushed_.inertias(), bending_.empty() ? nullptr : &bending_, is_again},
-                 effort, places_, team_);
+                 solver_settings, places_, team_);
   pushed_.take_ways(*solver_, time_step);
 }
 
 void FastBody::prepare(const btSoftBody& body) {
-  const fast::ThreadTeam::Scope scope(team_, team_size());
+  const fast::WorkerTeam::Scope scope(team_, team_size());
   read_prediction(body);
   prepare_solver(body);
 }
 
 void FastBody::detect_contacts(const btSoftBody& body, btScalar time_step) {
   const TraceScope trace("detect contacts");
-  const fast::ThreadTeam::Scope scope(team_, team_size());
+  const fast::WorkerTeam::Scope scope(team_, team_size());
   follow_obstacles(false);
   for (const Obstacle& obstacle : obstacles_) find_contacts(body, obstacle, time_step, contacts_);
 }
@@ -330,28 +330,28 @@ void FastBody::detect_contacts(const btSoftBody& body, btScalar time_step) {
 void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
                            std::span<const btRigidBody* const> pushed) {
   const TraceScope trace("fast body");
-  const fast::ThreadTeam::Scope scope(team_, team_size());
+  const fast::WorkerTeam::Scope scope(team_, team_size());
   pushed_.begin_solve(pushed);
   if (excess_ > 0 && (was_pushed() || !are_places_kept())) excess_ = 0;
   set_targets(body, choose_method(body, time_step), time_step);
   if (!bending_.empty()) bending_.begin_step(starts_);
-  solve(body, time_step, settings_.effort, false);
+  solve(body, time_step, settings_.solver, false);
 }
 
 void FastBody::solve_anew_if_it_gains(btSoftBody& body, btScalar time_step) {
   if (method_ != Method::kForces) return;
   const TraceScope trace("fast body");
-  const fast::ThreadTeam::Scope scope(team_, team_size());
+  const fast::WorkerTeam::Scope scope(team_, team_size());
   find_velocities();
   const EnergyBalance balance = energy_balance(time_step, pushed_.energy_to_come(time_step));
   if (balance.kinetic <= balance.most) return;
   set_targets(body, Method::kEuler, time_step);
-  solve(body, time_step, settings_.effort, true);
+  solve(body, time_step, settings_.solver, true);
 }
 
 void FastBody::look_again(btSoftBody& body, btScalar time_step) {
   const TraceScope trace("look again");
-  const fast::ThreadTeam::Scope scope(team_, team_size());
+  const fast::WorkerTeam::Scope scope(team_, team_size());
   follow_obstacles(true);
   is_contact_missing_ = find_missed_contacts(body, time_step);
   is_support_missing_ = pushed_.are_supports_wrong(time_step);
@@ -366,9 +366,9 @@ bool FastBody::looks_alone() const {
 void FastBody::solve_again(btSoftBody& body, btScalar time_step,
                            std::span<const btRigidBody* const> pushed) {
   const TraceScope trace("fast body");
-  const fast::ThreadTeam::Scope scope(team_, team_size());
+  const fast::WorkerTeam::Scope scope(team_, team_size());
   pushed_.begin_solve(pushed);
-  solve(body, time_step, settings_.effort, true);
+  solve(body, time_step, settings_.solver, true);
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -39,7 +39,7 @@ inline namespace WEFT_BULLET_PRECISION {
 class FastBody : public NodeTeam {
  public:
   /// laws: all of the body's; those that are not implicit only lend their stiffness. masses: n [kg].
-  /// Throws InvalidArgument as make_network() and for an effort below 1.
+  /// Throws InvalidArgument as make_network() and for fewer than one iteration.
   FastBody(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
            VectorX<double> masses, const FastSettings& settings);
 
@@ -149,7 +149,8 @@ class FastBody : public NodeTeam {
     double kinetic;
     double most;
   };
-  void solve(btSoftBody& body, btScalar time_step, const fast::SolverEffort& effort, bool is_again);
+  void solve(btSoftBody& body, btScalar time_step, const fast::SolverSettings& solver_settings,
+             bool is_again);
   [[nodiscard]] bool take_pushed_places(const btSoftBody& body);
   void prepare_solver(const btSoftBody& body);
   void set_free(const std::vector<bool>& is_free);
@@ -238,7 +239,7 @@ class FastBody : public NodeTeam {
   std::vector<int> last_contact_;    ///< of each node, or -1; contact_before_: the one before it
   std::vector<int> contact_before_;
   std::vector<fast::PlaneContact<btScalar>> plane_contacts_;
-  std::vector<fast::LedNode<btScalar>> led_;
+  std::vector<fast::KinematicNode<btScalar>> led_;
   PushedBodies pushed_;
   std::vector<int> scratch_;  ///< kept for its memory
 };

@@ -189,7 +189,7 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
       // Where the surface holds the node, which is predicted to be deep inside.
       const btVector3& place = body.m_nodes[contact.node].m_x;
       const btScalar gap = btDot(contact.normal, place) - contact.offset;
-      plane.arm = arm_of(*rigid, place - std::min(btScalar(0), gap) * contact.normal);
+      plane.lever_arm = arm_of(*rigid, place - std::min(btScalar(0), gap) * contact.normal);
     }
     plane_contacts_.push_back(plane);
   }
@@ -202,12 +202,12 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
                                     [&](const auto& other) { return other.node == node; });
     if (is_led) continue;  // by an anchor before
     const btVector3 place = anchor.m_body->getWorldTransform() * anchor.m_local;
-    fast::LedNode<btScalar> led;
+    fast::KinematicNode<btScalar> led;
     led.node = node;
-    led.place = from_bullet<btScalar>(place) - origin_;
+    led.position = from_bullet<btScalar>(place) - origin_;
     if (const btRigidBody* const rigid = movable(anchor.m_body)) {
       led.body = pushed_.number_of(*rigid, dispatcher, time_step, is_again);
-      led.arm = arm_of(*rigid, place);
+      led.lever_arm = arm_of(*rigid, place);
     }
     led_.push_back(led);
   }
@@ -222,7 +222,7 @@ void FastBody::give_impulses(btSoftBody& body, btScalar time_step) {
     const auto node = static_cast<int>(anchor.m_node - &body.m_nodes[0]);
     // A force that acts with the whole step.
     const btScalar share = inertia_step_ * inertia_step_ / (time_step * time_step);
-    const btVector3 impulse = share * time_step * to_bullet(solver_->holding_force(node));
+    const btVector3 impulse = share * time_step * to_bullet(solver_->constraint_force(node));
     push(*anchor.m_body, (1 - anchor.m_influence) * impulse, in_world(node));
   }
   given_to_bodies_ += pushed_.kinetic_energy();

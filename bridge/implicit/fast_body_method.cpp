@@ -59,7 +59,7 @@ bool FastBody::may_use_forces(const btSoftBody& body, btScalar time_step) {
 bool FastBody::are_places_kept() {
   if (places_.cols() != starts_.cols()) return false;
   for (const int pin : pins_) places_.col(pin) = starts_.col(pin);
-  std::array<bool, fast::ThreadTeam::kMostParts> is_same;
+  std::array<bool, fast::WorkerTeam::kMostParts> is_same;
   is_same.fill(true);
   fast::run_parts(team_, static_cast<int>(starts_.cols()), [&](int part, int begin, int end) {
     is_same[static_cast<std::size_t>(part)] =
@@ -116,7 +116,7 @@ void FastBody::find_velocities() {
   for_nodes([&](int begin, int count) {
     auto velocities = velocities_.middleCols(begin, count);
     velocities = places_.middleCols(begin, count) - origins_.middleCols(begin, count);
-    solver_->add_remainders(begin, velocities);
+    solver_->add_compensation(begin, velocities);
     velocities /= velocity_step_;
   });
 }

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
-#include <weft/fast_solver/threads/node_parts.hpp>
+#include <weft/fast_solver/threads/node_partition.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -58,9 +58,9 @@ Box integrate(btSoftBody& body, btScalar time_step, int begin, int end) {
   return {low, high};
 }
 
-void integrate(btSoftBody& body, btScalar time_step, fast::ThreadTeam& team) {
-  const fast::NodeParts parts(body.m_nodes.size());
-  std::array<Box, fast::ThreadTeam::kMostParts> boxes;
+void integrate(btSoftBody& body, btScalar time_step, fast::WorkerTeam& team) {
+  const fast::NodePartition parts(body.m_nodes.size());
+  std::array<Box, fast::WorkerTeam::kMostParts> boxes;
   boxes.fill({Four::Zero(), Four::Zero()});
   fast::run_parts(team, body.m_nodes.size(), [&](int part, int begin, int end) {
     boxes[static_cast<std::size_t>(part)] = integrate(body, time_step, begin, end);
@@ -102,7 +102,7 @@ struct Subtrees {
   }
 };
 
-bool refit(btDbvt& tree, fast::ThreadTeam& team) {
+bool refit(btDbvt& tree, fast::WorkerTeam& team) {
   Subtrees subtrees;
   subtrees.add_below(tree.m_root, 0);
   std::atomic<bool> fits = true;
@@ -113,7 +113,7 @@ bool refit(btDbvt& tree, fast::ThreadTeam& team) {
 }
 
 void cover_ways(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities,
-                fast::ThreadTeam& team) {
+                fast::WorkerTeam& team) {
   const bool has_last = last_velocities.cols() == body.m_nodes.size();
   const btScalar ahead = kCoveredSteps * body.m_sst.sdt + body.m_sst.velmrg;
   const auto cover = [&](int i) {
@@ -135,12 +135,12 @@ void cover_ways(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities,
 }
 
 void update_tree(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities,
-                 std::vector<int>& left, fast::ThreadTeam& team) {
+                 std::vector<int>& left, fast::WorkerTeam& team) {
   if (body.m_ndbvt.m_root == nullptr) return;
   const btScalar margin = body.m_sst.radmrg;
   const int few = body.m_nodes.size() / kFewShare;
-  const fast::NodeParts parts(body.m_nodes.size());
-  std::array<int, fast::ThreadTeam::kMostParts> num_left{};
+  const fast::NodePartition parts(body.m_nodes.size());
+  std::array<int, fast::WorkerTeam::kMostParts> num_left{};
   left.resize(static_cast<std::size_t>(body.m_nodes.size()));
   fast::run_parts(team, body.m_nodes.size(), [&](int part, int begin, int end) {
     int count = 0;
@@ -187,7 +187,7 @@ bool is_plain(const btSoftBody& body) {
 }
 
 void predict_nodes(btSoftBody& body, btScalar time_step, ConstMatrix3XRef<btScalar> last_velocities,
-                   std::vector<int>& scratch, fast::ThreadTeam& team) {
+                   std::vector<int>& scratch, fast::WorkerTeam& team) {
   body.m_sst.sdt = time_step;
   body.m_sst.isdt = 1 / time_step;
   body.m_sst.velmrg = 3 * time_step;

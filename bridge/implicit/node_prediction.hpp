@@ -6,7 +6,7 @@
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/core/types.hpp>
-#include <weft/fast_solver/threads/thread_team.hpp>
+#include <weft/fast_solver/threads/worker_team.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -24,7 +24,7 @@ inline namespace WEFT_BULLET_PRECISION {
 /// last_velocities: at the start of the step before, 3 x n [m/s], or of another size if not known: how fast ways bend.
 /// By a team, with the same bits for any. scratch: memory that is kept from step to step.
 void predict_nodes(btSoftBody& body, btScalar time_step, ConstMatrix3XRef<btScalar> last_velocities,
-                   std::vector<int>& scratch, fast::ThreadTeam& team);
+                   std::vector<int>& scratch, fast::WorkerTeam& team);
 
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

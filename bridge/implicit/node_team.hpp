@@ -4,8 +4,8 @@
 #include <optional>
 
 #include <weft/bridge/bullet/precision.hpp>
-#include <weft/fast_solver/threads/node_parts.hpp>
-#include <weft/fast_solver/threads/thread_team.hpp>
+#include <weft/fast_solver/threads/node_partition.hpp>
+#include <weft/fast_solver/threads/worker_team.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -16,8 +16,8 @@ class NodeTeam {
   /// That may work at a time, with the one that calls.
   void set_num_threads(int num_threads) { num_threads_ = num_threads; }
   /// They stay as long as the scope has them: between the stages of a step too.
-  [[nodiscard]] fast::ThreadTeam::Scope hold_threads() { return {team_, team_size()}; }
-  void hold_threads(std::optional<fast::ThreadTeam::Scope>& scope) {
+  [[nodiscard]] fast::WorkerTeam::Scope hold_threads() { return {team_, team_size()}; }
+  void hold_threads(std::optional<fast::WorkerTeam::Scope>& scope) {
     scope.emplace(team_, team_size());
   }
   /// work(first node, number of nodes) for each part of the nodes, by them.
@@ -30,10 +30,10 @@ class NodeTeam {
   void set_num_nodes(Eigen::Index num_nodes) { num_nodes_ = static_cast<int>(num_nodes); }
   /// What threads gain with one part each, they lose waiting for one another.
   [[nodiscard]] int team_size() const {
-    return std::clamp(fast::NodeParts(num_nodes_).count() / 2, 1, num_threads_);
+    return std::clamp(fast::NodePartition(num_nodes_).count() / 2, 1, num_threads_);
   }
 
-  fast::ThreadTeam team_;
+  fast::WorkerTeam team_;
 
  private:
   int num_threads_ = 1;

@@ -8,19 +8,19 @@
 namespace weft::fast {
 namespace {
 
-/// Hats are at least so many, or 2.5 sqrt(nodes): what it takes to factorise grows slower than the network then.
-constexpr int kLeastHats = 24;
-constexpr double kHatsPerRoot = 2.5;
+/// Coarse basis functions are at least so many, or 2.5 sqrt(nodes): what it takes to factorize grows slower than the network then.
+constexpr int kLeastBasis = 24;
+constexpr double kBasisPerRoot = 2.5;
 /// Terms below this share of a spring's largest one are left out [-]. Where springs are much stiffer than inertia, what is
 /// left out is all that holds some mode back, and the correction would overshoot it: with ten times as much left out here and
 /// below, up to 1e5 times.
 constexpr float kLeastTerm = 0.01F;
-/// A tie below this share of the largest one of each of its two hats is taken for none [-].
-constexpr float kLeastTie = 0.003F;
-/// Sum of the numbers of a spring's hats, from which on it ties them to what does not move: these springs all count.
+/// A coupling below this share of the largest one of each of its two coarse basis functions is taken for none [-].
+constexpr float kLeastCoupling = 0.003F;
+/// Sum of the numbers of a spring's coarse basis functions, from which on it couples them to what does not move: these springs all count.
 constexpr float kLeastBound = 0.05F;
-/// Springs of a hat that are enough to know the stiffness between it and its neighbours, about.
-constexpr int kSpringsOfHat = 60;
+/// Springs of a coarse basis function that are enough to know the stiffness between it and its neighbors, about.
+constexpr int kSpringsOfBasis = 60;
 /// At least one spring in so many of a network is looked at: about one at each node.
 constexpr double kMostForOne = 6;
 
@@ -28,127 +28,133 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-float sum_of(const HatWeights& of_node) {
+float sum_of(const BasisWeights& of_node) {
   return of_node.weights[0] + of_node.weights[1] + of_node.weights[2];
 }
 
-int hats_for(int num_unknowns) {
-  return std::max(kLeastHats, static_cast<int>(kHatsPerRoot * std::sqrt(num_unknowns)));
+int basis_size_for(int num_unknowns) {
+  return std::max(kLeastBasis, static_cast<int>(kBasisPerRoot * std::sqrt(num_unknowns)));
 }
 
 }  // namespace
 
-CoarseCorrection::CoarseCorrection(const IsotropicNetwork& network, const EdgeSlots& slots)
-    : num_nodes_(network.matrix.size()), parts_(num_nodes_), weights_(at(fill_up(num_nodes_))) {
+CoarseCorrection::CoarseCorrection(const ConnectivityGraph& network, const EdgeSlots& slots)
+    : num_nodes_(network.matrix.size()), parts_(num_nodes_), weights_(at(padded_size(num_nodes_))) {
   alone_.resize(weights_.size());
-  patches_ = find_patches(network, hats_for(num_nodes_));
-  num_hats_ = patches_.count;
-  if (num_hats_ == 0) return;
-  const Interpolation hats =
-      smoothed_aggregates(network, std::vector<bool>(at(num_nodes_), true), patches_);
-  for (int node = 0; node < num_nodes_; ++node) set_hats(node, hats, node);
-  const double of_hat = 0.5 * static_cast<double>(network.matrix.columns.size()) / num_hats_;
-  springs_for_one_ = std::clamp(of_hat / kSpringsOfHat, 1.0, kMostForOne);
-  std::vector<int> names(at(num_nodes_));
-  std::iota(names.begin(), names.end(), 0);
-  find_pairs(ties_of(network, names));
-  make_band();
+  aggregates_ = find_aggregates(network, basis_size_for(num_nodes_));
+  num_basis_ = aggregates_.count;
+  if (num_basis_ == 0) return;
+  const Prolongation basis_functions =
+      smoothed_aggregation(network, std::vector<bool>(at(num_nodes_), true), aggregates_);
+  for (int node = 0; node < num_nodes_; ++node) set_basis_weights(node, basis_functions, node);
+  const double of_basis = 0.5 * static_cast<double>(network.matrix.columns.size()) / num_basis_;
+  springs_for_one_ = std::clamp(of_basis / kSpringsOfBasis, 1.0, kMostForOne);
+  std::vector<int> node_ids(at(num_nodes_));
+  std::iota(node_ids.begin(), node_ids.end(), 0);
+  find_pairs(couplings_of(network, node_ids));
+  make_factor();
   note_springs(slots, {});
 }
 
-// What depends on which hats know each other.
-void CoarseCorrection::make_band() {
+// What depends on which coarse basis functions know each other.
+void CoarseCorrection::make_factor() {
   first_pairs_.clear();
-  for (int hat = 0; hat <= num_hats_; ++hat) {
-    const auto first = std::lower_bound(pairs_.begin(), pairs_.end(), std::pair(hat, 0));
+  for (int basis = 0; basis <= num_basis_; ++basis) {
+    const auto first = std::lower_bound(pairs_.begin(), pairs_.end(), std::pair(basis, 0));
     first_pairs_.push_back(static_cast<int>(first - pairs_.begin()));
   }
-  band_ = BorderedBand(num_hats_, pairs_);
-  solution_.setZero(4, num_hats_);
-  sums_.assign(at(band_.num_blocks()) * kBlockNumbers, 0.0F);
-  for (auto* numbers : {&masses_, &inertia_}) numbers->assign(at(num_hats_), 0.0F);
+  factor_ = DissectedCholesky(num_basis_, pairs_);
+  solution_.setZero(4, num_basis_);
+  sums_.assign(at(factor_.num_blocks()) * kBlockNumbers, 0.0F);
+  for (auto* numbers : {&masses_, &inertia_}) numbers->assign(at(num_basis_), 0.0F);
   for (int node = 0; node < num_nodes_; ++node) note_alone(node);
   blocks_.clear();
 }
 
-void CoarseCorrection::set_free(const IsotropicNetwork& network, const Rings& rings,
+void CoarseCorrection::set_free(const ConnectivityGraph& network, const Neighborhood& neighborhood,
                                 const std::vector<bool>& is_free, const EdgeSlots& slots) {
-  const std::vector<int>& names = rings.nodes;
-  if (num_hats_ == 0) return;
-  Patches patches{num_hats_, {}};
-  for (const int node : names) patches.of_unknown.push_back(patches_.of_unknown[at(node)]);
-  const Interpolation hats = smoothed_aggregates(network, is_free, patches, rings.ends);
-  for (int k = 0; k < hats.size(); ++k) set_hats(names[at(k)], hats, k);
-  if (add_pairs(ties_of(network, names))) {
-    make_band();
+  const std::vector<int>& node_ids = neighborhood.nodes;
+  if (num_basis_ == 0) return;
+  Aggregates aggregates{num_basis_, {}};
+  for (const int node : node_ids) aggregates.of_unknown.push_back(aggregates_.of_unknown[at(node)]);
+  const Prolongation basis_functions =
+      smoothed_aggregation(network, is_free, aggregates, neighborhood.ends);
+  for (int k = 0; k < basis_functions.size(); ++k)
+    set_basis_weights(node_ids[at(k)], basis_functions, k);
+  if (add_pairs(couplings_of(network, node_ids))) {
+    make_factor();
   } else {
-    for (int k = 0; k < hats.size(); ++k) note_alone(names[at(k)]);
+    for (int k = 0; k < basis_functions.size(); ++k) note_alone(node_ids[at(k)]);
   }
   std::vector<char> blocks(at(slots.num_blocks()), 0);
-  for (int k = 0; k < rings.ends[kHatReach + 1]; ++k) blocks[at(names[at(k)] / kNodeBlock)] = 1;
+  for (int k = 0; k < neighborhood.ends[kBasisReach + 1]; ++k)
+    blocks[at(node_ids[at(k)] / kNodeBlock)] = 1;
   note_springs(slots, blocks);
 }
 
-void CoarseCorrection::set_hats(int node, const Interpolation& hats, int unknown) {
-  HatWeights& of_node = weights_[at(node)];
+void CoarseCorrection::set_basis_weights(int node, const Prolongation& basis_functions,
+                                         int unknown) {
+  BasisWeights& of_node = weights_[at(node)];
   of_node = {};
   int k = 0;
-  for (int e = hats.starts[at(unknown)]; e < hats.starts[at(unknown) + 1]; ++e, ++k) {
-    of_node.hats[k] = hats.columns[at(e)];
-    of_node.weights[k] = static_cast<float>(hats.values[at(e)]);
+  for (int e = basis_functions.starts[at(unknown)]; e < basis_functions.starts[at(unknown) + 1];
+       ++e, ++k) {
+    of_node.basis_functions[k] = basis_functions.columns[at(e)];
+    of_node.weights[k] = static_cast<float>(basis_functions.values[at(e)]);
   }
 }
 
-// Where there is no part in a hat, one that is near, so that hats of a part of the nodes are.
+// Where there is no part in a coarse basis function, one that is near, so that coarse basis functions of a part of the nodes are.
 void CoarseCorrection::fill_gaps(NodeRange nodes) {
   const auto begin = weights_.begin() + nodes.begin;
   const auto end = weights_.begin() + nodes.end;
   const auto first =
-      std::find_if(begin, end, [](const HatWeights& of_node) { return of_node.weights[0] != 0; });
-  int last = first != end ? first->hats[0] : 0;
+      std::find_if(begin, end, [](const BasisWeights& of_node) { return of_node.weights[0] != 0; });
+  int last = first != end ? first->basis_functions[0] : 0;
   for (auto of_node = begin; of_node != end; ++of_node) {
-    if (of_node->weights[0] != 0) last = of_node->hats[0];
+    if (of_node->weights[0] != 0) last = of_node->basis_functions[0];
     for (int k = 0; k < kMostWeights; ++k) {
-      if (of_node->weights[k] == 0) of_node->hats[k] = last;
+      if (of_node->weights[k] == 0) of_node->basis_functions[k] = last;
     }
   }
 }
 
-void CoarseCorrection::Row::add(int hat, float number) {
+void CoarseCorrection::Row::add(int basis, float coefficient) {
   for (int k = 0; k < count; ++k) {
-    if (entries[at(k)].hat != hat) continue;
-    entries[at(k)].number += number;
+    if (entries[at(k)].basis != basis) continue;
+    entries[at(k)].coefficient += coefficient;
     return;
   }
-  entries[at(count++)] = {hat, number};
+  entries[at(count++)] = {basis, coefficient};
 }
 
 CoarseCorrection::Row CoarseCorrection::row_of(int node) const {
-  const HatWeights& of_node = weights_[at(node)];
+  const BasisWeights& of_node = weights_[at(node)];
   Row row;
   for (int k = 0; k < kMostWeights; ++k) {
-    if (of_node.weights[k] != 0) row.add(of_node.hats[k], of_node.weights[k]);
+    if (of_node.weights[k] != 0) row.add(of_node.basis_functions[k], of_node.weights[k]);
   }
   return row;
 }
 
-CoarseCorrection::Ties CoarseCorrection::ties_of(const IsotropicNetwork& springs,
-                                                 const std::vector<int>& names) const {
+CoarseCorrection::Couplings CoarseCorrection::couplings_of(const ConnectivityGraph& springs,
+                                                           const std::vector<int>& node_ids) const {
   const SymmetricMatrix& matrix = springs.matrix;
-  Ties higher(at(num_hats_));
+  Couplings higher(at(num_basis_));
   for (int i = 0; i < matrix.size(); ++i) {
     for (int e = matrix.starts[at(i)]; e < matrix.starts[at(i) + 1]; ++e) {
       if (matrix.columns[at(e)] < i) continue;
-      const Row row = difference(names[at(i)], names[at(matrix.columns[at(e)])]);
+      const Row row = difference(node_ids[at(i)], node_ids[at(matrix.columns[at(e)])]);
       const auto stiffness = static_cast<float>(-matrix.values[at(e)]);
       for (const Row::Entry* one = row.begin(); one != row.end(); ++one) {
         for (const Row::Entry* two = one + 1; two != row.end(); ++two) {
-          const auto [low, high] = std::minmax(one->hat, two->hat);
+          const auto [low, high] = std::minmax(one->basis, two->basis);
           auto& list = higher[at(low)];
-          auto found = std::find_if(list.begin(), list.end(),
-                                    [h = high](const auto& tie) { return tie.first == h; });
+          auto found = std::find_if(list.begin(), list.end(), [h = high](const auto& coupling) {
+            return coupling.first == h;
+          });
           if (found == list.end()) found = list.insert(list.end(), {high, 0.0F});
-          found->second -= stiffness * one->number * two->number;
+          found->second -= stiffness * one->coefficient * two->coefficient;
         }
       }
     }
@@ -157,33 +163,35 @@ CoarseCorrection::Ties CoarseCorrection::ties_of(const IsotropicNetwork& springs
   return higher;
 }
 
-bool CoarseCorrection::counts(int hat, int other, float tie) const {
-  return std::abs(tie) > kLeastTie * std::min(largest_ties_[at(hat)], largest_ties_[at(other)]);
+bool CoarseCorrection::is_strong(int basis, int other, float coupling) const {
+  return std::abs(coupling) >
+         kLeastCoupling * std::min(largest_couplings_[at(basis)], largest_couplings_[at(other)]);
 }
 
-// Pairs of hats that springs tie together, but for those that others tie much more: patches that are not next to each other.
-void CoarseCorrection::find_pairs(const Ties& ties) {
-  largest_ties_.assign(at(num_hats_), 0.0F);
-  for (int hat = 0; hat < num_hats_; ++hat) {
-    for (const auto& [other, tie] : ties[at(hat)]) {
-      for (const int one : {hat, other}) {
-        largest_ties_[at(one)] = std::max(largest_ties_[at(one)], tie);
+// Pairs of coarse basis functions that springs couple, except for those that others couple much more: aggregates that are not next to each other.
+void CoarseCorrection::find_pairs(const Couplings& couplings) {
+  largest_couplings_.assign(at(num_basis_), 0.0F);
+  for (int basis = 0; basis < num_basis_; ++basis) {
+    for (const auto& [other, coupling] : couplings[at(basis)]) {
+      for (const int one : {basis, other}) {
+        largest_couplings_[at(one)] = std::max(largest_couplings_[at(one)], coupling);
       }
     }
   }
-  for (int hat = 0; hat < num_hats_; ++hat) {
-    for (const auto& [other, tie] : ties[at(hat)]) {
-      if (counts(hat, other, tie)) pairs_.emplace_back(hat, other);
+  for (int basis = 0; basis < num_basis_; ++basis) {
+    for (const auto& [other, coupling] : couplings[at(basis)]) {
+      if (is_strong(basis, other, coupling)) pairs_.emplace_back(basis, other);
     }
   }
 }
 
 // False: there are none that count and are new.
-bool CoarseCorrection::add_pairs(const Ties& ties) {
+bool CoarseCorrection::add_pairs(const Couplings& couplings) {
   const std::size_t num_before = pairs_.size();
-  for (int hat = 0; hat < num_hats_; ++hat) {
-    for (const auto& [other, tie] : ties[at(hat)]) {
-      if (counts(hat, other, tie) && pair_of(hat, other) < 0) pairs_.emplace_back(hat, other);
+  for (int basis = 0; basis < num_basis_; ++basis) {
+    for (const auto& [other, coupling] : couplings[at(basis)]) {
+      if (is_strong(basis, other, coupling) && pair_of(basis, other) < 0)
+        pairs_.emplace_back(basis, other);
     }
   }
   if (pairs_.size() == num_before) return false;
@@ -194,11 +202,11 @@ bool CoarseCorrection::add_pairs(const Ties& ties) {
 /// The difference between the rows of two nodes.
 CoarseCorrection::Row CoarseCorrection::difference(int node, int other) const {
   Row row = row_of(node);
-  for (const auto& [hat, weight] : row_of(other)) row.add(hat, -weight);
+  for (const auto& [basis, weight] : row_of(other)) row.add(basis, -weight);
   return row;
 }
 
-/// -1 for hats that do not know each other.
+/// -1 for coarse basis functions that do not know each other.
 int CoarseCorrection::pair_of(int a, int b) const {
   const std::pair<int, int> both = std::minmax(a, b);
   const auto end = pairs_.begin() + first_pairs_[at(both.first) + 1];
@@ -206,23 +214,24 @@ int CoarseCorrection::pair_of(int a, int b) const {
   return found != end && *found == both ? static_cast<int>(found - pairs_.begin()) : -1;
 }
 
-// The energy of sum d_a x_a over a spring, as springs between hats and to what does not move.
+// The energy of sum d_a x_a over a spring, as springs between coarse basis functions and to what does not move.
 void CoarseCorrection::add_terms(const Row& row, std::vector<CoarseTerm>& terms) const {
   float sum = 0;
   float largest = 0;
-  for (const auto& [hat, d] : row) {
+  for (const auto& [basis, d] : row) {
     sum += d;
     largest = std::max(largest, std::abs(d));
   }
   const float least = kLeastTerm * largest * largest;
   for (const Row::Entry* one = row.begin(); one != row.end(); ++one) {
-    const auto [hat, d] = *one;
+    const auto [basis, d] = *one;
     for (const Row::Entry* two = one + 1; two != row.end(); ++two) {
-      const float factor = -d * two->number;
-      const int pair = pair_of(hat, two->hat);
-      if (pair >= 0 && std::abs(factor) > least) terms.push_back({band_.pair_block(pair), factor});
+      const float factor = -d * two->coefficient;
+      const int pair = pair_of(basis, two->basis);
+      if (pair >= 0 && std::abs(factor) > least)
+        terms.push_back({factor_.pair_block(pair), factor});
     }
-    if (std::abs(d * sum) > least) terms.push_back({band_.own_block(hat), d * sum});
+    if (std::abs(d * sum) > least) terms.push_back({factor_.own_block(basis), d * sum});
   }
 }
 
@@ -234,15 +243,15 @@ void CoarseCorrection::note_alone(int node) {
 }
 
 void CoarseCorrection::add_copies(const std::vector<int>& origins) {
-  parts_ = NodeParts(num_nodes_ + static_cast<int>(origins.size()));
+  parts_ = NodePartition(num_nodes_ + static_cast<int>(origins.size()));
   of_parts_.clear();
   residuals_.clear();
   for (const int origin : origins) {
     const int node = num_nodes_++;
-    weights_.resize(at(fill_up(num_nodes_)));
+    weights_.resize(at(padded_size(num_nodes_)));
     alone_.resize(weights_.size());
     weights_[at(node)] = weights_[at(origin)];
-    patches_.of_unknown.push_back(patches_.of_unknown[at(origin)]);
+    aggregates_.of_unknown.push_back(aggregates_.of_unknown[at(origin)]);
     note_alone(node);
   }
 }
@@ -256,7 +265,7 @@ bool CoarseCorrection::is_in_sample(int node, int slot) const {
 }
 
 void CoarseCorrection::note_springs(const EdgeSlots& slots, const std::vector<char>& blocks) {
-  if (num_hats_ == 0) return;
+  if (num_basis_ == 0) return;
   const auto num_before = blocks_.size();
   const auto is_changed = [&](int b) { return at(b) >= num_before || blocks[at(b)] != 0; };
   blocks_.resize(at(slots.num_blocks()));
@@ -294,15 +303,16 @@ void CoarseCorrection::note_springs(const EdgeSlots& slots, const std::vector<ch
   }
   residuals_.clear();
   for (const Part& part : of_parts_) {
-    residuals_.push_back({part.residual.data(), part.hats.begin, part.hats.end});
+    residuals_.push_back(
+        {part.residual.data(), part.basis_functions.begin, part.basis_functions.end});
   }
 }
 
-// A network's nodes are in an order in which few hats are those of a part's nodes.
+// A network's nodes are in an order in which few coarse basis functions are those of a part's nodes.
 void CoarseCorrection::find_ranges(int p) {
   Part& part = of_parts_[at(p)];
-  part.hats = {num_hats_, 0};
-  part.sums = {band_.num_blocks(), 0};
+  part.basis_functions = {num_basis_, 0};
+  part.sums = {factor_.num_blocks(), 0};
   const auto include = [](int number, Range& range) {
     range.begin = std::min(range.begin, number);
     range.end = std::max(range.end, number + 1);
@@ -310,7 +320,7 @@ void CoarseCorrection::find_ranges(int p) {
   const NodeRange nodes = parts_[p];
   fill_gaps(nodes);
   for (int i = nodes.begin; i < nodes.end; ++i) {
-    for (const int hat : weights_[at(i)].hats) include(hat, part.hats);
+    for (const int basis : weights_[at(i)].basis_functions) include(basis, part.basis_functions);
   }
   for (int b = nodes.begin / kNodeBlock; b < nodes.end / kNodeBlock; ++b) {
     if (at(b) >= blocks_.size()) break;
@@ -322,16 +332,17 @@ void CoarseCorrection::find_ranges(int p) {
       }
     }
   }
-  const auto num_hats = static_cast<std::size_t>(std::max(0, part.hats.end - part.hats.begin));
+  const auto num_basis =
+      static_cast<std::size_t>(std::max(0, part.basis_functions.end - part.basis_functions.begin));
   const auto num_sums = static_cast<std::size_t>(std::max(0, part.sums.end - part.sums.begin));
   part.blocks.assign(num_sums * kBlockNumbers, 0.0F);
-  for (Fours* sums : {&part.residual, &part.other_residual}) sums->setZero(4, long(num_hats));
+  for (Fours* sums : {&part.residual, &part.other_residual}) sums->setZero(4, long(num_basis));
 }
 
 void CoarseCorrection::set_bending(const EdgeSlots& slots,
                                    const std::function<double(std::size_t)>& stiffness) {
-  if (num_hats_ == 0) return;
-  std::vector<double> sums(at(band_.num_blocks()), 0.0);
+  if (num_basis_ == 0) return;
+  std::vector<double> sums(at(factor_.num_blocks()), 0.0);
   for (int b = 0; b < slots.num_blocks(); ++b) {
     for (int slot = slots.blocks[at(b)].begin; slot < slots.blocks[at(b)].end; ++slot) {
       for (int lane = 0; lane < kNodeBlock; ++lane) {
@@ -342,14 +353,14 @@ void CoarseCorrection::set_bending(const EdgeSlots& slots,
         const double w = stiffness(place);
         const Row row = difference(node, other);
         double sum = 0;
-        for (const auto& [hat, d] : row) sum += static_cast<double>(d);
+        for (const auto& [basis, d] : row) sum += static_cast<double>(d);
         for (const Row::Entry* one = row.begin(); one != row.end(); ++one) {
-          const auto d = static_cast<double>(one->number);
-          sums[at(band_.own_block(one->hat))] += w * d * sum;
+          const auto d = static_cast<double>(one->coefficient);
+          sums[at(factor_.own_block(one->basis))] += w * d * sum;
           for (const Row::Entry* two = one + 1; two != row.end(); ++two) {
-            const int pair = pair_of(one->hat, two->hat);
+            const int pair = pair_of(one->basis, two->basis);
             if (pair >= 0)
-              sums[at(band_.pair_block(pair))] -= w * d * static_cast<double>(two->number);
+              sums[at(factor_.pair_block(pair))] -= w * d * static_cast<double>(two->coefficient);
           }
         }
       }
@@ -360,19 +371,19 @@ void CoarseCorrection::set_bending(const EdgeSlots& slots,
 
 void CoarseCorrection::set_masses(const VectorX<float>& masses) {
   std::fill(masses_.begin(), masses_.end(), 0.0F);
-  for (int i = 0; i < num_nodes_ && num_hats_ > 0; ++i) {
-    const HatWeights& of_node = weights_[at(i)];
+  for (int i = 0; i < num_nodes_ && num_basis_ > 0; ++i) {
+    const BasisWeights& of_node = weights_[at(i)];
     for (int k = 0; k < kMostWeights; ++k) {
-      masses_[at(of_node.hats[k])] += masses[i] * of_node.weights[k];
+      masses_[at(of_node.basis_functions[k])] += masses[i] * of_node.weights[k];
     }
   }
 }
 
-void CoarseCorrection::factorise(const unsigned short* linear, float root_scale,
-                                 const std::vector<Hold>& holds, float inertia_over_mass,
-                                 ThreadTeam& team) {
-  if (num_hats_ == 0) return;
-  static_assert(sizeof(Hold) == 1 && Hold::kFree == Hold{});
+void CoarseCorrection::factorize(const unsigned short* linear, float root_scale,
+                                 const std::vector<ContactState>& holds, float inertia_over_mass,
+                                 WorkerTeam& team) {
+  if (num_basis_ == 0) return;
+  static_assert(sizeof(ContactState) == 1 && ContactState::kFree == ContactState{});
   const CoarseKernel& kernel = coarse_kernel();
   const float scale = 1 / (root_scale * root_scale);
   team.run(parts_.count(), [&](int p) {
@@ -408,45 +419,45 @@ void CoarseCorrection::factorise(const unsigned short* linear, float root_scale,
     }
   }
   for (std::size_t k = 0; k < masses_.size(); ++k) inertia_[k] = inertia_over_mass * masses_[k];
-  band_.factorise(sums_.data(), inertia_.data(), team);
+  factor_.factorize(sums_.data(), inertia_.data(), team);
 }
 
-void CoarseCorrection::restrict_residual(int part, const std::vector<int>& held,
+void CoarseCorrection::restrict_residual(int part, const std::vector<int>& constrained,
                                          const NodeArrays<float>& residual) {
-  if (num_hats_ == 0) return;
+  if (num_basis_ == 0) return;
   Part& of_part = of_parts_[at(part)];
   of_part.residual.setZero();
   of_part.other_residual.setZero();
   const NodeRange nodes = parts_[part];
-  coarse_kernel().restrict_to(weights_.data(), nodes.begin, nodes.end, residual.data(),
-                              residual.rows(), of_part.hats.begin, of_part.residual.data(),
-                              of_part.other_residual.data());
+  coarse_kernel().restrict_residual(weights_.data(), nodes.begin, nodes.end, residual.data(),
+                                    residual.rows(), of_part.basis_functions.begin,
+                                    of_part.residual.data(), of_part.other_residual.data());
   of_part.residual += of_part.other_residual;
-  for (const int i : in_range(held, nodes)) {
-    const HatWeights& of_node = weights_[at(i)];
+  for (const int i : in_range(constrained, nodes)) {
+    const BasisWeights& of_node = weights_[at(i)];
     for (int k = 0; k < kMostWeights; ++k) {
-      of_part.residual.col(of_node.hats[k] - of_part.hats.begin).head<3>() -=
+      of_part.residual.col(of_node.basis_functions[k] - of_part.basis_functions.begin).head<3>() -=
           of_node.weights[k] * residual.row(i).transpose();
     }
   }
 }
 
-void CoarseCorrection::solve(ThreadTeam& team) {
-  if (num_hats_ == 0) return;
-  band_.solve(residuals_, solution_.data(), team);
+void CoarseCorrection::solve(WorkerTeam& team) {
+  if (num_basis_ == 0) return;
+  factor_.solve(residuals_, solution_.data(), team);
 }
 
-void CoarseCorrection::interpolate(int part, const std::vector<int>& held,
-                                   NodeArrays<float>& correction) const {
+void CoarseCorrection::prolongate(int part, const std::vector<int>& constrained,
+                                  NodeArrays<float>& correction) const {
   const NodeRange nodes = parts_[part];
   const auto stride = correction.rows();
-  if (num_hats_ == 0) {
+  if (num_basis_ == 0) {
     correction.middleRows(nodes.begin, nodes.end - nodes.begin).setZero();
     return;
   }
-  coarse_kernel().interpolate(weights_.data(), nodes.begin, nodes.end, solution_.data(),
-                              correction.data(), stride);
-  for (const int i : in_range(held, nodes)) correction.row(i).setZero();
+  coarse_kernel().prolongate(weights_.data(), nodes.begin, nodes.end, solution_.data(),
+                             correction.data(), stride);
+  for (const int i : in_range(constrained, nodes)) correction.row(i).setZero();
 }
 
 }  // namespace weft::fast

@@ -41,20 +41,20 @@ struct CoarseSprings {
   int first_sum;  ///< of those that are given
 };
 
-/// Rows of the upper factor U of a matrix that is a band with a border, three rows for each unknown. A row of an unknown
-/// begins at the unknown's own column: near numbers, the rest of which are zeros, then those of the border.
-struct BandRows {
+/// Rows of the upper factor U of a matrix that is a band with a separator, three rows for each unknown. A row of an unknown
+/// begins at the unknown's own column: near numbers, the rest of which are zeros, then those of the separator.
+struct FactorRows {
   float* values;
-  float* diagonal;  ///< of each unknown, six: inverses of U's diagonal, then u01, u02, u12
-  int num_near;     ///< kRowPad zeros and more included
-  int num_border;   ///< multiple of kRowPad, filled up with zeros
-  int stride;       ///< of rows: both together
-  int width;        ///< unknowns that a row reaches, its own included
+  float* diagonal;    ///< of each unknown, six: inverses of U's diagonal, then u01, u02, u12
+  int num_near;       ///< kRowPad zeros and more included
+  int num_separator;  ///< multiple of kRowPad, filled up with zeros
+  int stride;         ///< of rows: both together
+  int width;          ///< unknowns that a row reaches, its own included
 };
 
-/// A node's part in hats; without one: weights of 0.
-struct HatWeights {
-  int hats[3] = {0, 0, 0};
+/// A node's part in coarse basis functions; without one: weights of 0.
+struct BasisWeights {
+  int basis_functions[3] = {0, 0, 0};
   float weights[3] = {0, 0, 0};
 };
 
@@ -62,21 +62,22 @@ struct CoarseKernel {
   /// sums[term.sum] += term.factor stiffness, for each term of each spring; those of its other end alone where one end is
   /// held, none where both are.
   void (*add_springs)(const CoarseSprings& springs, float* sums);
-  /// Makes the factor of num unknowns, which reach none behind them but the border's. corner: what they take from the block
-  /// of the border, rows of num_border numbers, upper half. An unknown with a pivot below `least` of what is stored for it in
+  /// Makes the factor of num unknowns, which reach none behind them but the separator's. corner: what they take from the block
+  /// of the separator, rows of num_separator numbers, upper half. An unknown with a pivot below `least` of what is stored for it in
   /// diagonal gets no part in solutions.
-  void (*factorise)(const BandRows& rows, int num, float least, float* corner);
-  /// vector = U^-T vector for these unknowns; border -= what they leave for it.
-  void (*go_up)(const BandRows& rows, int num, float* vector, float* border);
-  /// vector = U^-1 vector, where border has the border's solution.
-  void (*go_down)(const BandRows& rows, int num, float* vector, const float* border);
+  void (*factorize)(const FactorRows& rows, int num, float least, float* schur_complement);
+  /// vector = U^-T vector for these unknowns; separator -= what they leave for it.
+  void (*forward_substitute)(const FactorRows& rows, int num, float* vector, float* separator);
+  /// vector = U^-1 vector, where separator has the separator's solution.
+  void (*backward_substitute)(const FactorRows& rows, int num, float* vector,
+                              const float* separator);
   /// sums and other_sums, in fours, += weights of nodes times the nodes' values, from sum first_sum on: what is wanted is the
   /// sum of both.
-  void (*restrict_to)(const HatWeights* weights, int begin, int end, const float* values,
-                      long stride, int first_sum, float* sums, float* other_sums);
+  void (*restrict_residual)(const BasisWeights* weights, int begin, int end, const float* values,
+                            long stride, int first_sum, float* sums, float* other_sums);
   /// The transpose: values of nodes from fours.
-  void (*interpolate)(const HatWeights* weights, int begin, int end, const float* fours,
-                      float* values, long stride);
+  void (*prolongate)(const BasisWeights* weights, int begin, int end, const float* fours,
+                     float* values, long stride);
 };
 
 /// The fastest that this processor runs, as in network_kernel.hpp.

@@ -7,7 +7,7 @@
 namespace weft::fast {
 namespace {
 
-/// Neighbours at the same distance from which on a slot of their own is faster than fetching them one
+/// Neighbors at the same distance from which on a slot of their own is faster than fetching them one
 /// by one.
 constexpr int kFewestInARow = 4;
 
@@ -51,7 +51,7 @@ void SlotMaker::sort_into_rows(int first, const std::vector<EdgeLane>& lanes, in
   for (std::size_t l = 0; l < lanes.size(); ++l) {
     const EdgeLane& lane = lanes[l];
     const int offset = lane.other - lane.node;
-    const bool fits = first + offset >= 0 && first + offset + kNodeBlock <= fill_up(num_nodes);
+    const bool fits = first + offset >= 0 && first + offset + kNodeBlock <= padded_size(num_nodes);
     Row* const row = fits ? &row_at(offset) : nullptr;
     if (row == nullptr || row->lanes[lane.node - first] >= 0) {
       rest_.push_back(static_cast<int>(l));
@@ -101,7 +101,7 @@ void SlotMaker::append(int block, const std::vector<EdgeLane>& lanes, EdgeSlots&
 EdgeSlots make_edge_slots(const Edges& edges, int num_nodes) {
   EdgeSlots result;
   result.num_nodes = num_nodes;
-  const auto num_blocks = at(fill_up(num_nodes) / kNodeBlock);
+  const auto num_blocks = at(padded_size(num_nodes) / kNodeBlock);
   std::vector<std::size_t> starts(num_blocks + 1, 0);
   for (const int node : edges.reshaped()) ++starts[at(node / kNodeBlock) + 1];
   std::partial_sum(starts.begin(), starts.end(), starts.begin());

@@ -9,18 +9,18 @@
 namespace weft::fast {
 
 /// The edges of a network as the processor's vectors want them: a block is kNodeBlock nodes in a row,
-/// a slot one neighbour for each of them. On a grid the neighbours are in a row as well, at the same
-/// distance from their nodes, so that whole vectors are loaded. Other slots fetch their neighbours one
+/// a slot one neighbor for each of them. On a grid the neighbors are in a row as well, at the same
+/// distance from their nodes, so that whole vectors are loaded. Other slots fetch their neighbors one
 /// by one.
 ///
-/// Every edge has a lane at both ends: to add the opposite force to a neighbour would mean to read,
+/// Every edge has a lane at both ends: to add the opposite force to a neighbor would mean to read,
 /// change and write vectors across cache lines, which takes longer than to compute it twice. So
 /// nothing is written but a block's own nodes, and any number of threads gives the same bits.
 struct EdgeSlots {
   int num_nodes = 0;
   std::vector<SlotRange> blocks;
   std::vector<EdgeSlot> slots;
-  std::vector<int> others;  ///< of each lane of each slot: the neighbour; an empty lane's own node
+  std::vector<int> others;  ///< of each lane of each slot: the neighbor; an empty lane's own node
   std::vector<int> edges;   ///< of each lane of each slot: its edge, or -1
 
   [[nodiscard]] int num_slots() const { return static_cast<int>(slots.size()); }
@@ -44,7 +44,7 @@ class SlotMaker {
   void append(int block, const std::vector<EdgeLane>& lanes, EdgeSlots& slots);
 
  private:
-  /// A neighbour at the same distance for each node; -1: none.
+  /// A neighbor at the same distance for each node; -1: none.
   struct Row {
     int offset;
     int num_lanes;

@@ -73,7 +73,7 @@ void NetworkForces<Scalar>::note_stiffest(const SpringNetwork& springs) {
   most_damped_ = std::max(most_damped_, springs.damping.maxCoeff());
 }
 
-/// A power of two, so that no number of a linearisation is too large for half precision, and few are too small.
+/// A power of two, so that no number of a linearization is too large for half precision, and few are too small.
 template <class Scalar>
 void NetworkForces<Scalar>::choose_scale(double time_step) {
   const double most = stiffest_ + most_damped_ / time_step;
@@ -156,7 +156,7 @@ std::vector<char> NetworkForces<Scalar>::replace(const SpringNetwork& springs,
 template <class Scalar>
 std::vector<char> NetworkForces<Scalar>::blocks_to_change(
     const SpringNetwork& springs, const std::vector<char>& is_changed) const {
-  std::vector<char> blocks(at(fill_up(static_cast<int>(is_changed.size())) / kNodeBlock), 0);
+  std::vector<char> blocks(at(padded_size(static_cast<int>(is_changed.size())) / kNodeBlock), 0);
   for (std::size_t node = 0; node < is_changed.size(); ++node) {
     if (is_changed[node] != 0) blocks[node / kNodeBlock] = 1;
   }
@@ -164,7 +164,7 @@ std::vector<char> NetworkForces<Scalar>::blocks_to_change(
   const std::vector<char> changed = blocks;
   for (const int node : springs.edges.reshaped()) blocks[at(node / kNodeBlock)] = 1;
   for (int block = 0; block < slots_.num_blocks();
-       ++block) {  // neighbours that may be none any more
+       ++block) {  // neighbors that may be none any more
     if (changed[at(block)] == 0) continue;
     const SlotRange& range = slots_.blocks[at(block)];
     for (int place = range.begin * kNodeBlock; place < range.end * kNodeBlock; ++place) {
@@ -252,7 +252,7 @@ NetworkView<Scalar> NetworkForces<Scalar>::view() const {
           springs_.data(),
           dampers_.empty() ? nullptr : dampers_.data(),
           bending_.empty() ? nullptr : bending_.data(),
-          least_across_,
+          least_transverse_,
           root_scale_,
           linear_.data()};
 }
@@ -271,15 +271,16 @@ void NetworkForces<Scalar>::begin_step(NodeRange nodes, const NodeArrays<Scalar>
 }
 
 template <class Scalar>
-void NetworkForces<Scalar>::add_forces(NodeRange nodes, const NodeArrays<Scalar>& places,
-                                       NodeArrays<Scalar>& forces, bool linearises) {
-  network_kernel<Scalar>().forces(view(), nodes, places.data(), forces.data(),
-                                  linearises ? diagonal_.data() : nullptr);
+void NetworkForces<Scalar>::add_forces(NodeRange nodes, const NodeArrays<Scalar>& positions,
+                                       NodeArrays<Scalar>& forces, bool linearizes) {
+  network_kernel<Scalar>().forces(view(), nodes, positions.data(), forces.data(),
+                                  linearizes ? diagonal_.data() : nullptr);
 }
 
 template <class Scalar>
-double NetworkForces<Scalar>::potential(NodeRange nodes, const NodeArrays<Scalar>& places) const {
-  return network_kernel<Scalar>().energy(view(), nodes, places.data());
+double NetworkForces<Scalar>::potential(NodeRange nodes,
+                                        const NodeArrays<Scalar>& positions) const {
+  return network_kernel<Scalar>().energy(view(), nodes, positions.data());
 }
 
 template <class Scalar>

@@ -4,20 +4,20 @@
 #include <vector>
 
 #include <weft/fast_solver/coarse/coarse_correction.hpp>
+#include <weft/fast_solver/network/connectivity_graph.hpp>
 #include <weft/fast_solver/network/edge_slots.hpp>
-#include <weft/fast_solver/network/isotropic_network.hpp>
 #include <weft/fast_solver/network/network_kernel.hpp>
 #include <weft/fast_solver/network/node_arrays.hpp>
 #include <weft/fast_solver/network/spring_network.hpp>
 
 namespace weft::fast {
 
-/// The forces of a SpringNetwork and their linearisation, several edges at a time on the vector unit.
+/// The forces of a SpringNetwork and their linearization, several edges at a time on the vector unit.
 ///
-/// Linearised at x, the stiffness of an edge is s u u^T + t (I - u u^T) with s = k' + c / h along it
+/// Linearized at x, the stiffness of an edge is s u u^T + t (I - u u^T) with s = k' + c / h along it
 /// and t = max(0, f / l) + w across: the part that a compressed spring takes away is left out, so that
 /// the matrix stays positive definite (Choi and Ko 2002).
-/// Scalar: of places and forces. Products are in single precision, for they only make corrections.
+/// Scalar: of positions and forces. Products are in single precision, because they only make corrections.
 /// Threads  what takes nodes may run for several parts of them at once; all else from one thread at a time. Allocates
 ///          nothing after construction, but for replace() and what describes the network.
 template <class Scalar>
@@ -38,7 +38,7 @@ class NetworkForces {
   /// Share of the slots that no block uses any more [-].
   [[nodiscard]] double unused_share() const;
 
-  [[nodiscard]] NodeRange all_nodes() const { return {0, fill_up(num_nodes())}; }
+  [[nodiscard]] NodeRange all_nodes() const { return {0, padded_size(num_nodes())}; }
 
   /// To be called before begin_step() of each part: the time step of dampers [s], > 0.
   void set_time_step(Scalar time_step);
@@ -46,19 +46,19 @@ class NetworkForces {
   void begin_step(NodeRange nodes, const NodeArrays<Scalar>& starts);
 
   /// From the next add_forces() on t is at least this share of s, 0 to 1. With 1 no spring can store more than its
-  /// linearisation says, so that a step that the linear system thinks good is good (as the global step of Bouaziz et
+  /// linearization says, so that a step that the linear system thinks good is good (as the global step of Bouaziz et
   /// al. 2014); with 0 steps of Newton's method are as large as they can be.
-  void set_least_across(Scalar share) { least_across_ = share; }
+  void set_least_transverse_stiffness(Scalar share) { least_transverse_ = share; }
 
-  /// forces += those of the network at places x of all nodes [N], and linearises there unless told not to.
-  void add_forces(NodeRange nodes, const NodeArrays<Scalar>& places, NodeArrays<Scalar>& forces,
-                  bool linearises = true);
+  /// forces += those of the network at positions x of all nodes [N], and linearizes there unless told not to.
+  void add_forces(NodeRange nodes, const NodeArrays<Scalar>& positions, NodeArrays<Scalar>& forces,
+                  bool linearizes = true);
 
   /// What add_forces() is minus the gradient of, the nodes' part [J].
-  [[nodiscard]] double potential(NodeRange nodes, const NodeArrays<Scalar>& places) const;
+  [[nodiscard]] double potential(NodeRange nodes, const NodeArrays<Scalar>& positions) const;
 
   /// product = inertia displacements + stiffness displacements [N], with the stiffness of the last
-  /// linearisation. inertia: rows_for(n) [N/m].
+  /// linearization. inertia: rows_for(n) [N/m].
   void multiply(NodeRange nodes, const VectorX<float>& inertia,
                 const NodeArrays<float>& displacements, NodeArrays<float>& product) const;
 
@@ -70,16 +70,16 @@ class NetworkForces {
   [[nodiscard]] const BlockArrays& diagonal_blocks() const { return diagonal_; }
 
   [[nodiscard]] const EdgeSlots& slots() const { return slots_; }
-  /// The springs between some nodes; what ties them to others is in the diagonal only. Dampers count as in steps of 1/60 s.
-  [[nodiscard]] IsotropicNetwork isotropic_network(const std::vector<int>& names) const;
-  /// Rings 0 to num_springs around some nodes.
-  [[nodiscard]] Rings rings_around(const std::vector<int>& nodes, int num_springs) const;
+  /// The springs between some nodes; what couples them to others is in the diagonal only. Dampers count as in steps of 1/60 s.
+  [[nodiscard]] ConnectivityGraph connectivity_graph(const std::vector<int>& names) const;
+  /// Neighborhood 0 to num_springs around some nodes.
+  [[nodiscard]] Neighborhood neighborhood_of(const std::vector<int>& nodes, int num_springs) const;
   /// Tells a correction of the stiffness of bending; to be called whenever its basis or the network has changed.
   void note_bending(CoarseCorrection& correction) const;
-  /// Makes a correction for the last linearisation.
-  void factorise(CoarseCorrection& correction, const std::vector<Hold>& holds,
-                 float inertia_over_mass, ThreadTeam& team) const {
-    correction.factorise(linear_.data(), root_scale_, holds, inertia_over_mass, team);
+  /// Makes a correction for the last linearization.
+  void factorize(CoarseCorrection& correction, const std::vector<ContactState>& holds,
+                 float inertia_over_mass, WorkerTeam& team) const {
+    correction.factorize(linear_.data(), root_scale_, holds, inertia_over_mass, team);
   }
 
  private:
@@ -114,7 +114,7 @@ class NetworkForces {
   AlignedVector<Scalar> damping_;  ///< of each lane [N s/m]
   AlignedVector<Scalar> dampers_;
   AlignedVector<float> bending_;
-  Scalar least_across_ = 0;
+  Scalar least_transverse_ = 0;
   double stiffest_ = 0;     ///< [N/m]
   double most_damped_ = 0;  ///< [N s/m]
   mutable AlignedVector<std::uint16_t> linear_;

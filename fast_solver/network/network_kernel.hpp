@@ -8,13 +8,13 @@ struct NodeRange {
   int end;
 };
 
-/// One neighbour for each node of a block (edge_slots.hpp).
+/// One neighbor for each node of a block (edge_slots.hpp).
 struct EdgeSlot {
-  int offset;         ///< neighbour minus node; 0 if scattered
-  bool is_scattered;  ///< neighbours are fetched one by one
+  int offset;         ///< neighbor minus node; 0 if scattered
+  bool is_scattered;  ///< neighbors are fetched one by one
 };
 
-/// The slots of a block of nodes: begin ... rows_end - 1 have their neighbours in a row, rows_end ... end - 1 are
+/// The slots of a block of nodes: begin ... rows_end - 1 have their neighbors in a row, rows_end ... end - 1 are
 /// scattered.
 struct SlotRange {
   int begin;
@@ -30,11 +30,11 @@ struct NetworkView {
   const EdgeSlot* slots;
   const int* others;
   int stride;
-  const Scalar* springs;  ///< rest length, stiffness, what compression adds to the stiffness
-  const Scalar* dampers;  ///< damping / time step, length at the start; nullptr: none
-  const float* bending;   ///< w of the matrix; nullptr: none
-  Scalar least_across;    ///< t over s at least
-  float root_scale;       ///< square root of what the stiffness is multiplied by to be stored
+  const Scalar* springs;    ///< rest length, stiffness, what compression adds to the stiffness
+  const Scalar* dampers;    ///< damping / time step, length at the start; nullptr: none
+  const float* bending;     ///< w of the matrix; nullptr: none
+  Scalar least_transverse;  ///< t over s at least
+  float root_scale;         ///< square root of what the stiffness is multiplied by to be stored
   /// sqrt(s - t) u and t, of the stiffness s u u^T + t (I - u u^T) of an edge of direction u, in half precision: what a
   /// correction is off by is small beside what one step of Newton's method leaves
   unsigned short* linear;
@@ -46,15 +46,15 @@ struct NetworkKernel {
   /// dampers = damping / time step and length of each lane.
   void (*note_lengths)(const NetworkView<Scalar>& network, NodeRange nodes, const Scalar* starts,
                        const Scalar* damping, Scalar time_step, Scalar* dampers);
-  /// forces += those at places; linearises there. diagonal, six arrays: the blocks of the stiffness; without them
-  /// the linearisation stays as it was.
-  void (*forces)(const NetworkView<Scalar>& network, NodeRange nodes, const Scalar* places,
+  /// forces += those at positions; linearizes there. diagonal, six arrays: the blocks of the stiffness; without them
+  /// the linearization stays as it was.
+  void (*forces)(const NetworkView<Scalar>& network, NodeRange nodes, const Scalar* positions,
                  Scalar* forces, float* diagonal);
   /// product = inertia displacements + stiffness displacements
   void (*multiply)(const NetworkView<Scalar>& network, NodeRange nodes, const float* inertia,
                    const float* displacements, float* product);
   /// [J]
-  double (*energy)(const NetworkView<Scalar>& network, NodeRange nodes, const Scalar* places);
+  double (*energy)(const NetworkView<Scalar>& network, NodeRange nodes, const Scalar* positions);
 };
 
 /// Sums over some nodes, in double precision but for short pieces. Arrays of nodes have `stride` numbers per
@@ -65,8 +65,9 @@ struct SumKernel {
   double (*squares)(const Scalar* a, int stride, NodeRange nodes);
   /// a . step
   double (*dot)(const Scalar* a, const float* step, int stride, NodeRange nodes);
-  /// The same, and places += step.
-  double (*move)(const Scalar* a, const float* step, int stride, NodeRange nodes, Scalar* places);
+  /// The same, and positions += step.
+  double (*move)(const Scalar* a, const float* step, int stride, NodeRange nodes,
+                 Scalar* positions);
   /// Sum of weight |a - b|^2.
   double (*weighted_distance)(const Scalar* weights, int stride, NodeRange nodes, const Scalar* a,
                               const Scalar* b);
@@ -94,9 +95,9 @@ struct VectorKernel {
   /// is none; its product is 0 then.
   Products (*dot_products)(const float* correction, const float* product, const float* residual,
                            const float* direction_product, int stride, NodeRange nodes);
-  /// direction_product = correction_product - share direction_product, residual -= length direction_product.
+  /// direction_product = correction_product - beta direction_product, residual -= alpha direction_product.
   /// is_first: there is no direction before, and direction_product is not read.
-  void (*advance)(const float* correction_product, float share, float length, bool is_first,
+  void (*advance)(const float* correction_product, float beta, float alpha, bool is_first,
                   int stride, NodeRange nodes, float* direction_product, float* residual);
   /// sum = own_weight sum + weights_k vectors_k, k = 0 ... count - 1; unchanged for a count of 0. Not read for an own_weight
   /// of 0.

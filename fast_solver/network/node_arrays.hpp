@@ -14,20 +14,20 @@ namespace weft::fast {
 inline constexpr int kNodeBlock = 16;
 /// Arrays of nodes are filled up with zeros to a multiple of it: a thread's nodes begin with a line of the cache in all
 /// of them, and in the one before there is nothing of it.
-inline constexpr int kNodeLine = 64;
+inline constexpr int kNodesPerCacheLine = 64;
 
-[[nodiscard]] constexpr int fill_up(int num_nodes) {
-  return (num_nodes + kNodeLine - 1) / kNodeLine * kNodeLine;
+[[nodiscard]] constexpr int padded_size(int num_nodes) {
+  return (num_nodes + kNodesPerCacheLine - 1) / kNodesPerCacheLine * kNodesPerCacheLine;
 }
 
-/// Fewer nodes are one part (NodeParts), which no threads share.
-inline constexpr int kFewestToShare = 15 * kNodeLine;
+/// Fewer nodes are one part (NodePartition), which no threads share.
+inline constexpr int kFewestToShare = 15 * kNodesPerCacheLine;
 
 /// Rows of arrays of nodes. Behind those that threads share is a gap: a processor fetches ahead of a loop, beyond its end
 /// too, and there the next array begins, with nodes of another thread, which would have to get its lines back each time.
 [[nodiscard]] constexpr int rows_for(int num_nodes) {
-  constexpr int kGap = 2 * kNodeLine;
-  return fill_up(num_nodes) + (fill_up(num_nodes) < kFewestToShare ? 0 : kGap);
+  constexpr int kGap = 2 * kNodesPerCacheLine;
+  return padded_size(num_nodes) + (padded_size(num_nodes) < kFewestToShare ? 0 : kGap);
 }
 
 /// x, y and z of all nodes, one array after the other, rows_for(number of nodes) x 3: so that a vector

@@ -15,7 +15,7 @@ namespace weft::fast {
 /// iterations of x -> g(x), the combination of their results whose step g(x) - x is shortest. Newton's method with a
 /// linearization that leaves out some of the stiffness gains the same share in each iteration; combinations gain more.
 ///
-/// Steps in single precision, which are small beside places. A part of the nodes at a time, by any thread.
+/// Steps in single precision, which are small beside positions. A part of the nodes at a time, by any thread.
 template <class Scalar>
 class AndersonHistory {
  public:
@@ -82,11 +82,11 @@ class AndersonHistory {
     const Weights result = system.partialPivLu().solve(products.col(kMemory));
     return result.allFinite() ? result : Weights(Weights::Zero());
   }
-  /// places -= what the weights say.
-  void combine(NodeRange nodes, const Weights& weights, Nodes& places) const {
+  /// positions -= what the weights say.
+  void combine(NodeRange nodes, const Weights& weights, Nodes& positions) const {
     const int size = nodes.end - nodes.begin;
     for (int k = 0; k < count_; ++k) {
-      places.middleRows(nodes.begin, size) -=
+      positions.middleRows(nodes.begin, size) -=
           static_cast<Scalar>(weights[k]) *
           result_changes_[index(k)].middleRows(nodes.begin, size).template cast<Scalar>();
     }

@@ -18,15 +18,15 @@ class DirectionWeights {
   using Weights = std::array<float, kMost + 1>;
 
   void clear() { count_ = 0; }
-  void add(float share, float length) {
-    shares_[static_cast<std::size_t>(count_)] = share;
-    lengths_[static_cast<std::size_t>(count_)] = length;
+  void add(float beta, float alpha) {
+    betas_[static_cast<std::size_t>(count_)] = beta;
+    alphas_[static_cast<std::size_t>(count_)] = alpha;
     ++count_;
   }
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] bool is_full() const { return count_ == kMost; }
 
-  [[nodiscard]] Weights of_step() const { return sum_of(lengths_); }
+  [[nodiscard]] Weights of_step() const { return sum_of(alphas_); }
   [[nodiscard]] Weights of_last_direction() const {
     std::array<float, kMost> only_last{};
     if (count_ > 0) only_last[static_cast<std::size_t>(count_ - 1)] = 1;
@@ -41,15 +41,15 @@ class DirectionWeights {
     for (int k = count_ - 1; k >= 0; --k) {
       const auto i = static_cast<std::size_t>(k);
       weights[i] = factors[i] + of_next;
-      of_next = -shares_[i] * weights[i];
+      of_next = -betas_[i] * weights[i];
     }
     weights[static_cast<std::size_t>(count_)] = of_next;
     return weights;
   }
 
   int count_ = 0;
-  std::array<float, kMost> shares_{};
-  std::array<float, kMost> lengths_{};
+  std::array<float, kMost> betas_{};
+  std::array<float, kMost> alphas_{};
 };
 
 }  // namespace weft::fast

@@ -128,9 +128,10 @@ TEST(SolverChecks, FastSettingsOutOfTheirDomainAreRefused) {
     }
   }
   EXPECT_THAT(error_of([&] {
-                world.solver().set_fast_settings(fast, {.effort = {.rounds = 2, .iterations = 0}});
+                world.solver().set_fast_settings(
+                    fast, {.solver = {.newton_iterations = 2, .linear_iterations = 0}});
               }),
-              HasSubstr("effort.iterations = 0, expected >= 1"));
+              HasSubstr("solver.linear_iterations = 0, expected >= 1"));
   EXPECT_FALSE(world.solver().has_laws(body));
 }
 

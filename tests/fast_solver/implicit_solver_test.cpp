@@ -110,7 +110,7 @@ TEST(ImplicitSolver, SolvesTheEquationsThatADenseNewtonMethodSolves) {
   solver.solve({y, q, kTimeStep, kTimeStep}, {20, 20, 0.0}, x);
   const double moved = (expected - q).norm();
   EXPECT_GT(moved, 0.05);
-  // The places are in double precision, whatever the corrections are in.
+  // The positions are in double precision, whatever the corrections are in.
   EXPECT_LT((x - expected).norm(), 1e-9 * moved);
 }
 
@@ -125,9 +125,9 @@ TEST(ImplicitSolver, FewIterationsComeClose) {
   const Matrix3X<double> v = Matrix3X<double>::Zero(3, mesh.num_nodes());
   const Matrix3X<double> y = fallen(q, v, is_free);
   ImplicitSolver<double> solver(network, mesh.masses, is_free);
-  const auto solve = [&](const SolverEffort& effort) {
+  const auto solve = [&](const SolverSettings& solver_settings) {
     Matrix3X<double> x = q;
-    solver.solve({y, q, kTimeStep, kTimeStep}, effort, x);
+    solver.solve({y, q, kTimeStep, kTimeStep}, solver_settings, x);
     return x;
   };
   const Matrix3X<double> exact = solve({20, 30});
@@ -156,7 +156,7 @@ TEST(ImplicitSolver, EachIterationComesCloser) {
   double last = first;
   for (int iterations = 1; iterations <= 2 * DirectionWeights::kMost; ++iterations) {
     const double error = (solved(1, iterations) - expected).norm();
-    // Energy falls in each, places mostly.
+    // Energy falls in each, positions mostly.
     EXPECT_LT(error, 1.2 * last + 2e-3 * first) << iterations << " iterations";
     if (iterations == DirectionWeights::kMost) {
       EXPECT_GT(error, 5e-3 * first);
@@ -179,9 +179,9 @@ TEST(ImplicitSolver, FollowsPins) {
     const auto is_free = all_free_but(mesh, pins);
     const Matrix3X<double> y = fallen(q, Matrix3X<double>::Zero(3, q.cols()), is_free);
     ImplicitSolver<double> fresh(network, mesh.masses, is_free);
-    const auto solved = [&](ImplicitSolver<double>& by, const SolverEffort& effort) {
+    const auto solved = [&](ImplicitSolver<double>& by, const SolverSettings& solver_settings) {
       Matrix3X<double> x = q;
-      by.solve({y, q, kTimeStep, kTimeStep}, effort, x);
+      by.solve({y, q, kTimeStep, kTimeStep}, solver_settings, x);
       return x;
     };
     solver.set_free(is_free);
@@ -191,16 +191,16 @@ TEST(ImplicitSolver, FollowsPins) {
     const double error = (solved(solver, {2, 8}) - expected).norm();
     const double error_of_fresh = (solved(fresh, {2, 8}) - expected).norm();
     EXPECT_LT(error, error_of_fresh + 0.01 * first) << pins.size();
-    const auto solved_by_leader = [&](const SolverEffort& effort) {
-      std::vector<LedNode<double>> led;
+    const auto solved_by_leader = [&](const SolverSettings& solver_settings) {
+      std::vector<KinematicNode<double>> led;
       for (const int pin : pins) led.push_back({pin, y.col(pin)});
       Matrix3X<double> x = q;
-      leader.solve({.targets = y,
-                    .starts = q,
+      leader.solve({.inertial_positions = y,
+                    .start_positions = q,
                     .time_step = kTimeStep,
                     .inertia_step = kTimeStep,
-                    .led = led},
-                   effort, x);
+                    .kinematic = led},
+                   solver_settings, x);
       return x;
     };
     EXPECT_LT((solved_by_leader({8, 60}) - expected).norm(), 1e-3 * first) << pins.size();
@@ -245,8 +245,8 @@ TEST(ImplicitSolver, ThreadsChangeNoBit) {
       fallen(mesh.rest_positions, Matrix3X<double>::Zero(3, mesh.num_nodes()), is_free)
           .cast<float>();
   const auto solve = [&](int num_threads) {
-    ThreadTeam team;
-    const ThreadTeam::Scope scope(team, num_threads);
+    WorkerTeam team;
+    const WorkerTeam::Scope scope(team, num_threads);
     ImplicitSolver<float> solver(springs(mesh, 500.0), mesh.masses, is_free);
     Matrix3X<float> x = q;
     const auto h = static_cast<float>(kTimeStep);
@@ -283,8 +283,8 @@ class OnAPlane : public testing::Test {
 
 TEST_F(OnAPlane, StaysWhereFrictionHolds) {
   EXPECT_EQ(step({0, 0, 0}, {4.9, -10, 0}, 0.5), Vector3<double>(0, 0, 0));
-  EXPECT_NEAR(solver_.holding_force(0)[0], -4.9, 1e-12);
-  EXPECT_NEAR(solver_.holding_force(0)[1], 10.0, 1e-12);
+  EXPECT_NEAR(solver_.constraint_force(0)[0], -4.9, 1e-12);
+  EXPECT_NEAR(solver_.constraint_force(0)[1], 10.0, 1e-12);
 }
 
 TEST_F(OnAPlane, SlidesWithWhatCoulombLeaves) {
@@ -309,13 +309,13 @@ TEST_F(OnAPlane, IsCarriedByASurfaceThatMoves) {
 TEST_F(OnAPlane, LeavesWithoutBeingHeld) {
   const Vector3<double> x = step({0, 0, 0}, {0, 3, 0}, 0.5);
   EXPECT_NEAR(x[1], 3 * kTimeStep * kTimeStep, 1e-12);
-  EXPECT_EQ(solver_.holding_force(0).norm(), 0.0);
+  EXPECT_EQ(solver_.constraint_force(0).norm(), 0.0);
 }
 
 TEST_F(OnAPlane, IsStoppedAtAnySpeed) {
   const Vector3<double> x = step({0, -20, 0}, {0, -10, 0}, 0.0);
   EXPECT_NEAR(x[1], 0.0, 1e-8);
-  EXPECT_NEAR(solver_.holding_force(0)[1], 20 / kTimeStep + 10, 1e-4);
+  EXPECT_NEAR(solver_.constraint_force(0)[1], 20 / kTimeStep + 10, 1e-4);
 }
 
 TEST(ImplicitSolver, LeadsANodeAndSaysWhatThatTakes) {
@@ -323,16 +323,16 @@ TEST(ImplicitSolver, LeadsANodeAndSaysWhatThatTakes) {
   const SpringNetwork network = springs(mesh, 100.0);
   ImplicitSolver<double> solver(network, mesh.masses, all_free_but(mesh, {}));
   const Matrix3X<double> q = mesh.rest_positions;
-  std::vector<LedNode<double>> led(1);
+  std::vector<KinematicNode<double>> led(1);
   led[0].node = 4;
-  led[0].place = q.col(4) + Vector3<double>(0, 0.01, 0);
+  led[0].position = q.col(4) + Vector3<double>(0, 0.01, 0);
   Matrix3X<double> x = q;
   solver.solve({q, q, kTimeStep, kTimeStep, {}, led}, {10, 10}, x);
-  EXPECT_EQ(x.col(4), led[0].place);
+  EXPECT_EQ(x.col(4), led[0].position);
   // Nothing else pushes: the force has given all the momentum there is.
   const Vector3<double> momentum = (x - q) * mesh.masses / kTimeStep;
   EXPECT_GT(momentum[1], 1e-3);
-  EXPECT_LT((momentum - kTimeStep * solver.holding_force(4)).norm(), 1e-6 * momentum.norm());
+  EXPECT_LT((momentum - kTimeStep * solver.constraint_force(4)).norm(), 1e-6 * momentum.norm());
 }
 
 }  // namespace

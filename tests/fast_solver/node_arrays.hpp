@@ -21,12 +21,12 @@ void begin_step(NetworkForces<Scalar>& network, const Matrix3X<Scalar>& starts, 
   network.begin_step(network.all_nodes(), arrays_of(starts));
 }
 
-/// The forces of a network at places x, 3 x n [N].
+/// The forces of a network at positions x, 3 x n [N].
 template <class Scalar>
 [[nodiscard]] Matrix3X<Scalar> forces_at(NetworkForces<Scalar>& network, const Matrix3X<Scalar>& x,
-                                         bool linearises = true) {
+                                         bool linearizes = true) {
   NodeArrays<Scalar> forces = NodeArrays<Scalar>::Zero(rows_for(network.num_nodes()), 3);
-  network.add_forces(network.all_nodes(), arrays_of(x), forces, linearises);
+  network.add_forces(network.all_nodes(), arrays_of(x), forces, linearizes);
   Matrix3X<Scalar> result(3, x.cols());
   from_arrays<Scalar>(forces, network.all_nodes(), result);
   return result;

@@ -70,9 +70,9 @@ void expect_same_forces(NetworkForces<double>& a, NetworkForces<double>& b, int 
   const Matrix3X<double> of_b = forces_at(b, x);
   // Sums of some fifty springs in another order.
   EXPECT_LT((of_a - of_b).norm(), 1e-14 * of_b.norm());
-  const NodeArrays<double> places = arrays_of(x);
-  EXPECT_NEAR(a.potential(a.all_nodes(), places), b.potential(b.all_nodes(), places),
-              1e-14 * b.potential(b.all_nodes(), places));
+  const NodeArrays<double> positions = arrays_of(x);
+  EXPECT_NEAR(a.potential(a.all_nodes(), positions), b.potential(b.all_nodes(), positions),
+              1e-14 * b.potential(b.all_nodes(), positions));
   const int rows = rows_for(num_nodes);
   NodeArrays<float> d = NodeArrays<float>::Random(rows, 3);
   d.bottomRows(rows - num_nodes).setZero();
@@ -128,17 +128,17 @@ struct Step {
     for (const int node : mesh.pinned) targets.col(node) = starts.col(node);
   }
   double residual(ImplicitSolver<double>& solver) {
-    ThreadTeam alone;
+    WorkerTeam alone;
     return residual(solver, alone);
   }
-  double residual(ImplicitSolver<double>& solver, ThreadTeam& team) {
-    places = starts;
-    solver.solve({targets, starts, h, h}, effort, places, team);
+  double residual(ImplicitSolver<double>& solver, WorkerTeam& team) {
+    positions = starts;
+    solver.solve({targets, starts, h, h}, solver_settings, positions, team);
     return solver.residual();
   }
   double h = 1.0 / 60;
-  SolverEffort effort{3, 4, 0.0};
-  Matrix3X<double> starts, targets, places;
+  SolverSettings solver_settings{3, 4, 0.0};
+  Matrix3X<double> starts, targets, positions;
 };
 
 TEST(TornSolver, ConvergesRightAfterATear) {
@@ -157,7 +157,7 @@ TEST(TornSolver, ConvergesRightAfterATear) {
   Step expected(tear.mesh);
   const double residual = after.residual(solver);
   const double of_fresh = expected.residual(fresh);
-  // The old hats tie both sides of the cut together: allowed to leave four times as much, and less than a
+  // The old coarse basis functions coupling both sides of the cut together: allowed to leave four times as much, and less than a
   // hundredth of what the step began with.
   EXPECT_LT(residual, 4 * of_fresh);
   EXPECT_LT(residual, 0.01);
@@ -167,10 +167,10 @@ TEST(TornSolver, ConvergesRightAfterATear) {
 TEST(TornSolver, TearsUntilThreadsShareItsNodes) {
   const int n = 29;
   ClothMesh mesh = cloth(n);
-  ASSERT_LT(fill_up(mesh.num_nodes()), kFewestToShare);
+  ASSERT_LT(padded_size(mesh.num_nodes()), kFewestToShare);
   SpringNetwork network = make_network(mesh, kLaws);
   ImplicitSolver<double> solver(network, mesh.masses, free_flags(mesh));
-  for (int k = 0; fill_up(mesh.num_nodes()) < kFewestToShare; ++k) {
+  for (int k = 0; padded_size(mesh.num_nodes()) < kFewestToShare; ++k) {
     Edges cut(2, n - 6);  // most of a row
     for (int e = 0; e < n - 6; ++e) cut.col(e) << (4 + 4 * k) * n + 3 + e, (4 + 4 * k) * n + 4 + e;
     const Tear tear = cut_along(mesh, cut);
@@ -184,11 +184,12 @@ TEST(TornSolver, TearsUntilThreadsShareItsNodes) {
   ImplicitSolver<double> fresh(network, mesh.masses, free_flags(mesh));
   Step after(mesh);
   Step expected(mesh);
-  after.effort = expected.effort = {100, 40, 0.0};  // until rounds gain no more, whatever the hats
+  after.solver_settings = expected.solver_settings = {
+      100, 40, 0.0};  // until iterations gain no more, whatever the coarse basis functions
   EXPECT_LT(after.residual(solver), 1e-4);
   EXPECT_LT(expected.residual(fresh), 1e-4);
   const double fall = 9.81 * after.h * after.h * std::sqrt(mesh.num_nodes());
-  EXPECT_LT((after.places - expected.places).norm(), 1e-3 * fall);
+  EXPECT_LT((after.positions - expected.positions).norm(), 1e-3 * fall);
 }
 
 TEST(TornSolver, TearsAgainAndAgain) {
@@ -209,7 +210,7 @@ TEST(TornSolver, TearsAgainAndAgain) {
 TEST(TornSolver, FollowsPinsBetweenTears) {
   const int n = 45;
   const std::vector<std::vector<int>> pins = {{0, n - 1}, {n + 3, 1500, 1501}, {0}, {}, {7, 1200}};
-  std::vector<Matrix3X<double>> places;
+  std::vector<Matrix3X<double>> positions;
   for (const int threads : {1, 4}) {
     ClothMesh mesh = cloth(n);
     const std::vector<bool> nobody(static_cast<std::size_t>(mesh.num_nodes()), false);
@@ -224,17 +225,18 @@ TEST(TornSolver, FollowsPinsBetweenTears) {
       mesh = tear.mesh;
       if (k % 2 == 1) solver.set_free(free_flags(mesh));
       Step step(mesh);
-      ThreadTeam team;
-      const ThreadTeam::Scope scope(team, threads);
+      WorkerTeam team;
+      const WorkerTeam::Scope scope(team, threads);
       EXPECT_LT(step.residual(solver, team), 0.02) << k;
-      for (const int pin : mesh.pinned) EXPECT_EQ(step.places.col(pin), step.starts.col(pin));
-      places.push_back(step.places);
+      for (const int pin : mesh.pinned) EXPECT_EQ(step.positions.col(pin), step.starts.col(pin));
+      positions.push_back(step.positions);
     }
   }
-  for (std::size_t k = 0; k < pins.size(); ++k) EXPECT_EQ(places[k], places[k + pins.size()]) << k;
+  for (std::size_t k = 0; k < pins.size(); ++k)
+    EXPECT_EQ(positions[k], positions[k + pins.size()]) << k;
 }
 
-// There are no hats, and more parts of the nodes than before.
+// There are no coarse basis functions, and more parts of the nodes than before.
 TEST(TornSolver, TearsWhereAllIsPinned) {
   const int n = 30;
   const ClothMesh mesh = cloth(n);
@@ -247,7 +249,7 @@ TEST(TornSolver, TearsWhereAllIsPinned) {
   Step step(tear.mesh);
   step.targets = step.starts;
   (void)step.residual(solver);
-  EXPECT_EQ(step.places, step.starts);
+  EXPECT_EQ(step.positions, step.starts);
 }
 
 TEST(TornSolver, GivesTheSameBitsForAnyNumberOfThreads) {
@@ -257,19 +259,19 @@ TEST(TornSolver, GivesTheSameBitsForAnyNumberOfThreads) {
   const Tear tear = cut_along(mesh, cut_at(n, 2));
   const std::vector<char> is_changed = flags_of(tear);
   const SpringNetwork springs = make_network_at(is_changed, tear.mesh, {kLaws[0]});
-  std::vector<Matrix3X<double>> places;
+  std::vector<Matrix3X<double>> positions;
   for (const int threads : {1, 4}) {
     ImplicitSolver<double> solver(network, mesh.masses, free_flags(mesh));
     solver.tear(springs, is_changed, tear.mesh.masses, tear.origins);
     Step step(tear.mesh);
     for (int k = 0; k < 3; ++k) {
-      ThreadTeam team;
-      const ThreadTeam::Scope scope(team, threads);
+      WorkerTeam team;
+      const WorkerTeam::Scope scope(team, threads);
       (void)step.residual(solver, team);
     }
-    places.push_back(step.places);
+    positions.push_back(step.positions);
   }
-  EXPECT_EQ(places[0], places[1]);
+  EXPECT_EQ(positions[0], positions[1]);
 }
 
 TEST(MeshPart, HasEveryElementOfAWantedNode) {

@@ -44,8 +44,8 @@ TEST(NodeNormals, AreThoseOfBullet) {
   Scene scene(cloth(40, 1, 1), {law("tension", "stiffness", 300)});
   btSoftBody& body = scene.body();
   NodeNormals normals;
-  fast::ThreadTeam team;
-  const fast::ThreadTeam::Scope scope(team, 2);
+  fast::WorkerTeam team;
+  const fast::WorkerTeam::Scope scope(team, 2);
   const auto num_wrong = [&] {
     normals.update(body, team);
     const Normals ours = normals_of(body);

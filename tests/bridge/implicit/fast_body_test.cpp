@@ -417,7 +417,7 @@ TEST(FastBody, RefusesAnEffortOfNothing) {
   SoftWorld world(SoftWorldSettings{});
   const ClothMesh mesh = cloth(4, 1, 0);
   btSoftBody& body = world.add(make_cloth_body(world.info(), mesh, {}));
-  EXPECT_THROW((void)world.solver().attach_fast(body, mesh, {}, {.effort = {0, 1}}),
+  EXPECT_THROW((void)world.solver().attach_fast(body, mesh, {}, {.solver = {0, 1}}),
                InvalidArgument);
   EXPECT_FALSE(world.solver().has_laws(body));
 }

@@ -20,7 +20,7 @@ TEST(FastBodyThreads, ChangeNoBit) {
       Scene scene(cloth(50, 1, 0.3),
                   {kGravity, law("tension", "stiffness", 500), law("spring_damping", "damping", 1),
                    law("hinge_torsion", "rigidity", 1e-4)},
-                  0.5, {.effort = {.rounds = 6}, .may_sleep = false});
+                  0.5, {.solver = {.newton_iterations = 6}, .may_sleep = false});
       scene.add(std::make_shared<btSphereShape>(btScalar(0.2)), 0, at(0, 0, 0));
       scene.add(std::make_shared<btSphereShape>(btScalar(0.1)), 0.3, at(0.3, 0.42, 0));
       scene.step(20);

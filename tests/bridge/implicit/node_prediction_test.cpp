@@ -51,8 +51,8 @@ TEST(NodePrediction, MovesNodesAsBulletDoes) {
   MovedCloth bullets;
   ASSERT_TRUE(is_plain(ours.body()));
   const auto step = static_cast<btScalar>(kTimeStep);
-  fast::ThreadTeam team;
-  const fast::ThreadTeam::Scope scope(team, 2);
+  fast::WorkerTeam team;
+  const fast::WorkerTeam::Scope scope(team, 2);
   for (int k = 0; k < 5; ++k) {
     std::vector<int> scratch;
     predict_nodes(ours.body(), step, Matrix3X<btScalar>(3, 0), scratch, team);

@@ -15,17 +15,17 @@ namespace weft::bridge {
 namespace {
 
 // Without a history, so that a step depends on nothing but its start.
-FastSettings settings_of(const fast::SolverEffort& effort) {
-  return {.effort = effort, .is_second_order = false, .may_sleep = false};
+FastSettings settings_of(const fast::SolverSettings& solver_settings) {
+  return {.solver = solver_settings, .is_second_order = false, .may_sleep = false};
 }
 
 /// Two cloths that begin each step alike.
 class Pair {
  public:
-  Pair(const ClothMesh& mesh, double stiffness, const fast::SolverEffort& effort)
+  Pair(const ClothMesh& mesh, double stiffness, const fast::SolverSettings& solver_settings)
       : exact_(mesh, laws(stiffness), 0.5,
-               settings_of({.rounds = 400, .iterations = 32, .tolerance = 1e-6})),
-        asked_(mesh, laws(stiffness), 0.5, settings_of(effort)),
+               settings_of({.newton_iterations = 400, .linear_iterations = 32, .tolerance = 1e-6})),
+        asked_(mesh, laws(stiffness), 0.5, settings_of(solver_settings)),
         masses_(mesh.masses) {
     for (Scene* scene : {&exact_, &asked_}) {
       scene->add(box(0.2, 0.1, 0.2), 0, at(0, -0.35, 0));
@@ -95,13 +95,13 @@ TEST(StepError, IsNoLessThanTheTrueOne) {
 }
 
 TEST(StepError, SaysThatTheBudgetEndedFirst) {
-  Pair pair(hanging_cloth(), 1e4, {.rounds = 1, .iterations = 2});
+  Pair pair(hanging_cloth(), 1e4, {.newton_iterations = 1, .linear_iterations = 2});
   int num_small = 0;
   double largest = 0;
   for (int step = 0; step < kNumSteps; ++step) {
     pair.step();
     const StepError reported = pair.reported();
-    EXPECT_EQ(reported.rounds, 1);
+    EXPECT_EQ(reported.newton_iterations, 1);
     EXPECT_FALSE(reported.is_within_tolerance) << step;
     largest = std::max(largest, pair.true_error());
     if (pair.true_error() > 2 * reported.distance + kRounding) ++num_small;

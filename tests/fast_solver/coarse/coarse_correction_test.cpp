@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <weft/fast_solver/coarse/coarse_correction.hpp>
-#include <weft/fast_solver/coarse/smoothed_aggregates.hpp>
+#include <weft/fast_solver/coarse/smoothed_aggregation.hpp>
 #include <weft/fast_solver/network/network_forces.hpp>
 #include <weft/mesh/cloth_grid.hpp>
 
@@ -30,7 +30,7 @@ struct Sheet {
       names.push_back(i);
       is_free.push_back(true);
     }
-    springs = forces->isotropic_network(names);
+    springs = forces->connectivity_graph(names);
     correction = CoarseCorrection(springs, forces->slots());
     pin(side());
     std::srand(4);
@@ -41,7 +41,7 @@ struct Sheet {
     const int rows = rows_for(mesh.num_nodes());
     inertia.setConstant(rows, inertia_of_node);
     inertia.tail(rows - mesh.num_nodes()).setZero();
-    holds.assign(static_cast<std::size_t>(rows), Hold::kFree);
+    holds.assign(static_cast<std::size_t>(rows), ContactState::kFree);
   }
   [[nodiscard]] static std::vector<int> side() {
     std::vector<int> result(kSide);
@@ -55,24 +55,24 @@ struct Sheet {
       if (is_free[at(i)] == is_pin) changed.push_back(i);
       is_free[at(i)] = !is_pin;
     }
-    const Rings rings = forces->rings_around(changed, 2 * kHatReach);
+    const Neighborhood rings = forces->neighborhood_of(changed, 2 * kBasisReach);
     std::vector<bool> are_free;
     for (const int i : rings.nodes) are_free.push_back(is_free[at(i)]);
-    correction.set_free(forces->isotropic_network(rings.nodes), rings, are_free, forces->slots());
+    correction.set_free(forces->connectivity_graph(rings.nodes), rings, are_free, forces->slots());
   }
-  void factorise() {
+  void factorize() {
     correction.set_masses(inertia);
-    forces->factorise(correction, holds, 1, team);
+    forces->factorize(correction, holds, 1, team);
   }
   [[nodiscard]] NodeArrays<float> corrected(const NodeArrays<float>& residual) {
     NodeArrays<float> zeros(residual.rows(), 3);
     NodeArrays<float> result(residual.rows(), 3);
-    const NodeParts parts(mesh.num_nodes());
+    const NodePartition parts(mesh.num_nodes());
     for (int part = 0; part < parts.count(); ++part) {
       correction.restrict_residual(part, held, residual);
     }
     correction.solve(team);
-    for (int part = 0; part < parts.count(); ++part) correction.interpolate(part, held, result);
+    for (int part = 0; part < parts.count(); ++part) correction.prolongate(part, held, result);
     return result;
   }
   [[nodiscard]] NodeArrays<float> stiffness_times(const NodeArrays<float>& displacements) {
@@ -100,30 +100,31 @@ struct Sheet {
   std::optional<NetworkForces<double>> forces;
   std::vector<int> names;
   std::vector<bool> is_free;
-  IsotropicNetwork springs;
+  ConnectivityGraph springs;
   CoarseCorrection correction;
   VectorX<float> inertia;
-  std::vector<Hold> holds;
+  std::vector<ContactState> holds;
   std::vector<int> held;
-  ThreadTeam team;
+  WorkerTeam team;
 };
 
 TEST(SmoothedAggregates, AreFewHatsThatShareEveryNode) {
   const Sheet sheet(1);
-  const Patches patches = find_patches(sheet.springs, 30);
-  const Interpolation hats = smoothed_aggregates(sheet.springs, sheet.is_free, patches);
-  EXPECT_LE(hats.num_coarse, 30);
-  EXPECT_GT(hats.num_coarse, 8);
-  std::vector<double> of_hat(static_cast<std::size_t>(hats.num_coarse), 0.0);
-  for (int i = 0; i < hats.size(); ++i) {
+  const Aggregates aggregates = find_aggregates(sheet.springs, 30);
+  const Prolongation basis_functions =
+      smoothed_aggregation(sheet.springs, sheet.is_free, aggregates);
+  EXPECT_LE(basis_functions.num_coarse, 30);
+  EXPECT_GT(basis_functions.num_coarse, 8);
+  std::vector<double> of_basis(static_cast<std::size_t>(basis_functions.num_coarse), 0.0);
+  for (int i = 0; i < basis_functions.size(); ++i) {
     const auto row = static_cast<std::size_t>(i);
-    ASSERT_LE(hats.starts[row + 1] - hats.starts[row], kMostWeights);
+    ASSERT_LE(basis_functions.starts[row + 1] - basis_functions.starts[row], kMostWeights);
     double sum = 0;
-    for (auto e = static_cast<std::size_t>(hats.starts[row]);
-         e < static_cast<std::size_t>(hats.starts[row + 1]); ++e) {
-      EXPECT_GT(hats.values[e], 0);
-      sum += hats.values[e];
-      of_hat[static_cast<std::size_t>(hats.columns[e])] += hats.values[e];
+    for (auto e = static_cast<std::size_t>(basis_functions.starts[row]);
+         e < static_cast<std::size_t>(basis_functions.starts[row + 1]); ++e) {
+      EXPECT_GT(basis_functions.values[e], 0);
+      sum += basis_functions.values[e];
+      of_basis[static_cast<std::size_t>(basis_functions.columns[e])] += basis_functions.values[e];
     }
     // The pinned side pulls down what is near it, and nothing else does.
     const bool is_far = i / kSide > 11;
@@ -135,13 +136,13 @@ TEST(SmoothedAggregates, AreFewHatsThatShareEveryNode) {
       EXPECT_LT(sum, i / kSide == 0 ? 1e-12 : 0.9) << i;
     }
   }
-  // A patch in the corner of three others may lose each of its nodes to them.
-  EXPECT_GT(std::count_if(of_hat.begin(), of_hat.end(), [](double sum) { return sum > 0; }),
-            9 * hats.num_coarse / 10);
+  // A aggregate in the corner of three others may lose each of its nodes to them.
+  EXPECT_GT(std::count_if(of_basis.begin(), of_basis.end(), [](double sum) { return sum > 0; }),
+            9 * basis_functions.num_coarse / 10);
 }
 
 TEST(SmoothedAggregates, HavePiecesAndLooseNodesToo) {
-  IsotropicNetwork network;  // forty pairs, and forty nodes alone
+  ConnectivityGraph network;  // forty pairs, and forty nodes alone
   for (int i = 0; i < 120; ++i) {
     network.matrix.starts.push_back(std::min(i, 80));
     network.matrix.diagonal.push_back(i < 80 ? 1 : 0);
@@ -152,12 +153,13 @@ TEST(SmoothedAggregates, HavePiecesAndLooseNodesToo) {
   }
   network.matrix.starts.push_back(80);
   const std::vector<bool> is_free(120, true);
-  const Interpolation hats = smoothed_aggregates(network, is_free, find_patches(network, 30));
-  EXPECT_EQ(hats.num_coarse, 40);  // none of loose nodes
-  EXPECT_EQ(hats.starts.back(), 80);
+  const Prolongation basis_functions =
+      smoothed_aggregation(network, is_free, find_aggregates(network, 30));
+  EXPECT_EQ(basis_functions.num_coarse, 40);  // none of loose nodes
+  EXPECT_EQ(basis_functions.starts.back(), 80);
 }
 
-// A displacement that hats can have is its own correction, whatever directions the springs have: what is left to differ
+// A displacement that coarse basis functions can have is its own correction, whatever directions the springs have: what is left to differ
 // are terms that are left out, and masses that are lumped.
 TEST(CoarseCorrection, FindsADisplacementFromItsForces) {
   Sheet sheet(0.01F);
@@ -165,10 +167,11 @@ TEST(CoarseCorrection, FindsADisplacementFromItsForces) {
     if (is_held) {
       sheet.held = {40, 75, 76, 90, 150};
       for (const int i : sheet.held) {
-        sheet.holds[static_cast<std::size_t>(i)] = i % 2 == 0 ? Hold::kFixed : Hold::kOnPlane;
+        sheet.holds[static_cast<std::size_t>(i)] =
+            i % 2 == 0 ? ContactState::kFixed : ContactState::kOnPlane;
       }
     }
-    sheet.factorise();
+    sheet.factorize();
     const NodeArrays<float> displacements = sheet.corrected(sheet.any_residual());
     for (const int i : sheet.held) EXPECT_TRUE(displacements.row(i).isZero(0));
     const NodeArrays<float> found = sheet.corrected(sheet.stiffness_times(displacements));
@@ -177,7 +180,7 @@ TEST(CoarseCorrection, FindsADisplacementFromItsForces) {
   }
 }
 
-// What is pinned later is not moved, what is let go is, and the matrix is that of the new hats.
+// What is pinned later is not moved, what is let go is, and the matrix is that of the new coarse basis functions.
 TEST(CoarseCorrection, FollowsPins) {
   const std::vector<int> side = Sheet::side();
   Sheet sheet(0.01F);
@@ -185,7 +188,7 @@ TEST(CoarseCorrection, FollowsPins) {
                                               side,         sheet.names, {7},   side};
   for (const std::vector<int>& pinned : pins) {
     sheet.pin(pinned);
-    sheet.factorise();
+    sheet.factorize();
     const NodeArrays<float> displacements = sheet.corrected(sheet.any_residual());
     for (const int i : sheet.names) {
       EXPECT_EQ(displacements.row(i).isZero(0), !sheet.is_free[static_cast<std::size_t>(i)]) << i;
@@ -197,7 +200,7 @@ TEST(CoarseCorrection, FollowsPins) {
 
 TEST(CoarseCorrection, ASheetWithoutSpringsMovesAsItsMassesDo) {
   Sheet sheet(1e6F);
-  sheet.factorise();
+  sheet.factorize();
   NodeArrays<float> residual(sheet.inertia.rows(), 3);
   residual.col(1).setConstant(1e6F);
   sheet.clear_held(residual);
@@ -208,12 +211,12 @@ TEST(CoarseCorrection, ASheetWithoutSpringsMovesAsItsMassesDo) {
 }
 
 TEST(CoarseCorrection, CorrectsNothingWhereAllIsPinned) {
-  CoarseCorrection correction(IsotropicNetwork{{{0, 0, 0, 0}, {}, {}, {1, 1, 1}}, {}}, {});
+  CoarseCorrection correction(ConnectivityGraph{{{0, 0, 0, 0}, {}, {}, {1, 1, 1}}, {}}, {});
   NodeArrays<float> values = NodeArrays<float>::Ones(rows_for(3), 3);
-  ThreadTeam team;
+  WorkerTeam team;
   correction.restrict_residual(0, {}, values);
   correction.solve(team);
-  correction.interpolate(0, {}, values);
+  correction.prolongate(0, {}, values);
   EXPECT_TRUE(values.isZero(0));
 }
 

@@ -24,7 +24,7 @@ ClothMesh cloth() {
 
 /// The rest shape, disturbed by a few hundredths of a spring, or by so much that springs are
 /// compressed.
-Matrix3X<double> places(const ClothMesh& mesh, double by) {
+Matrix3X<double> positions(const ClothMesh& mesh, double by) {
   std::srand(7);  // Eigen's Random
   return mesh.rest_positions + by * Matrix3X<double>::Random(3, mesh.num_nodes());
 }
@@ -38,8 +38,8 @@ const LawSpecification kBending{"hinge_torsion", {}, {{"rigidity", {0.01}}}};
 TEST(SpringNetwork, HasTheForcesOfTheLaws) {
   const ClothMesh mesh = cloth();
   const double h = 0.01;
-  const Matrix3X<double> q = places(mesh, 0.05);
-  const Matrix3X<double> x = places(mesh, 0.08);
+  const Matrix3X<double> q = positions(mesh, 0.05);
+  const Matrix3X<double> x = positions(mesh, 0.08);
   NetworkForces<double> network(make_network(mesh, {kTension, kStretch}), mesh.num_nodes());
   begin_step(network, q, h);
   const Matrix3X<double> forces = forces_at(network, x);
@@ -56,7 +56,7 @@ TEST(SpringNetwork, DampsTheChangeOfLength) {
   const ClothMesh mesh = cloth();
   const double h = 1e-6;  // [s] so that (l - l_q) / h is the rate of the length to a part in 1e5
   const Matrix3X<double> v = Matrix3X<double>::Random(3, mesh.num_nodes());
-  const Matrix3X<double> x = places(mesh, 0.05);
+  const Matrix3X<double> x = positions(mesh, 0.05);
   const Matrix3X<double> q = x - h * v;
   NetworkForces<double> network(make_network(mesh, {kDamping}), mesh.num_nodes());
   begin_step(network, q, h);
@@ -71,7 +71,7 @@ TEST(SpringNetwork, DampsTheChangeOfLength) {
 
 TEST(SpringNetwork, ItsProductIsTheDerivativeWhereSpringsAreStretched) {
   const ClothMesh mesh = cloth();
-  const Matrix3X<double> x = 1.3 * places(mesh, 0.01);  // every spring is longer than at rest
+  const Matrix3X<double> x = 1.3 * positions(mesh, 0.01);  // every spring is longer than at rest
   NetworkForces<double> network(make_network(mesh, {kTension, kDamping}), mesh.num_nodes());
   const double h = 0.02;
   begin_step<double>(network, mesh.rest_positions, h);
@@ -86,7 +86,7 @@ TEST(SpringNetwork, ItsProductIsTheDerivativeWhereSpringsAreStretched) {
   NodeArrays<float> product(rows, 3);
   network.multiply(network.all_nodes(), VectorX<float>::Zero(rows), displacements, product);
   const NodeArrays<double> result = product.cast<double>();
-  // Each number of a linearisation is stored in half precision, and two are multiplied: 2 x 2^-11.
+  // Each number of a linearization is stored in half precision, and two are multiplied: 2 x 2^-11.
   EXPECT_LT((result.topRows(mesh.num_nodes()).transpose() - expected).norm(),
             1e-3 * expected.norm());
 }
@@ -94,7 +94,7 @@ TEST(SpringNetwork, ItsProductIsTheDerivativeWhereSpringsAreStretched) {
 TEST(SpringNetwork, ItsBlocksAreThoseOfTheProduct) {
   const ClothMesh mesh = cloth();
   NetworkForces<float> network(make_network(mesh, {kTension, kBending}), mesh.num_nodes());
-  const Matrix3X<float> x = places(mesh, 0.05).cast<float>();
+  const Matrix3X<float> x = positions(mesh, 0.05).cast<float>();
   begin_step(network, x, 0.01F);
   (void)forces_at(network, x);
   const int rows = rows_for(mesh.num_nodes());
@@ -106,7 +106,7 @@ TEST(SpringNetwork, ItsBlocksAreThoseOfTheProduct) {
       d(node, axis) = 1;
       NodeArrays<float> product(rows, 3);
       network.multiply(network.all_nodes(), VectorX<float>::Zero(rows), d, product);
-      // Each number of a linearisation is stored in half precision for products: 2 x 2^-11.
+      // Each number of a linearization is stored in half precision for products: 2 x 2^-11.
       const float bound = 1e-3F * blocks.row(node).head<3>().maxCoeff();
       for (int row = 0; row < 3; ++row) {
         EXPECT_NEAR(product(node, row), blocks(node, entry[row][axis]), bound) << node;

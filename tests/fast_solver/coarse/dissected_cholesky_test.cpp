@@ -8,14 +8,14 @@
 
 #include <Eigen/Cholesky>
 
-#include <weft/fast_solver/coarse/bordered_band.hpp>
+#include <weft/fast_solver/coarse/dissected_cholesky.hpp>
 
 namespace weft::fast {
 namespace {
 
 using Pairs = std::vector<std::pair<int, int>>;
 
-/// Springs between neighbours of a grid, across too.
+/// Springs between neighbors of a grid, across too.
 Pairs grid_pairs(int width, int height) {
   Pairs pairs;
   for (int y = 0; y < height; ++y) {
@@ -31,10 +31,11 @@ Pairs grid_pairs(int width, int height) {
 
 /// Random springs on them, and the matrix that they make.
 struct Problem {
-  Problem(int n, const Pairs& pairs) : band(n, pairs), inertia(static_cast<std::size_t>(n), 0.1F) {
+  Problem(int n, const Pairs& pairs)
+      : subdomain(n, pairs), inertia(static_cast<std::size_t>(n), 0.1F) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> number(-1, 1);
-    blocks.assign(static_cast<std::size_t>(band.num_blocks()) * kBlockNumbers, 0.0F);
+    blocks.assign(static_cast<std::size_t>(subdomain.num_blocks()) * kBlockNumbers, 0.0F);
     matrix.setIdentity(3 * n, 3 * n);
     matrix *= 0.1;
     const auto make = [&](int block) {
@@ -45,24 +46,24 @@ struct Problem {
       return k.cast<double>().eval();
     };
     for (int p = 0; p < static_cast<int>(pairs.size()); ++p) {
-      const Eigen::Matrix3d k = make(band.pair_block(p));
+      const Eigen::Matrix3d k = make(subdomain.pair_block(p));
       const auto [a, b] = pairs[static_cast<std::size_t>(p)];
       matrix.block<3, 3>(3 * a, 3 * a) += k;
       matrix.block<3, 3>(3 * b, 3 * b) += k;
       matrix.block<3, 3>(3 * a, 3 * b) -= k;
       matrix.block<3, 3>(3 * b, 3 * a) -= k;
     }
-    for (int i = 0; i < n; i += 5) matrix.block<3, 3>(3 * i, 3 * i) += make(band.own_block(i));
+    for (int i = 0; i < n; i += 5) matrix.block<3, 3>(3 * i, 3 * i) += make(subdomain.own_block(i));
     right.setRandom(4, n);
   }
   Eigen::Matrix4Xf solution(int threads) {
-    ThreadTeam team;
-    const ThreadTeam::Scope scope(team, threads);
+    WorkerTeam team;
+    const WorkerTeam::Scope scope(team, threads);
     Eigen::Matrix4Xf result = Eigen::Matrix4Xf::Zero(4, right.cols());
     for (int again = 0; again < 2; ++again) {  // nothing is left of the time before
-      band.factorise(blocks.data(), inertia.data(), team);
-      const BorderedBand::Summand whole{right.data(), 0, static_cast<int>(right.cols())};
-      band.solve({&whole, 1}, result.data(), team);
+      subdomain.factorize(blocks.data(), inertia.data(), team);
+      const DissectedCholesky::Summand whole{right.data(), 0, static_cast<int>(right.cols())};
+      subdomain.solve({&whole, 1}, result.data(), team);
     }
     return result;
   }
@@ -71,14 +72,14 @@ struct Problem {
     return matrix.llt().solve(b.reshaped()).reshaped(3, b.cols());
   }
 
-  BorderedBand band;
+  DissectedCholesky subdomain;
   std::vector<float> blocks;
   std::vector<float> inertia;
   Eigen::MatrixXd matrix;
   Eigen::Matrix4Xf right;
 };
 
-TEST(BorderedBand, SolvesWhatADenseFactorisationSolves) {
+TEST(DissectedCholesky, SolvesWhatADenseFactorisationSolves) {
   for (const auto& [width, height] : Pairs{{1, 1}, {2, 1}, {3, 2}, {7, 9}, {13, 11}, {40, 1}}) {
     Problem problem(width * height, grid_pairs(width, height));
     const Eigen::Matrix3Xd exact = problem.exact();
@@ -88,7 +89,7 @@ TEST(BorderedBand, SolvesWhatADenseFactorisationSolves) {
   }
 }
 
-TEST(BorderedBand, SolvesForPiecesThatKnowNothingOfEachOther) {
+TEST(DissectedCholesky, SolvesForPiecesThatKnowNothingOfEachOther) {
   Pairs pairs = grid_pairs(6, 5);
   for (const auto& [a, b] : grid_pairs(4, 4)) pairs.emplace_back(30 + a, 30 + b);
   std::sort(pairs.begin(), pairs.end());
@@ -98,34 +99,34 @@ TEST(BorderedBand, SolvesForPiecesThatKnowNothingOfEachOther) {
   EXPECT_LT((found - exact).norm(), 1e-4 * exact.norm());
 }
 
-TEST(BorderedBand, SumsUpItsRightHandSide) {
+TEST(DissectedCholesky, SumsUpItsRightHandSide) {
   Problem problem(13 * 11, grid_pairs(13, 11));
   const auto whole = problem.solution(1);
   // Ranges that overlap, one that is empty, and what is the sum of them.
   const Eigen::Matrix4Xf low = problem.right.leftCols(90);
   const Eigen::Matrix4Xf high = problem.right.rightCols(100);
-  const BorderedBand::Summand parts[] = {
+  const DissectedCholesky::Summand parts[] = {
       {low.data(), 0, 90}, {nullptr, 20, 20}, {high.data(), 43, 143}};
   Eigen::Matrix4Xf found = Eigen::Matrix4Xf::Zero(4, 143);
-  ThreadTeam team;
-  problem.band.solve(parts, found.data(), team);
+  WorkerTeam team;
+  problem.subdomain.solve(parts, found.data(), team);
   problem.right.middleCols(43, 47) *= 2;
   const auto expected = problem.solution(1);
   EXPECT_EQ(found, expected);  // of two equal numbers the sum is exact
   EXPECT_NE(found, whole);
 }
 
-TEST(BorderedBand, LeavesOutWhatNothingHolds) {
+TEST(DissectedCholesky, LeavesOutWhatNothingHolds) {
   Problem problem(7, grid_pairs(3, 2));
   problem.inertia[6] = 0;
-  problem.blocks[static_cast<std::size_t>(problem.band.own_block(6)) * kBlockNumbers] = 0;
+  problem.blocks[static_cast<std::size_t>(problem.subdomain.own_block(6)) * kBlockNumbers] = 0;
   const Eigen::Matrix4Xf found = problem.solution(1);
   EXPECT_TRUE(found.allFinite());
   EXPECT_TRUE(found.col(6).isZero(0));
   EXPECT_FALSE(found.col(5).isZero(1e-3F));
 }
 
-TEST(BorderedBand, KeepsNothingOfWhatIsNotANumber) {
+TEST(DissectedCholesky, KeepsNothingOfWhatIsNotANumber) {
   Problem problem(13 * 11, grid_pairs(13, 11));
   const Eigen::Matrix4Xf expected = problem.solution(1);
   const Eigen::Matrix4Xf right = problem.right;
@@ -135,7 +136,7 @@ TEST(BorderedBand, KeepsNothingOfWhatIsNotANumber) {
   EXPECT_EQ(problem.solution(1), expected);
 }
 
-TEST(BorderedBand, ThreadsChangeNoBit) {
+TEST(DissectedCholesky, ThreadsChangeNoBit) {
   Problem problem(13 * 11, grid_pairs(13, 11));
   const Eigen::Matrix4Xf alone = problem.solution(1);
   EXPECT_EQ(alone, problem.solution(2));

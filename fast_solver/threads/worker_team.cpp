@@ -1,4 +1,4 @@
-#include <weft/fast_solver/threads/thread_team.hpp>
+#include <weft/fast_solver/threads/worker_team.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -10,20 +10,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Looks before a thread lets others have the processor, and before the caller does what a helper ought to: some 20 us,
+/// Looks before a thread lets others have the processor, and before the caller does what a worker ought to: some 20 us,
 /// longer than what a solve does between two loops, or a part takes.
 constexpr int kLooks = 400;
-/// The same that the caller spends on waiting for helpers that are still to come, before it begins what is theirs: some
+/// The same that the caller spends on waiting for workers that are still to come, before it begins what is theirs: some
 /// 10 us. What they find in its cache later takes as long again.
 constexpr int kLooksForArrival = 200;
-/// The share of the time that a team is open that helpers gain. Two threads take about 0.6 of the time of one.
+/// The share of the time that a team is open that workers gain. Two threads take about 0.6 of the time of one.
 constexpr double kGain = 0.5;
 /// [s] What a team may lose right after it has come back.
-constexpr double kLeastCredit = 2e-3;
-/// How often a team is opened without helpers when it has lost too much, at first and at most: four and some two hundred
+constexpr double kLeastBudget = 2e-3;
+/// How often a team is opened without workers when it has lost too much, at first and at most: four and some two hundred
 /// steps of a single body, which opens it twice in each.
-constexpr int kLeastAlone = 8;
-constexpr int kMostAlone = 512;
+constexpr int kLeastSerial = 8;
+constexpr int kMostSerial = 512;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -32,7 +32,7 @@ double seconds_since(Clock::time_point start) {
 /// Flags of the parts begin ... end - 1.
 std::uint64_t flags(int begin, int end) {
   const auto below = [](int part) {
-    return part < ThreadTeam::kMostParts ? (std::uint64_t{1} << part) - 1 : ~std::uint64_t{0};
+    return part < WorkerTeam::kMostParts ? (std::uint64_t{1} << part) - 1 : ~std::uint64_t{0};
   };
   return below(end) & ~below(begin);
 }
@@ -64,56 +64,56 @@ class Patience {
 
 }  // namespace
 
-void ThreadTeam::open(int num_threads) {
+void WorkerTeam::open(int num_threads) {
   if (num_threads <= 1) return;
-  if (num_alone_ > 0) {
-    --num_alone_;
+  if (num_serial_ > 0) {
+    --num_serial_;
     return;
   }
   num_threads_ = std::min(num_threads, kMostParts);
   opened_ = Clock::now();
   lost_ = 0;
-  away_ = 0;
+  absent_ = 0;
   looks_for_arrival_ = kLooksForArrival;
-  num_helpers_.store(0, std::memory_order_relaxed);
-  // The last loop may be one of fewer threads, of whose caller's parts a helper of now would take some for its own.
+  num_workers_.store(0, std::memory_order_relaxed);
+  // The last loop may be one of fewer threads, of whose caller's parts a worker of now would take some for its own.
   loop_.number.store(kNone, std::memory_order_relaxed);
   is_open_.store(true, std::memory_order_release);
-  helpers_.emplace();
-  for (int helper = 1; helper < num_threads_; ++helper) {
-    helpers_->run([this] { help(); });
+  workers_.emplace();
+  for (int worker = 1; worker < num_threads_; ++worker) {
+    workers_->run([this] { run_worker(); });
   }
 }
 
-void ThreadTeam::close() {
+void WorkerTeam::close() {
   if (num_threads_ == 1) return;
   is_open_.store(false, std::memory_order_release);
   const Clock::time_point start = Clock::now();
-  helpers_->wait();  // for one that is stopped, too
+  workers_->wait();  // for one that is stopped, too
   lost_ += seconds_since(start);
-  helpers_.reset();
+  workers_.reset();
   num_threads_ = 1;
-  learn();
+  update_fallback();
 }
 
-// A host that takes a processor away now and then costs less than helpers gain; where other programs run all the time,
-// every helper will be stopped.
-void ThreadTeam::learn() {
+// A host that takes a processor away now and then costs less than workers gain; where other programs run all the time,
+// every worker will be stopped.
+void WorkerTeam::update_fallback() {
   const double gained = kGain * (seconds_since(opened_) - lost_);
-  credit_ = std::min(kMostCredit, credit_ + gained - lost_);
-  next_alone_ = std::max(next_alone_, kLeastAlone);
-  if (credit_ < 0) {
-    credit_ = kLeastCredit;
-    num_alone_ = next_alone_;
-    next_alone_ = std::min(2 * next_alone_, kMostAlone);
+  budget_ = std::min(kMostBudget, budget_ + gained - lost_);
+  next_serial_ = std::max(next_serial_, kLeastSerial);
+  if (budget_ < 0) {
+    budget_ = kLeastBudget;
+    num_serial_ = next_serial_;
+    next_serial_ = std::min(2 * next_serial_, kMostSerial);
     num_good_ = 0;
-  } else if (++num_good_ >= next_alone_) {
-    next_alone_ /= 2;
+  } else if (++num_good_ >= next_serial_) {
+    next_serial_ /= 2;
     num_good_ = 0;
   }
 }
 
-void ThreadTeam::run_shared(int num_parts, Call call, const Job& job, int num_words) {
+void WorkerTeam::run_shared(int num_parts, Call call, const Job& job, int num_words) {
   const std::uint64_t loop = ++num_loops_;
   loop_.number.store(kNone, std::memory_order_relaxed);
   loop_.call.store(call, std::memory_order_release);
@@ -125,14 +125,14 @@ void ThreadTeam::run_shared(int num_parts, Call call, const Job& job, int num_wo
   loop_.number.store(loop, std::memory_order_release);
   const int num_own = first_part(1, num_parts);
   int num_left = num_parts - num_own;
-  std::uint64_t taken = 0;  // of helpers
+  std::uint64_t taken = 0;  // of workers
   const auto take = [&](int part) {
-    if (!take_part(loop, part)) return;
+    if (!claim_part(loop, part)) return;
     call(job, part);
     --num_left;
     taken |= flags(part, part + 1);
   };
-  for (int part = 0; part < num_own; ++part) call(job, part);  // which no helper takes
+  for (int part = 0; part < num_own; ++part) call(job, part);  // which no worker takes
   const std::uint64_t awaited = awaited_parts(num_parts);
   // From the end: who comes now begins at the other one of what is its own.
   for (int part = num_parts - 1; part >= num_own; --part) {
@@ -148,47 +148,47 @@ void ThreadTeam::run_shared(int num_parts, Call call, const Job& job, int num_wo
   }
   num_done_before_ += static_cast<std::uint64_t>(num_left);
   if (end_of_patience) lost_ += seconds_since(*end_of_patience);
-  note_away(num_parts, taken);
+  note_absent(num_parts, taken);
 }
 
-// The parts of helpers that are there, or whose arrival is worth waiting for.
-std::uint64_t ThreadTeam::awaited_parts(int num_parts) {
+// The parts of workers that are there, or whose arrival is worth waiting for.
+std::uint64_t WorkerTeam::awaited_parts(int num_parts) {
   const int num_present = this->num_present();
   std::uint64_t awaited = flags(first_part(1, num_parts), first_part(num_present, num_parts));
-  for (int member = 1; member < num_present && away_ != 0; ++member) {
-    if ((away_ & flags(member, member + 1)) != 0) awaited &= ~parts_of(member, num_parts);
+  for (int member = 1; member < num_present && absent_ != 0; ++member) {
+    if ((absent_ & flags(member, member + 1)) != 0) awaited &= ~parts_of(member, num_parts);
   }
   return awaited;
 }
 
-// A helper that has left all that was its own to the caller does something else; once it takes a part, it is back.
-void ThreadTeam::note_away(int num_parts, std::uint64_t taken_parts) {
-  if (away_ == 0 && taken_parts == 0) return;
+// A worker that has left all that was its own to the caller does something else; once it takes a part, it is back.
+void WorkerTeam::note_absent(int num_parts, std::uint64_t taken_parts) {
+  if (absent_ == 0 && taken_parts == 0) return;
   for (int member = 1; member < num_threads_; ++member) {
     const std::uint64_t parts = parts_of(member, num_parts);
     const std::uint64_t flag = flags(member, member + 1);
     if (parts == 0) continue;
-    away_ = (taken_parts & parts) == parts ? away_ | flag : away_ & ~flag;
+    absent_ = (taken_parts & parts) == parts ? absent_ | flag : absent_ & ~flag;
   }
 }
 
-std::uint64_t ThreadTeam::parts_of(int member, int num_parts) const {
+std::uint64_t WorkerTeam::parts_of(int member, int num_parts) const {
   return flags(first_part(member, num_parts), first_part(member + 1, num_parts));
 }
 
 // With the caller, and those whose arrival it waits for.
-int ThreadTeam::num_present() {
+int WorkerTeam::num_present() {
   while (true) {
-    const int num_present = 1 + num_helpers_.load(std::memory_order_acquire);
+    const int num_present = 1 + num_workers_.load(std::memory_order_acquire);
     if (num_present == num_threads_ || looks_for_arrival_ == 0) return num_present;
     --looks_for_arrival_;
     pause();
   }
 }
 
-void ThreadTeam::help() {
+void WorkerTeam::run_worker() {
   std::uint64_t last = kNone;
-  const int member = 1 + num_helpers_.fetch_add(1, std::memory_order_acq_rel);
+  const int member = 1 + num_workers_.fetch_add(1, std::memory_order_acq_rel);
   Patience patience;
   while (is_open_.load(std::memory_order_acquire)) {
     const std::uint64_t loop = loop_.number.load(std::memory_order_acquire);
@@ -197,13 +197,13 @@ void ThreadTeam::help() {
       continue;
     }
     last = loop;
-    help_with(loop, member);
+    work_on_loop(loop, member);
     patience = {};
   }
 }
 
 // A loop that is over by now has no part left.
-void ThreadTeam::help_with(std::uint64_t loop, int member) {
+void WorkerTeam::work_on_loop(std::uint64_t loop, int member) {
   const Call call = loop_.call.load(std::memory_order_acquire);
   const int num_parts = loop_.num_parts.load(std::memory_order_acquire);
   const int num_words = loop_.num_words.load(std::memory_order_acquire);
@@ -215,23 +215,23 @@ void ThreadTeam::help_with(std::uint64_t loop, int member) {
   int num_done = 0;
   const auto take = [&](int begin, int end) {
     for (int part = begin; part < end; ++part) {
-      if (!take_part(loop, part)) continue;
+      if (!claim_part(loop, part)) continue;
       call(job, part);
       ++num_done;
     }
   };
   take(first_part(member, num_parts), first_part(member + 1, num_parts));
-  const int num_present = 1 + num_helpers_.load(std::memory_order_relaxed);
+  const int num_present = 1 + num_workers_.load(std::memory_order_relaxed);
   take(first_part(num_present, num_parts), num_parts);  // of those that have not come
   if (num_done > 0) {
     num_done_.fetch_add(static_cast<std::uint64_t>(num_done), std::memory_order_release);
   }
 }
 
-bool ThreadTeam::take_part(std::uint64_t loop, int part) {
-  std::atomic<std::uint64_t>& ticket = tickets_[static_cast<std::size_t>(part)].loop;
-  std::uint64_t taken = ticket.load(std::memory_order_relaxed);
-  return taken < loop && ticket.compare_exchange_strong(taken, loop, std::memory_order_relaxed);
+bool WorkerTeam::claim_part(std::uint64_t loop, int part) {
+  std::atomic<std::uint64_t>& claim = claims_[static_cast<std::size_t>(part)].loop;
+  std::uint64_t taken = claim.load(std::memory_order_relaxed);
+  return taken < loop && claim.compare_exchange_strong(taken, loop, std::memory_order_relaxed);
 }
 
 }  // namespace weft::fast

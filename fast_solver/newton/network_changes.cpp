@@ -1,4 +1,4 @@
-// What a solver is made of: nodes and springs, and what pins, led nodes and tears change between steps.
+// What a solver is made of: nodes and springs, and what pins, kinematic nodes and tears change between steps.
 #include <algorithm>
 #include <iterator>
 #include <numeric>
@@ -27,12 +27,12 @@ template <class Scalar>
 ImplicitSolver<Scalar>::ImplicitSolver(const SpringNetwork& network, const VectorX<double>& masses,
                                        const std::vector<bool>& is_free)
     : forces_(network, static_cast<int>(masses.size())) {
-  parts_ = NodeParts(static_cast<int>(masses.size()));
+  parts_ = NodePartition(static_cast<int>(masses.size()));
   check_size(is_free, masses.size());
   set_nodes(masses, is_free);
   std::vector<int> all(at(num_nodes()));
   std::iota(all.begin(), all.end(), 0);
-  coarse_correction_ = CoarseCorrection(forces_.isotropic_network(all), forces_.slots());
+  coarse_correction_ = CoarseCorrection(forces_.connectivity_graph(all), forces_.slots());
   change_correction(pinned_);
 }
 
@@ -41,21 +41,22 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
                                        const std::vector<bool>& is_free) {
   is_free_ = is_free;
   const Eigen::Index n = masses.size();
-  parts_ = NodeParts(static_cast<int>(n));
+  parts_ = NodePartition(static_cast<int>(n));
   list_pinned();
-  held_.clear();
-  held_.reserve(at(static_cast<int>(n)));
+  constrained_.clear();
+  constrained_.reserve(at(static_cast<int>(n)));
   contact_of_.assign(at(static_cast<int>(n)), -1);
   for (auto* vectors : {&normals_, &friction_}) vectors->setZero(3, n);
   const Eigen::Index num_rows = rows_for(static_cast<int>(n));
-  for (auto* holds : {&holds_, &held_before_}) {
-    holds->assign(static_cast<std::size_t>(num_rows), Hold::kFree);
+  for (auto* holds : {&contact_states_, &contact_states_before_}) {
+    holds->assign(static_cast<std::size_t>(num_rows), ContactState::kFree);
   }
-  for (Nodes* vectors : {&targets_, &starts_, &places_, &unbalanced_, &holding_forces_, &unmoved_,
-                         &last_places_, &last_results_, &remainders_}) {
+  for (Nodes* vectors :
+       {&inertial_positions_, &start_positions_, &positions_, &residual_forces_,
+        &constraint_forces_, &unmoved_, &last_positions_, &last_results_, &compensation_}) {
     vectors->setZero(num_rows, 3);
   }
-  for (Matrix3X<Scalar>* vectors : {&more_places_, &more_forces_}) vectors->setZero(3, n);
+  for (Matrix3X<Scalar>* vectors : {&step_force_positions_, &step_forces_}) vectors->setZero(3, n);
   masses_.setZero(num_rows);
   masses_.head(n) = masses.cast<Scalar>();
   inertia_.setZero(num_rows);
@@ -88,35 +89,38 @@ void ImplicitSolver<Scalar>::set_free(const std::vector<bool>& is_free) {
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::change_correction(const std::vector<int>& changed) {
-  const Rings rings = forces_.rings_around(changed, 2 * kHatReach);
-  coarse_correction_.set_free(forces_.isotropic_network(rings.nodes), rings, have_hats(rings.nodes),
-                              forces_.slots());
+  const Neighborhood rings = forces_.neighborhood_of(changed, 2 * kBasisReach);
+  coarse_correction_.set_free(forces_.connectivity_graph(rings.nodes), rings,
+                              have_basis_weights(rings.nodes), forces_.slots());
   coarse_correction_.set_masses(masses_.template cast<float>());
   forces_.note_bending(coarse_correction_);
 }
 
 // Flags of some nodes: neither pinned nor led.
 template <class Scalar>
-std::vector<bool> ImplicitSolver<Scalar>::have_hats(const std::vector<int>& nodes) const {
+std::vector<bool> ImplicitSolver<Scalar>::have_basis_weights(const std::vector<int>& nodes) const {
   std::vector<bool> result;
   for (const int node : nodes) {
-    result.push_back(is_free_[at(node)] && !std::binary_search(led_.begin(), led_.end(), node));
+    result.push_back(is_free_[at(node)] &&
+                     !std::binary_search(kinematic_.begin(), kinematic_.end(), node));
   }
   return result;
 }
 
-// Led nodes are held like pins, for many steps: hats are low near them as well.
+// Kinematic nodes are held like pins, for many steps: coarse basis functions are low near them as well.
 template <class Scalar>
-void ImplicitSolver<Scalar>::follow_led(const StepProblem<Scalar>& problem) {
-  next_led_.clear();
-  for (const LedNode<Scalar>& led : problem.led) next_led_.push_back(led.node);
-  std::sort(next_led_.begin(), next_led_.end());
-  next_led_.erase(std::unique(next_led_.begin(), next_led_.end()), next_led_.end());
-  if (next_led_ == led_) return;
+void ImplicitSolver<Scalar>::follow_kinematic(const StepProblem<Scalar>& problem) {
+  next_kinematic_.clear();
+  for (const KinematicNode<Scalar>& kinematic : problem.kinematic)
+    next_kinematic_.push_back(kinematic.node);
+  std::sort(next_kinematic_.begin(), next_kinematic_.end());
+  next_kinematic_.erase(std::unique(next_kinematic_.begin(), next_kinematic_.end()),
+                        next_kinematic_.end());
+  if (next_kinematic_ == kinematic_) return;
   std::vector<int> changed;
-  std::set_symmetric_difference(led_.begin(), led_.end(), next_led_.begin(), next_led_.end(),
-                                std::back_inserter(changed));
-  led_ = next_led_;
+  std::set_symmetric_difference(kinematic_.begin(), kinematic_.end(), next_kinematic_.begin(),
+                                next_kinematic_.end(), std::back_inserter(changed));
+  kinematic_ = next_kinematic_;
   change_correction(changed);
 }
 
@@ -140,14 +144,14 @@ void ImplicitSolver<Scalar>::tear(const SpringNetwork& springs, const std::vecto
   coarse_correction_.note_springs(forces_.slots(), blocks);
   coarse_correction_.set_masses(masses_.template cast<float>());
   forces_.note_bending(coarse_correction_);
-  // A copy of what is led has no hats yet, and nothing leads it.
-  std::vector<int> of_led;
+  // A copy of what is led has no coarse basis functions yet, and nothing leads it.
+  std::vector<int> of_kinematic;
   const int first = num_nodes() - static_cast<int>(origins.size());
   for (std::size_t k = 0; k < origins.size(); ++k) {
-    const bool is_led = std::binary_search(led_.begin(), led_.end(), origins[k]);
-    if (is_led) of_led.push_back(first + static_cast<int>(k));
+    const bool is_kinematic = std::binary_search(kinematic_.begin(), kinematic_.end(), origins[k]);
+    if (is_kinematic) of_kinematic.push_back(first + static_cast<int>(k));
   }
-  if (!of_led.empty()) change_correction(of_led);
+  if (!of_kinematic.empty()) change_correction(of_kinematic);
 }
 
 template class ImplicitSolver<float>;

@@ -8,20 +8,20 @@
 
 #include <weft/fast_solver/coarse/coarse_kernel.hpp>
 #include <weft/fast_solver/simd/aligned_matrix.hpp>
-#include <weft/fast_solver/threads/thread_team.hpp>
+#include <weft/fast_solver/threads/worker_team.hpp>
 
 namespace weft::fast {
 
-/// The Cholesky factor of a matrix of 3 x 3 blocks that is made anew again and again, in single precision: a border that
+/// The Cholesky factor of a matrix of 3 x 3 blocks that is made anew again and again, in single precision: a separator that
 /// parts the unknowns into two halves, each of them a band. The halves are independent work.
 /// Threads  one object from one thread at a time, and on a team. Allocates nothing after construction.
-class BorderedBand {
+class DissectedCholesky {
  public:
-  BorderedBand() = default;
+  DissectedCholesky() = default;
   /// pairs: unknowns between which there are blocks, the lower one first, ascending.
-  BorderedBand(int num_unknowns, const std::vector<std::pair<int, int>>& pairs);
+  DissectedCholesky(int num_unknowns, const std::vector<std::pair<int, int>>& pairs);
 
-  [[nodiscard]] int size() const { return static_cast<int>(places_.size()); }
+  [[nodiscard]] int size() const { return static_cast<int>(positions_.size()); }
   [[nodiscard]] int num_blocks() const { return size() + static_cast<int>(pairs_.size()); }
   /// Behind those of lower unknowns there is an unknown's own block, and those of pairs of which it is the lower one.
   [[nodiscard]] int own_block(int unknown) const {
@@ -33,7 +33,7 @@ class BorderedBand {
 
   /// blocks: kBlockNumbers numbers of the stiffness of springs, between the two of each pair (pair_block()) and between an
   /// unknown and what does not move (own_block()). inertia: of each unknown, added to its diagonal.
-  void factorise(const float* blocks, const float* inertia, ThreadTeam& team);
+  void factorize(const float* blocks, const float* inertia, WorkerTeam& team);
   /// Part of a right-hand side: four numbers, the last of which is not used, of each of the unknowns begin ... end - 1.
   struct Summand {
     const float* numbers;
@@ -41,11 +41,11 @@ class BorderedBand {
     int end;
   };
   /// solution = A^-1 (sum of right), four numbers of each unknown.
-  void solve(std::span<const Summand> right, float* solution, ThreadTeam& team);
+  void solve(std::span<const Summand> right, float* solution, WorkerTeam& team);
 
  private:
-  /// Unknowns begin ... end - 1 of the order; without a border for the border itself.
-  struct Band {
+  /// Unknowns begin ... end - 1 of the order; without a separator for the separator itself.
+  struct Subdomain {
     int begin = 0;
     int end = 0;
     int width = 1;
@@ -54,27 +54,27 @@ class BorderedBand {
     AlignedVector<float> values;
     AlignedVector<float> diagonal;
     AlignedVector<float> vector;
-    AlignedVector<float> corner;
-    AlignedVector<float> border;
+    AlignedVector<float> schur_complement;
+    AlignedVector<float> separator;
     std::vector<int> pairs;  ///< that it has a block for
 
     [[nodiscard]] int size() const { return end - begin; }
   };
-  [[nodiscard]] BandRows rows_of(Band& band) const;
-  void order(const std::vector<std::vector<int>>& neighbours);
-  void reserve(Band& band, int num_border);
-  void fill(Band& band, const float* blocks, const float* inertia);
-  void load(Band& band, std::span<const Summand> right) const;
-  void unload(const Band& band, float* solution) const;
+  [[nodiscard]] FactorRows rows_of(Subdomain& subdomain) const;
+  void order(const std::vector<std::vector<int>>& neighbors);
+  void reserve(Subdomain& subdomain, int num_separator);
+  void fill(Subdomain& subdomain, const float* blocks, const float* inertia);
+  void gather(Subdomain& subdomain, std::span<const Summand> right) const;
+  void scatter(const Subdomain& subdomain, float* solution) const;
 
-  static constexpr int kHalves = 2;
-  std::array<Band, kHalves + 1> bands_;  ///< the last one is the border
-  std::vector<int> places_;              ///< of each unknown in the order
-  std::vector<int> unknowns_;            ///< in the order
+  static constexpr int kSubdomains = 2;
+  std::array<Subdomain, kSubdomains + 1> subdomains_;  ///< the last one is the separator
+  std::vector<int> positions_;                         ///< of each unknown in the order
+  std::vector<int> unknowns_;                          ///< in the order
   std::vector<std::pair<int, int>> pairs_;
   std::vector<int> first_pairs_;            ///< of each unknown as the lower one
   std::vector<std::vector<int>> pairs_of_;  ///< of each unknown
-  int num_border_ = 0;                      ///< numbers, filled up
+  int num_separator_ = 0;                   ///< numbers, filled up
 };
 
 }  // namespace weft::fast

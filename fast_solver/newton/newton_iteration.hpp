@@ -10,15 +10,15 @@ struct LinearGain {
   bool is_broken = false;  ///< by rounding, before anything was found out
 };
 
-/// One round of Newton's method.
-struct NewtonRound {
+/// One iteration of Newton's method.
+struct NewtonIteration {
   int iterations;         ///< of conjugate gradients at most
   bool is_first = false;  ///< of a step
   bool decides = true;    ///< how contacts hold nodes
   bool continues =
-      false;  ///< in the first round: a node that was held in the solve before stays so
-  bool linearises = true;   ///< for another round
-  bool factorises = false;  ///< makes the coarse correction anew
+      false;  ///< in the first iteration: a node that was held in the solve before stays so
+  bool linearizes = true;   ///< for another iteration
+  bool factorizes = false;  ///< makes the coarse correction anew
   double least_gain = 0;    ///< of an iteration that another one follows [J]
 };
 

@@ -11,13 +11,13 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <weft/fast_solver/threads/thread_team.hpp>
+#include <weft/fast_solver/threads/worker_team.hpp>
 
 namespace weft::fast {
 namespace {
 
 // Each loop reads what all parts of the one before have written.
-std::vector<long> chain(ThreadTeam& team, int num_parts, int num_loops) {
+std::vector<long> chain(WorkerTeam& team, int num_parts, int num_loops) {
   const auto n = static_cast<std::size_t>(num_parts);
   std::array<std::vector<long>, 2> values = {std::vector<long>(n, 1), std::vector<long>(n, 0)};
   for (int loop = 0; loop < num_loops; ++loop) {
@@ -31,40 +31,40 @@ std::vector<long> chain(ThreadTeam& team, int num_parts, int num_loops) {
   return values[static_cast<std::size_t>(num_loops % 2)];
 }
 
-TEST(ThreadTeam, DoesAllPartsAndLoopsInOrder) {
-  ThreadTeam alone;
+TEST(WorkerTeam, DoesAllPartsAndLoopsInOrder) {
+  WorkerTeam alone;
   for (const int num_parts : {1, 2, 3, 7, 64}) {
     const std::vector<long> expected = chain(alone, num_parts, 3000);
     for (const int num_threads : {1, 2, 3, 8}) {
-      ThreadTeam team;
-      const ThreadTeam::Scope scope(team, num_threads);
+      WorkerTeam team;
+      const WorkerTeam::Scope scope(team, num_threads);
       EXPECT_EQ(chain(team, num_parts, 3000), expected) << num_threads << " threads";
     }
   }
 }
 
-TEST(ThreadTeam, DoesNoPartTwice) {
-  ThreadTeam team;
-  const ThreadTeam::Scope scope(team, 4);
-  std::array<std::atomic<int>, ThreadTeam::kMostParts> counts{};
+TEST(WorkerTeam, DoesNoPartTwice) {
+  WorkerTeam team;
+  const WorkerTeam::Scope scope(team, 4);
+  std::array<std::atomic<int>, WorkerTeam::kMostParts> counts{};
   for (int loop = 1; loop <= 2000; ++loop) {
-    const int num_parts = 1 + loop % ThreadTeam::kMostParts;
+    const int num_parts = 1 + loop % WorkerTeam::kMostParts;
     for (auto& count : counts) count = 0;
     team.run(num_parts, [&](int part) { ++counts[static_cast<std::size_t>(part)]; });
-    for (int part = 0; part < ThreadTeam::kMostParts; ++part) {
+    for (int part = 0; part < WorkerTeam::kMostParts; ++part) {
       ASSERT_EQ(counts[static_cast<std::size_t>(part)], part < num_parts ? 1 : 0) << loop;
     }
   }
 }
 
-// Each loop has other values, and what they are is known to nobody but its work; until a helper has done a part.
+// Each loop has other values, and what they are is known to nobody but its work; until a worker has done a part.
 template <class Value, class Make>
 void expect_work_arrives(const Make& make) {
   const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
   tbb::task_arena arena(2);
   arena.execute([&] {
-    ThreadTeam team;
-    const ThreadTeam::Scope scope(team, 2);
+    WorkerTeam team;
+    const WorkerTeam::Scope scope(team, 2);
     std::array<long, 8> sums{};
     std::array<std::thread::id, 8> by{};
     bool is_helped = false;
@@ -95,7 +95,7 @@ void expect_work_of_size_arrives() {
   });
 }
 
-TEST(ThreadTeam, HelpersGetWorkOfAnySize) {
+TEST(WorkerTeam, HelpersGetWorkOfAnySize) {
   expect_work_of_size_arrives<1>();
   expect_work_of_size_arrives<5>();
   expect_work_of_size_arrives<11>();  // the most of which there is a copy
@@ -103,18 +103,18 @@ TEST(ThreadTeam, HelpersGetWorkOfAnySize) {
   expect_work_of_size_arrives<100>();
 }
 
-TEST(ThreadTeam, HelpersGetWorkThatIsNotTrivialToCopy) {
+TEST(WorkerTeam, HelpersGetWorkThatIsNotTrivialToCopy) {
   expect_work_arrives<std::vector<long>>([](long value) { return std::vector<long>(3, value); });
 }
 
-// The first part waits for somebody else to begin the second, in one of many loops: a helper may come late.
-TEST(ThreadTeam, IsHelped) {
+// The first part waits for somebody else to begin the second, in one of many loops: a worker may come late.
+TEST(WorkerTeam, IsHelped) {
   const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
   tbb::task_arena arena(2);
   bool is_helped = false;
   arena.execute([&] {
-    ThreadTeam team;
-    const ThreadTeam::Scope scope(team, 2);
+    WorkerTeam team;
+    const WorkerTeam::Scope scope(team, 2);
     for (int loop = 0; loop < 1000 && !is_helped; ++loop) {
       std::atomic<bool> has_begun = false;
       const std::thread::id caller = std::this_thread::get_id();
@@ -132,9 +132,9 @@ TEST(ThreadTeam, IsHelped) {
   EXPECT_TRUE(is_helped);
 }
 
-/// Has a helper that takes .4 s for a part, as one that other programs have stopped.
-void let_down(ThreadTeam& team) {
-  const ThreadTeam::Scope scope(team, 2);
+/// Has a worker that takes .4 s for a part, as one that other programs have stopped.
+void let_down(WorkerTeam& team) {
+  const WorkerTeam::Scope scope(team, 2);
   std::atomic<bool> was_helper = false;
   const std::thread::id caller = std::this_thread::get_id();
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
@@ -148,16 +148,16 @@ void let_down(ThreadTeam& team) {
   }
 }
 
-int times_alone(ThreadTeam& team) {
+int times_alone(WorkerTeam& team) {
   for (int count = 0;; ++count) {
-    const ThreadTeam::Scope scope(team, 2);
-    const ThreadTeam::Scope inner(team, 2);  // does not count
+    const WorkerTeam::Scope scope(team, 2);
+    const WorkerTeam::Scope inner(team, 2);  // does not count
     if (team.num_threads() == 2) return count;
   }
 }
 
 /// After a stop that the caller has noticed: it may have been stopped itself.
-int times_alone_after_stop(ThreadTeam& team) {
+int times_alone_after_stop(WorkerTeam& team) {
   for (int attempt = 0; attempt < 5; ++attempt) {
     let_down(team);
     if (const int times = times_alone(team); times > 0) return times;
@@ -165,44 +165,44 @@ int times_alone_after_stop(ThreadTeam& team) {
   return 0;
 }
 
-TEST(ThreadTeam, IsAloneTwiceAsOftenAfterEachStop) {
+TEST(WorkerTeam, IsAloneTwiceAsOftenAfterEachStop) {
   const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
   tbb::task_arena arena(2);
   arena.execute([&] {
-    ThreadTeam team;
+    WorkerTeam team;
     EXPECT_EQ(times_alone(team), 0);
     for (const int expected : {8, 16, 32}) EXPECT_EQ(times_alone_after_stop(team), expected);
     for (int time = 0; time < 1000; ++time) {  // without a stop: as at first
-      const ThreadTeam::Scope scope(team, 2);
+      const WorkerTeam::Scope scope(team, 2);
     }
     EXPECT_EQ(times_alone_after_stop(team), 8);
   });
 }
 
-TEST(ThreadTeam, CanBeOpenedAgain) {
-  ThreadTeam alone;
+TEST(WorkerTeam, CanBeOpenedAgain) {
+  WorkerTeam alone;
   const std::vector<long> expected = chain(alone, 4, 5);
-  ThreadTeam team;
+  WorkerTeam team;
   for (int time = 0; time < 500; ++time) {
-    const ThreadTeam::Scope scope(team, 1 + time % 3);
+    const WorkerTeam::Scope scope(team, 1 + time % 3);
     ASSERT_EQ(chain(team, 4, 5), expected) << time;
   }
 }
 
-TEST(ThreadTeam, IsOpenAgainAfterAPause) {
-  ThreadTeam alone;
+TEST(WorkerTeam, IsOpenAgainAfterAPause) {
+  WorkerTeam alone;
   const std::vector<long> expected = chain(alone, 4, 200);
-  ThreadTeam team;
+  WorkerTeam team;
   {
-    const ThreadTeam::Pause pause(team);  // of a team that is not open
+    const WorkerTeam::Pause pause(team);  // of a team that is not open
   }
   EXPECT_EQ(team.num_threads(), 1);
-  const ThreadTeam::Scope scope(team, 3);
+  const WorkerTeam::Scope scope(team, 3);
   EXPECT_EQ(team.num_threads(), 3);
-  int num_open = 0;  // not where a helper was stopped in a part
+  int num_open = 0;  // not where a worker was stopped in a part
   for (int time = 0; time < 100; ++time) {
     {
-      const ThreadTeam::Pause pause(team);
+      const WorkerTeam::Pause pause(team);
       ASSERT_EQ(team.num_threads(), 1);
       std::atomic<int> sum = 0;
       tbb::parallel_for(0, 10, [&](int i) { sum += i; });
@@ -214,19 +214,19 @@ TEST(ThreadTeam, IsOpenAgainAfterAPause) {
   EXPECT_GT(num_open, 0);
 }
 
-// A helper that comes before the first loop may not look at the last one of the time before, when the caller had more parts
+// A worker that comes before the first loop may not look at the last one of the time before, when the caller had more parts
 // of its own.
-TEST(ThreadTeam, BeginsNothingOfTheTimeBefore) {
+TEST(WorkerTeam, BeginsNothingOfTheTimeBefore) {
   const tbb::global_control four(tbb::global_control::max_allowed_parallelism, 4);
   tbb::task_arena arena(4);
   arena.execute([] {
-    ThreadTeam team;
+    WorkerTeam team;
     std::array<std::atomic<int>, 10> counts{};
     int expected = 0;
     const auto count = [&counts](int part) { ++counts[static_cast<std::size_t>(part)]; };
     for (int again = 0; again < 200; ++again) {
       for (const int num_threads : {2, 3, 4}) {
-        const ThreadTeam::Scope scope(team, num_threads);
+        const WorkerTeam::Scope scope(team, num_threads);
         std::this_thread::sleep_for(std::chrono::microseconds(200));
         team.run(5, count);
         ++expected;
@@ -238,21 +238,21 @@ TEST(ThreadTeam, BeginsNothingOfTheTimeBefore) {
   });
 }
 
-TEST(ThreadTeam, NeedsNoHelper) {
+TEST(WorkerTeam, NeedsNoHelper) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  ThreadTeam team;
-  const ThreadTeam::Scope scope(team, 4);
-  ThreadTeam alone;
+  WorkerTeam team;
+  const WorkerTeam::Scope scope(team, 4);
+  WorkerTeam alone;
   EXPECT_EQ(chain(team, 8, 100), chain(alone, 8, 100));
 }
 
-TEST(ThreadTeam, ManyWorkAtTheSameTime) {
-  ThreadTeam alone;
+TEST(WorkerTeam, ManyWorkAtTheSameTime) {
+  WorkerTeam alone;
   const std::vector<long> expected = chain(alone, 6, 300);
   std::array<std::vector<long>, 10> results;
   tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
-    ThreadTeam team;
-    const ThreadTeam::Scope scope(team, 3);
+    WorkerTeam team;
+    const WorkerTeam::Scope scope(team, 3);
     results[i] = chain(team, 6, 300);
   });
   for (const std::vector<long>& result : results) EXPECT_EQ(result, expected);

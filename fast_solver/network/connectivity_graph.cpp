@@ -1,5 +1,5 @@
-// What hats need to know of a network: which nodes are near each other, and how much springs tie them.
-#include <weft/fast_solver/network/isotropic_network.hpp>
+// What coarse basis functions need to know of a network: which nodes are near each other, and how much springs coupling them.
+#include <weft/fast_solver/network/connectivity_graph.hpp>
 
 #include <cstddef>
 
@@ -27,10 +27,10 @@ void for_each_spring(const EdgeSlots& slots, int node, const Take& take) {
 }  // namespace
 
 template <class Scalar>
-IsotropicNetwork NetworkForces<Scalar>::isotropic_network(const std::vector<int>& names) const {
+ConnectivityGraph NetworkForces<Scalar>::connectivity_graph(const std::vector<int>& names) const {
   std::vector<int> unknown_of(at(num_nodes()), -1);
   for (std::size_t k = 0; k < names.size(); ++k) unknown_of[at(names[k])] = static_cast<int>(k);
-  IsotropicNetwork result;
+  ConnectivityGraph result;
   SymmetricMatrix& matrix = result.matrix;
   matrix.starts.push_back(0);
   for (const int node : names) {
@@ -56,10 +56,11 @@ IsotropicNetwork NetworkForces<Scalar>::isotropic_network(const std::vector<int>
 }
 
 template <class Scalar>
-Rings NetworkForces<Scalar>::rings_around(const std::vector<int>& nodes, int num_springs) const {
+Neighborhood NetworkForces<Scalar>::neighborhood_of(const std::vector<int>& nodes,
+                                                    int num_springs) const {
   std::vector<char> is_in(at(num_nodes()), 0);
   for (const int node : nodes) is_in[at(node)] = 1;
-  Rings rings{nodes, {static_cast<int>(nodes.size())}};
+  Neighborhood rings{nodes, {static_cast<int>(nodes.size())}};
   std::size_t next = 0;
   for (int ring = 1; ring <= num_springs; ++ring) {
     for (; next < at(rings.ends.back()); ++next) {
@@ -74,9 +75,9 @@ Rings NetworkForces<Scalar>::rings_around(const std::vector<int>& nodes, int num
   return rings;
 }
 
-template IsotropicNetwork NetworkForces<float>::isotropic_network(const std::vector<int>&) const;
-template IsotropicNetwork NetworkForces<double>::isotropic_network(const std::vector<int>&) const;
-template Rings NetworkForces<float>::rings_around(const std::vector<int>&, int) const;
-template Rings NetworkForces<double>::rings_around(const std::vector<int>&, int) const;
+template ConnectivityGraph NetworkForces<float>::connectivity_graph(const std::vector<int>&) const;
+template ConnectivityGraph NetworkForces<double>::connectivity_graph(const std::vector<int>&) const;
+template Neighborhood NetworkForces<float>::neighborhood_of(const std::vector<int>&, int) const;
+template Neighborhood NetworkForces<double>::neighborhood_of(const std::vector<int>&, int) const;
 
 }  // namespace weft::fast

@@ -7,39 +7,41 @@
 
 #include <weft/fast_solver/network/network_kernel.hpp>
 #include <weft/fast_solver/network/node_arrays.hpp>
-#include <weft/fast_solver/threads/thread_team.hpp>
+#include <weft/fast_solver/threads/worker_team.hpp>
 
 namespace weft::fast {
 
-/// The nodes of a network in parts of about the same size, for the loops of a ThreadTeam and for sums: which they are
+/// The nodes of a network in parts of about the same size, for the loops of a WorkerTeam and for sums: which they are
 /// depends on the number of nodes alone, so that sums over parts have the same bits for any number of threads.
-class NodeParts {
+class NodePartition {
  public:
-  NodeParts() = default;
-  explicit NodeParts(int num_nodes)
-      : num_lines_(fill_up(num_nodes) / kNodeLine),
-        count_(std::clamp((num_lines_ + kLines / 2) / kLines, 1, ThreadTeam::kMostParts)) {}
+  NodePartition() = default;
+  explicit NodePartition(int num_nodes)
+      : num_cache_lines_(padded_size(num_nodes) / kNodesPerCacheLine),
+        count_(std::clamp((num_cache_lines_ + kCacheLinesPerRange / 2) / kCacheLinesPerRange, 1,
+                          WorkerTeam::kMostParts)) {}
 
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] NodeRange operator[](int part) const { return {first(part), first(part + 1)}; }
 
  private:
   /// 640 nodes: some microseconds of each loop, ten times what it takes threads to wait for each other.
-  static constexpr int kLines = 10;
-  static_assert(kFewestToShare == (kLines + kLines / 2) * kNodeLine);
+  static constexpr int kCacheLinesPerRange = 10;
+  static_assert(kFewestToShare ==
+                (kCacheLinesPerRange + kCacheLinesPerRange / 2) * kNodesPerCacheLine);
 
   [[nodiscard]] int first(int part) const {
-    return static_cast<int>(std::int64_t{num_lines_} * part / count_) * kNodeLine;
+    return static_cast<int>(std::int64_t{num_cache_lines_} * part / count_) * kNodesPerCacheLine;
   }
 
-  int num_lines_ = 0;
+  int num_cache_lines_ = 0;
   int count_ = 1;
 };
 
 /// work(part, begin, end) for each part of some nodes begin ... end - 1, by a team.
 template <class Work>
-void run_parts(ThreadTeam& team, int num_nodes, const Work& work) {
-  const NodeParts parts(num_nodes);
+void run_parts(WorkerTeam& team, int num_nodes, const Work& work) {
+  const NodePartition parts(num_nodes);
   team.run(parts.count(), [parts, num_nodes, work](int part) {
     work(part, parts[part].begin, std::min(parts[part].end, num_nodes));
   });

@@ -1,4 +1,4 @@
-// What contacts and what leads a node do to it during a solve.
+// What contacts and what prescribes a node do to it during a solve.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -30,26 +30,29 @@ void take_away(const Vector3<float>& normal, NodeArrays<float>& vectors, int nod
 // What holds a node is decided by what it would do if it stuck: the force that is left there is
 // weighed against what friction can bear.
 template <class Scalar>
-void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
-                                          const NewtonRound& round) {
+void ImplicitSolver<Scalar>::decide_contact_states(const StepProblem<Scalar>& problem,
+                                                   const NewtonIteration& iteration) {
   const bool can_hold =
-      !problem.contacts.empty() || !problem.led.empty() || !problem.bodies.empty();
-  have_holds_changed_ = false;
-  if (!can_hold && held_.empty()) return;
-  held_before_.swap(holds_);
-  std::fill(holds_.begin(), holds_.end(), Hold::kFree);
+      !problem.contacts.empty() || !problem.kinematic.empty() || !problem.bodies.empty();
+  have_contact_states_changed_ = false;
+  if (!can_hold && constrained_.empty()) return;
+  contact_states_before_.swap(contact_states_);
+  std::fill(contact_states_.begin(), contact_states_.end(), ContactState::kFree);
   std::fill(contact_of_.begin(), contact_of_.end(), -1);
   links_.clear();
-  for (const LedNode<Scalar>& led : problem.led) holds_[at(led.node)] = Hold::kFixed;
-  const auto gap_at = [&](const PlaneContact<Scalar>& contact, const auto& place) {
-    return contact.normal.dot(place - motion_with(contact.body, contact.arm)) - contact.offset;
+  for (const KinematicNode<Scalar>& kinematic : problem.kinematic)
+    contact_states_[at(kinematic.node)] = ContactState::kFixed;
+  const auto gap_at = [&](const PlaneContact<Scalar>& contact, const auto& position) {
+    return contact.normal.dot(position - motion_with(contact.body, contact.lever_arm)) -
+           contact.offset;
   };
   for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
     const PlaneContact<Scalar>& contact = problem.contacts[c];
-    if (!is_free_[at(contact.node)] || holds_[at(contact.node)] != Hold::kFree) continue;
+    if (!is_free_[at(contact.node)] || contact_states_[at(contact.node)] != ContactState::kFree)
+      continue;
     int& best = contact_of_[at(contact.node)];
-    if (best < 0 || gap_at(contact, at_node(places_, contact.node)) <
-                        gap_at(problem.contacts[at(best)], at_node(places_, contact.node))) {
+    if (best < 0 || gap_at(contact, at_node(positions_, contact.node)) <
+                        gap_at(problem.contacts[at(best)], at_node(positions_, contact.node))) {
       best = static_cast<int>(c);
     }
   }
@@ -57,89 +60,93 @@ void ImplicitSolver<Scalar>::decide_holds(const StepProblem<Scalar>& problem,
   constexpr int kTogether = 32;
   const auto num_contacts = static_cast<int>(problem.contacts.size());
   const int num_parts =
-      std::clamp((num_contacts + kTogether - 1) / kTogether, 1, ThreadTeam::kMostParts);
+      std::clamp((num_contacts + kTogether - 1) / kTogether, 1, WorkerTeam::kMostParts);
   team_->run(num_parts, [&](int part) {
     const std::int64_t count = num_contacts;
     for (auto c = static_cast<int>(count * part / num_parts);
          c < static_cast<int>(count * (part + 1) / num_parts); ++c) {
       const int i = problem.contacts[at(c)].node;
-      if (contact_of_[at(i)] == c) decide_hold(problem.contacts[at(c)], round);
+      if (contact_of_[at(i)] == c) decide_contact_state(problem.contacts[at(c)], iteration);
     }
   });
   for (const PlaneContact<Scalar>& contact : problem.contacts) {
-    if (holds_[at(contact.node)] == Hold::kFree) contact_of_[at(contact.node)] = -1;  // it lets go
+    if (contact_states_[at(contact.node)] == ContactState::kFree)
+      contact_of_[at(contact.node)] = -1;  // it lets go
   }
   for (std::size_t c = 0; c < problem.contacts.size() && !bodies_.empty(); ++c) {
     const PlaneContact<Scalar>& contact = problem.contacts[c];
     const int i = contact.node;
     if (contact.body < 0 || contact_of_[at(i)] != static_cast<int>(c)) continue;
-    const bool sticks = holds_[at(i)] == Hold::kFixed;
-    link(i, contact.body, contact.arm, sticks ? Vector3<Scalar>::Zero().eval() : contact.normal);
+    const bool sticks = contact_states_[at(i)] == ContactState::kFixed;
+    link(i, contact.body, contact.lever_arm,
+         sticks ? Vector3<Scalar>::Zero().eval() : contact.normal);
   }
-  for (const LedNode<Scalar>& led : problem.led) {
-    friction_.col(led.node).setZero();
-    normals_.col(led.node).setZero();
-    if (led.body >= 0) link(led.node, led.body, turned(led.body, led.arm), Vector3<Scalar>::Zero());
+  for (const KinematicNode<Scalar>& kinematic : problem.kinematic) {
+    friction_.col(kinematic.node).setZero();
+    normals_.col(kinematic.node).setZero();
+    if (kinematic.body >= 0)
+      link(kinematic.node, kinematic.body, turned(kinematic.body, kinematic.lever_arm),
+           Vector3<Scalar>::Zero());
   }
-  list_held();
+  list_constrained();
   release_bodies();
-  have_holds_changed_ = holds_ != held_before_;
+  have_contact_states_changed_ = contact_states_ != contact_states_before_;
 }
 
 // Most nodes are free: eight are looked at together.
 template <class Scalar>
-void ImplicitSolver<Scalar>::list_held() {
-  constexpr std::size_t kTogether = sizeof(std::uint64_t) / sizeof(Hold);
-  static_assert(Hold::kFree == Hold{} && kNodeLine % kTogether == 0);
-  held_.clear();
-  for (std::size_t first = 0; first < holds_.size(); first += kTogether) {
+void ImplicitSolver<Scalar>::list_constrained() {
+  constexpr std::size_t kTogether = sizeof(std::uint64_t) / sizeof(ContactState);
+  static_assert(ContactState::kFree == ContactState{} && kNodesPerCacheLine % kTogether == 0);
+  constrained_.clear();
+  for (std::size_t first = 0; first < contact_states_.size(); first += kTogether) {
     std::uint64_t some = 0;
-    std::memcpy(&some, &holds_[first], sizeof some);
+    std::memcpy(&some, &contact_states_[first], sizeof some);
     if (some == 0) continue;
     for (std::size_t i = first; i < first + kTogether; ++i) {
-      if (holds_[i] != Hold::kFree) held_.push_back(static_cast<int>(i));
+      if (contact_states_[i] != ContactState::kFree) constrained_.push_back(static_cast<int>(i));
     }
   }
 }
 
 // One contact's node: what it would do if it stuck decides.
 template <class Scalar>
-void ImplicitSolver<Scalar>::decide_hold(const PlaneContact<Scalar>& contact,
-                                         const NewtonRound& round) {
+void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& contact,
+                                                  const NewtonIteration& iteration) {
   const int i = contact.node;
-  const bool is_first = round.is_first;
-  if (is_first && round.continues && held_before_[at(i)] != Hold::kFree) {
-    holds_[at(i)] = held_before_[at(i)];
+  const bool is_first = iteration.is_first;
+  if (is_first && iteration.continues && contact_states_before_[at(i)] != ContactState::kFree) {
+    contact_states_[at(i)] = contact_states_before_[at(i)];
     normals_.col(i) = contact.normal.template cast<float>();
     return;
   }
   const Vector3<Scalar> normal = contact.normal;
-  const Vector3<Scalar> with_body = motion_with(contact.body, contact.arm);
-  const Scalar gap = normal.dot(at_node(places_, i) - with_body) - contact.offset;
+  const Vector3<Scalar> with_body = motion_with(contact.body, contact.lever_arm);
+  const Scalar gap = normal.dot(at_node(positions_, i) - with_body) - contact.offset;
   const Scalar inertia = Scalar(inertia_[i]);
-  const bool was_held = !is_first && held_before_[at(i)] != Hold::kFree;
+  const bool was_held = !is_first && contact_states_before_[at(i)] != ContactState::kFree;
   const Scalar pressure =
-      -normal.dot(at_node(unbalanced_, i)) + inertia * std::max(Scalar(0), -gap);
+      -normal.dot(at_node(residual_forces_, i)) + inertia * std::max(Scalar(0), -gap);
   Scalar least_gap = gap;
   if (is_first) least_gap += std::min(Scalar(0), first_push(i, normal));
   const bool is_near = least_gap < 0;
   if (!(was_held ? pressure > 0 : is_near)) return;
   const Vector3<Scalar> slip =
-      at_node(places_, i) - at_node(starts_, i) - contact.motion - with_body;
-  Vector3<Scalar> tendency = at_node(unbalanced_, i) + inertia * slip;
+      at_node(positions_, i) - at_node(start_positions_, i) - contact.motion - with_body;
+  Vector3<Scalar> tendency = at_node(residual_forces_, i) + inertia * slip;
   tendency -= normal.dot(tendency) * normal;
   const Scalar friction = contact.friction;
   const Scalar most = friction * std::max(Scalar(0), pressure);
   const Scalar size = tendency.norm();
   // A node that slides, or that a plane has only now been found for, would be drawn back to where the step began: not by what
   // may be rounding.
-  const bool did_stick = held_before_[at(i)] == Hold::kFixed;
+  const bool did_stick = contact_states_before_[at(i)] == ContactState::kFixed;
   const Scalar doubt = is_first || did_stick ? Scalar(0) : friction * rounding_of_force(i);
   const Scalar slipped = (slip - normal.dot(slip) * normal).norm();
   // One that has slid would be drawn back to where the step began, and let go by the next decision: its drag stops it first.
   const bool has_stopped = inertia * slipped <= kStopped * most;
   const bool sticks = size <= most - doubt && (!was_held || did_stick || has_stopped);
-  holds_[at(i)] = sticks ? Hold::kFixed : Hold::kOnPlane;
+  contact_states_[at(i)] = sticks ? ContactState::kFixed : ContactState::kOnPlane;
   normals_.col(i) = normal.template cast<float>();
   friction_.col(i).setZero();
   drag_[i] = 0;
@@ -158,7 +165,7 @@ void ImplicitSolver<Scalar>::decide_hold(const PlaneContact<Scalar>& contact,
   set_friction(contact, expected);
 }
 
-// The friction of a node that slides on what does not give way, at its present place.
+// The friction of a node that slides on what is not coupled both ways, at its present place.
 template <class Scalar>
 void ImplicitSolver<Scalar>::set_friction(const PlaneContact<Scalar>& contact, Scalar expected) {
   const int i = contact.node;
@@ -167,15 +174,15 @@ void ImplicitSolver<Scalar>::set_friction(const PlaneContact<Scalar>& contact, S
       std::max(Scalar(inertia_[i]) + largest_stiffness(i), Scalar(kLeastInertia));
   drag_[i] = most / std::max(expected, most / (Scalar(kStiffestDrag) * resistance));
   if (!(most > 0)) drag_[i] = 0;
-  Vector3<Scalar> slip = at_node(places_, i) - at_node(starts_, i) - contact.motion;
+  Vector3<Scalar> slip = at_node(positions_, i) - at_node(start_positions_, i) - contact.motion;
   slip -= contact.normal.dot(slip) * contact.normal;
   friction_.col(i) = (-drag_[i] * slip).template cast<float>();
 }
 
 template <class Scalar>
 Scalar ImplicitSolver<Scalar>::slip_of(const PlaneContact<Scalar>& contact,
-                                       const Vector3<Scalar>& place) const {
-  const Vector3<Scalar> slip = place - at_node(starts_, contact.node) - contact.motion;
+                                       const Vector3<Scalar>& position) const {
+  const Vector3<Scalar> slip = position - at_node(start_positions_, contact.node) - contact.motion;
   return (slip - contact.normal.dot(slip) * contact.normal).norm();
 }
 
@@ -186,96 +193,99 @@ Scalar ImplicitSolver<Scalar>::largest_stiffness(int node) const {
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::update_friction(const StepProblem<Scalar>& problem) {
-  for (const int i : held_) {
-    if (contact_of_[at(i)] < 0 || holds_[at(i)] != Hold::kOnPlane) continue;
+  for (const int i : constrained_) {
+    if (contact_of_[at(i)] < 0 || contact_states_[at(i)] != ContactState::kOnPlane) continue;
     const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
-    if (contact.body < 0) set_friction(contact, slip_of(contact, at_node(places_, i)));
+    if (contact.body < 0) set_friction(contact, slip_of(contact, at_node(positions_, i)));
   }
 }
 
-// What the rounding of places makes of the forces of stiff springs [N].
+// What the rounding of positions makes of the forces of stiff springs [N].
 template <class Scalar>
 Scalar ImplicitSolver<Scalar>::rounding_of_force(int node) const {
   constexpr Scalar kRoundings = 8;
   return kRoundings * std::numeric_limits<Scalar>::epsilon() * largest_stiffness(node) *
-         at_node(places_, node).cwiseAbs().maxCoeff();
+         at_node(positions_, node).cwiseAbs().maxCoeff();
 }
 
-// How far what pushes a node would move it along a normal, if its neighbours stood still [m]. Without springs would
+// How far what pushes a node would move it along a normal, if its neighbors stood still [m]. Without springs would
 // be too far by much: gas in a ball pushes thirty times as hard as the weight, and the skin holds it back.
 template <class Scalar>
 Scalar ImplicitSolver<Scalar>::first_push(int node, const Vector3<Scalar>& normal) const {
   const auto block = [&](int k) { return Scalar(forces_.diagonal_blocks()(node, k)); };
-  const Scalar across = block(0) * normal[0] * normal[0] + block(1) * normal[1] * normal[1] +
-                        block(2) * normal[2] * normal[2] +
-                        2 * (block(3) * normal[0] * normal[1] + block(4) * normal[1] * normal[2] +
-                             block(5) * normal[2] * normal[0]);
-  return normal.dot(at_node(unbalanced_, node)) / (Scalar(inertia_[node]) + across);
+  const Scalar normal_stiffness =
+      block(0) * normal[0] * normal[0] + block(1) * normal[1] * normal[1] +
+      block(2) * normal[2] * normal[2] +
+      2 * (block(3) * normal[0] * normal[1] + block(4) * normal[1] * normal[2] +
+           block(5) * normal[2] * normal[0]);
+  return normal.dot(at_node(residual_forces_, node)) / (Scalar(inertia_[node]) + normal_stiffness);
 }
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::project(NodeRange nodes, Floats& vectors) const {
   for (const int i : in_range(pinned_, nodes)) vectors.row(i).setZero();
-  for (const int i : in_range(held_, nodes)) {
-    if (holds_[at(i)] == Hold::kFixed) {
+  for (const int i : in_range(constrained_, nodes)) {
+    if (contact_states_[at(i)] == ContactState::kFixed) {
       vectors.row(i).setZero();
-    } else if (holds_[at(i)] == Hold::kOnPlane) {
+    } else if (contact_states_[at(i)] == ContactState::kOnPlane) {
       take_away(normals_.col(i), vectors, i);
     }
   }
 }
 
-// Planes that no round has met, and those of a node on several.
+// Planes that no iteration has met, and those of a node on several.
 template <class Scalar>
 void ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
   was_clamped_ = false;
   const auto is_linked = [&](int node) {
     const int contact = contact_of_[at(node)];
     if (contact >= 0) return problem.contacts[at(contact)].body >= 0;
-    return std::any_of(problem.led.begin(), problem.led.end(), [&](const LedNode<Scalar>& led) {
-      return led.node == node && led.body >= 0;
-    });
+    return std::any_of(problem.kinematic.begin(), problem.kinematic.end(),
+                       [&](const KinematicNode<Scalar>& kinematic) {
+                         return kinematic.node == node && kinematic.body >= 0;
+                       });
   };
   for (std::size_t c = 0; c < problem.contacts.size(); ++c) {
     const PlaneContact<Scalar>& contact = problem.contacts[c];
     const int i = contact.node;
     if (!is_free_[at(i)] || contact.body >= 0) continue;
-    const Scalar gap = contact.normal.dot(at_node(places_, i)) - contact.offset;
+    const Scalar gap = contact.normal.dot(at_node(positions_, i)) - contact.offset;
     if (!(gap < 0) || is_linked(i)) continue;
-    places_.row(i) -= gap * contact.normal.transpose();
+    positions_.row(i) -= gap * contact.normal.transpose();
     was_clamped_ = true;
-    if (holds_[at(i)] != Hold::kFree) continue;
+    if (contact_states_[at(i)] != ContactState::kFree) continue;
     step_.row(i) -= (gap * contact.normal).transpose().template cast<float>();
-    holds_[at(i)] = Hold::kOnPlane;
+    contact_states_[at(i)] = ContactState::kOnPlane;
     contact_of_[at(i)] = static_cast<int>(c);
     normals_.col(i) = contact.normal.template cast<float>();
     friction_.col(i).setZero();
     drag_[i] = 0;
     friction_bounds_[i] = 0;
-    held_.push_back(i);
+    constrained_.push_back(i);
   }
 }
 
 template <class Scalar>
-double ImplicitSolver<Scalar>::work_of_held(std::size_t num_held) const {
+double ImplicitSolver<Scalar>::work_of_constrained(std::size_t num_constrained) const {
   double work = 0;
-  for (std::size_t k = 0; k < num_held; ++k) {
-    work += static_cast<double>(at_node(unbalanced_, held_[k]).dot(step_of(held_[k])));
+  for (std::size_t k = 0; k < num_constrained; ++k) {
+    work += static_cast<double>(
+        at_node(residual_forces_, constrained_[k]).dot(step_of(constrained_[k])));
   }
   return work;
 }
 
 template <class Scalar>
-void ImplicitSolver<Scalar>::find_holding_forces() {
-  if (has_holding_forces_) holding_forces_.setZero();
-  has_holding_forces_ = !held_.empty();
-  for (const int i : held_) {
-    if (holds_[at(i)] == Hold::kFixed) {
-      holding_forces_.row(i) = -unbalanced_.row(i);
-    } else if (holds_[at(i)] == Hold::kOnPlane) {
+void ImplicitSolver<Scalar>::find_constraint_forces() {
+  if (has_constraint_forces_) constraint_forces_.setZero();
+  has_constraint_forces_ = !constrained_.empty();
+  for (const int i : constrained_) {
+    if (contact_states_[at(i)] == ContactState::kFixed) {
+      constraint_forces_.row(i) = -residual_forces_.row(i);
+    } else if (contact_states_[at(i)] == ContactState::kOnPlane) {
       const Vector3<Scalar> normal = normals_.col(i).template cast<Scalar>();
-      const Scalar push = -normal.dot(at_node(unbalanced_, i));
-      holding_forces_.row(i) =
+      const Scalar push = -normal.dot(at_node(residual_forces_, i));
+      constraint_forces_.row(i) =
           (push * normal + friction_.col(i).template cast<Scalar>()).transpose();
     }
   }

@@ -15,33 +15,33 @@
 namespace weft::fast {
 
 /// Threads that go through the loops of one solve together. Such a loop takes ten microseconds, less than a task of
-/// oneTBB takes to be found by another thread, so that helpers wait for the next loop without sleeping.
+/// oneTBB takes to be found by another thread, so that workers wait for the next loop without sleeping.
 ///
-/// Helpers are tasks of oneTBB: they come when they find the time, and without any the caller does everything. A loop
+/// Workers are tasks of oneTBB: they come when they find the time, and without any the caller does everything. A loop
 /// has parts, and each thread has the same ones in every loop, which are in its cache; the caller takes those of a
-/// helper that does not begin. What a part computes may not depend on who does it.
+/// worker that does not begin. What a part computes may not depend on who does it.
 ///
-/// Where other programs need the processors, a helper may be stopped. In the middle of a part its caller has to wait for
-/// it; if that costs more than helpers gain, the caller does without them for a while, a longer one each time.
+/// Where other programs need the processors, a worker may be stopped. In the middle of a part its caller has to wait for
+/// it; if that costs more than workers gain, the caller does without them for a while, a longer one each time.
 ///
-/// While a team is open its caller must not wait for other tasks of oneTBB: it might be given a helper's.
-class ThreadTeam {
+/// While a team is open its caller must not wait for other tasks of oneTBB: it might be given a worker's.
+class WorkerTeam {
  public:
   /// Parts of a loop at most.
   static constexpr int kMostParts = 64;
 
-  ThreadTeam() = default;
-  ThreadTeam(const ThreadTeam&) = delete;
-  ThreadTeam& operator=(const ThreadTeam&) = delete;
-  ThreadTeam(ThreadTeam&&) = delete;
-  ThreadTeam& operator=(ThreadTeam&&) = delete;
-  ~ThreadTeam() { close(); }
+  WorkerTeam() = default;
+  WorkerTeam(const WorkerTeam&) = delete;
+  WorkerTeam& operator=(const WorkerTeam&) = delete;
+  WorkerTeam(WorkerTeam&&) = delete;
+  WorkerTeam& operator=(WorkerTeam&&) = delete;
+  ~WorkerTeam() { close(); }
 
-  /// Open as long as the outermost of them exists, unless helpers were stopped lately; only one thread at a time may use a
+  /// Open as long as the outermost of them exists, unless workers were stopped lately; only one thread at a time may use a
   /// team. num_threads: with the caller's, at most.
   class Scope {
    public:
-    Scope(ThreadTeam& team, int num_threads) : team_(team) {
+    Scope(WorkerTeam& team, int num_threads) : team_(team) {
       if (team_.num_scopes_++ == 0) team_.open(num_threads);
     }
     Scope(const Scope&) = delete;
@@ -53,14 +53,14 @@ class ThreadTeam {
     }
 
    private:
-    ThreadTeam& team_;
+    WorkerTeam& team_;
   };
 
-  /// Closed as long as the result exists, for work that waits for tasks of oneTBB; then open if it was, unless helpers
+  /// Closed as long as the result exists, for work that waits for tasks of oneTBB; then open if it was, unless workers
   /// were stopped lately.
   class Pause {
    public:
-    explicit Pause(ThreadTeam& team) : team_(team), num_threads_(team.num_threads()) {
+    explicit Pause(WorkerTeam& team) : team_(team), num_threads_(team.num_threads()) {
       team_.close();
     }
     Pause(const Pause&) = delete;
@@ -72,14 +72,14 @@ class ThreadTeam {
     }
 
    private:
-    ThreadTeam& team_;
+    WorkerTeam& team_;
     int num_threads_;
   };
 
   [[nodiscard]] int num_threads() const { return num_threads_; }
 
   /// work(part) for each of num_parts parts, at most kMostParts; returns when all are done. What work throws ends the
-  /// program: others may be at work on the same. Helpers get a copy of a work that is small and trivial to copy: what it
+  /// program: others may be at work on the same. Workers get a copy of a work that is small and trivial to copy: what it
   /// has by value they need not fetch from the caller's stack, line after line of the cache.
   template <class Work>
   void run(int num_parts, const Work& work) noexcept {
@@ -97,12 +97,12 @@ class ThreadTeam {
   }
 
  private:
-  /// What a helper needs of a loop: a copy of its work, or where that is.
+  /// What a worker needs of a loop: a copy of its work, or where that is.
   using Job = std::array<std::uint64_t, 13>;
   using Call = void (*)(const Job& job, int part) noexcept;
   static constexpr std::uint64_t kNone = 0;
-  /// [s] What a team that has been good for long may lose to stopped helpers before its caller does without them.
-  static constexpr double kMostCredit = 20e-3;
+  /// [s] What a team that has been good for long may lose to stopped workers before its caller does without them.
+  static constexpr double kMostBudget = 20e-3;
   template <class Work>
   static constexpr std::size_t kWords = (sizeof(Work) + sizeof(Job::value_type) - 1) /
                                         sizeof(Job::value_type);
@@ -127,18 +127,18 @@ class ThreadTeam {
   };
   static_assert(sizeof(Loop) == 128);
   /// The last loop in which somebody has taken a part. Each has a cache line.
-  struct alignas(64) Ticket {
+  struct alignas(64) Claim {
     std::atomic<std::uint64_t> loop{0};
   };
 
-  /// Calls for helpers.
+  /// Calls for workers.
   void open(int num_threads);
   /// Sends them away. Without effect on a team that is not open.
   void close();
   void run_shared(int num_parts, Call call, const Job& job, int num_words);
-  void help();
-  void help_with(std::uint64_t loop, int member);
-  bool take_part(std::uint64_t loop, int part);
+  void run_worker();
+  void work_on_loop(std::uint64_t loop, int member);
+  bool claim_part(std::uint64_t loop, int part);
   /// The first of the parts that a member begins with. The caller is number 0, whose parts nobody else takes; it has the odd one, for
   /// it is there first.
   [[nodiscard]] int first_part(int member, int num_parts) const {
@@ -147,29 +147,29 @@ class ThreadTeam {
   [[nodiscard]] std::uint64_t parts_of(int member, int num_parts) const;  ///< flags
   [[nodiscard]] int num_present();
   [[nodiscard]] std::uint64_t awaited_parts(int num_parts);  ///< flags
-  /// taken_parts: flags of those of helpers that the caller has taken.
-  void note_away(int num_parts, std::uint64_t taken_parts);
-  void learn();
+  /// taken_parts: flags of those of workers that the caller has taken.
+  void note_absent(int num_parts, std::uint64_t taken_parts);
+  void update_fallback();
 
   Loop loop_;
   std::uint64_t num_loops_ = 0;
   std::uint64_t num_done_before_ = 0;  ///< num_done_ after the last loop
   alignas(64) std::atomic<bool> is_open_{false};
-  std::atomic<int> num_helpers_{0};                     ///< that have come
-  alignas(64) std::atomic<std::uint64_t> num_done_{0};  ///< parts of all loops, by helpers
-  std::array<Ticket, kMostParts> tickets_;
+  std::atomic<int> num_workers_{0};                     ///< that have come
+  alignas(64) std::atomic<std::uint64_t> num_done_{0};  ///< parts of all loops, by workers
+  std::array<Claim, kMostParts> claims_;
   int num_scopes_ = 0;
   int num_threads_ = 1;
-  std::uint64_t away_ = 0;     ///< flags of members
+  std::uint64_t absent_ = 0;   ///< flags of members
   int looks_for_arrival_ = 0;  ///< that are left
   std::chrono::steady_clock::time_point opened_;
-  double lost_ = 0;              ///< since then, in waiting for stopped helpers [s]
-  double credit_ = kMostCredit;  ///< gained by helpers over lost, at most kMostCredit [s]
-  int num_alone_ = 0;            ///< times to be opened without helpers
-  int next_alone_ = 0;           ///< the same when the credit is used up
-  int num_good_ = 0;             ///< times open with credit left since next_alone_ has changed
+  double lost_ = 0;              ///< since then, in waiting for stopped workers [s]
+  double budget_ = kMostBudget;  ///< gained by workers over lost, at most kMostCredit [s]
+  int num_serial_ = 0;           ///< times to be opened without workers
+  int next_serial_ = 0;          ///< the same when the credit is used up
+  int num_good_ = 0;             ///< times open with credit left since next_serial_ has changed
   /// Made by open(): a group belongs to the parallel loop that it was first used in, for ever.
-  std::optional<tbb::task_group> helpers_;
+  std::optional<tbb::task_group> workers_;
 };
 
 }  // namespace weft::fast

@@ -1,4 +1,4 @@
-// Rigid bodies that give way: six unknowns each, solved for together with the nodes.
+// Rigid bodies that are coupled both ways: six unknowns each, solved for together with the nodes.
 #include <algorithm>
 
 #include <weft/fast_solver/implicit_solver.hpp>
@@ -33,31 +33,33 @@ void ImplicitSolver<Scalar>::load_bodies(const StepProblem<Scalar>& problem) {
 }
 
 template <class Scalar>
-void ImplicitSolver<Scalar>::link(int node, int body, const Vector3<Scalar>& arm,
+void ImplicitSolver<Scalar>::link(int node, int body, const Vector3<Scalar>& lever_arm,
                                   const Vector3<Scalar>& normal) {
-  links_.push_back({node, body, arm.template cast<float>(), normal.template cast<float>()});
+  links_.push_back({node, body, lever_arm.template cast<float>(), normal.template cast<float>()});
 }
 
 // The motion in the present state; none for what is no body.
 template <class Scalar>
-Vector3<Scalar> ImplicitSolver<Scalar>::motion_with(int body, const Vector3<Scalar>& arm) const {
+Vector3<Scalar> ImplicitSolver<Scalar>::motion_with(int body,
+                                                    const Vector3<Scalar>& lever_arm) const {
   if (body < 0) return Vector3<Scalar>::Zero();
-  return motion_at(bodies_[at(body)].motion, arm);
+  return motion_at(bodies_[at(body)].motion, lever_arm);
 }
 
 // An arm that the body has turned: by more than its first order, or what hangs on a body that spins would be drawn out.
 template <class Scalar>
-Vector3<Scalar> ImplicitSolver<Scalar>::turned(int body, const Vector3<Scalar>& arm) const {
+Vector3<Scalar> ImplicitSolver<Scalar>::turned(int body, const Vector3<Scalar>& lever_arm) const {
   const Vector3<Scalar> turn = bodies_[at(body)].motion.template tail<3>();
   const Scalar angle = turn.norm();
-  if (angle == 0) return arm;
-  return Eigen::AngleAxis<Scalar>(angle, turn / angle) * arm;
+  if (angle == 0) return lever_arm;
+  return Eigen::AngleAxis<Scalar>(angle, turn / angle) * lever_arm;
 }
 
 template <class Scalar>
-Vector3<Scalar> ImplicitSolver<Scalar>::place_of(const LedNode<Scalar>& led) const {
-  const Vector3<Scalar> way = bodies_[at(led.body)].motion.template head<3>();
-  return led.place + way + turned(led.body, led.arm) - led.arm;
+Vector3<Scalar> ImplicitSolver<Scalar>::position_of(const KinematicNode<Scalar>& kinematic) const {
+  const Vector3<Scalar> displacement = bodies_[at(kinematic.body)].motion.template head<3>();
+  return kinematic.position + displacement + turned(kinematic.body, kinematic.lever_arm) -
+         kinematic.lever_arm;
 }
 
 template <class Scalar>
@@ -80,7 +82,7 @@ void ImplicitSolver<Scalar>::gather_of(int body, const Floats& forces, Floats6& 
   }
 }
 
-// A body that nothing is linked to in this round has moved as if left alone.
+// A body that nothing is linked to in this iteration has moved as if left alone.
 template <class Scalar>
 void ImplicitSolver<Scalar>::release_bodies() {
   for (Body& body : bodies_) body.is_linked = false;
@@ -90,10 +92,10 @@ void ImplicitSolver<Scalar>::release_bodies() {
   }
 }
 
-// What a body resists with, and the springs of all nodes that move with it: column by column, for springs
+// What a body resists with, and the springs of all nodes that move with it: column by column, because springs
 // between two such nodes do not resist. Only at these nodes is anything moved or asked for.
 template <class Scalar>
-void ImplicitSolver<Scalar>::factorise_bodies() {
+void ImplicitSolver<Scalar>::factorize_bodies() {
   if (bodies_.empty()) return;
   Floats& correction = corrections_[0];
   correction.setZero();
@@ -127,18 +129,18 @@ void ImplicitSolver<Scalar>::factorise_bodies() {
 
 // What pushes the bodies in the present state: nodes, friction, their own inertia.
 template <class Scalar>
-void ImplicitSolver<Scalar>::find_unbalanced(Floats6 Body::*result) {
+void ImplicitSolver<Scalar>::find_body_residuals(Floats6 Body::*result) {
   for (Body& body : bodies_) body.*result = -(body.inertia * body.motion.template cast<float>());
   for (const Link& link : links_) {
     const Vector3<Scalar> normal = link.normal.template cast<Scalar>();
-    Vector3<Scalar> force = at_node(unbalanced_, link.node);
+    Vector3<Scalar> force = at_node(residual_forces_, link.node);
     if (!normal.isZero(0)) {
       force = normal.dot(force) * normal - friction_.col(link.node).template cast<Scalar>();
     }
     const Vector3<float> rounded = force.template cast<float>();
     Floats6& sum = bodies_[at(link.body)].*result;
     sum.template head<3>() += rounded;
-    sum.template tail<3>() += link.arm.cross(rounded);
+    sum.template tail<3>() += link.lever_arm.cross(rounded);
   }
 }
 
@@ -147,12 +149,13 @@ void ImplicitSolver<Scalar>::move_bodies(Scalar share) {
   for (Body& body : bodies_) body.motion += share * body.step.template cast<Scalar>();
 }
 
-/// The work of the forces that are left with the last step [J].
+/// The work of the residual forces with the last step [J].
 template <class Scalar>
 double ImplicitSolver<Scalar>::work_of_bodies() {
-  find_unbalanced(&Body::unbalanced);
+  find_body_residuals(&Body::present_residual);
   double work = 0;
-  for (const Body& body : bodies_) work += static_cast<double>(body.unbalanced.dot(body.step));
+  for (const Body& body : bodies_)
+    work += static_cast<double>(body.present_residual.dot(body.step));
   return work;
 }
 

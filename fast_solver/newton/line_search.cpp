@@ -10,8 +10,8 @@ namespace {
 constexpr double kSmallestShare = 0.1;
 /// The share of that energy that rounding may make of a step that changes nothing [-].
 constexpr double kRoundingShare = 0.01;
-/// Rounds of a step that the budget has left with more energy than it began with.
-constexpr int kSafeRounds = 8;
+/// Iterations of a step that the budget has left with more energy than it began with.
+constexpr int kSafeIterations = 8;
 constexpr int kHalvings = 6;
 /// A motion with so many times the energy of the motion without springs has gone astray, and is begun anew [-].
 constexpr double kFarUp = 10;
@@ -22,64 +22,67 @@ std::size_t at(int i) {
 
 }  // namespace
 
-// A linearisation may promise too much where springs turn far in one step. The work of the forces
+// A linearization may promise too much where springs turn far in one step. The work of the forces
 // that are left tells: if it opposes the step by more than half of what drove it, back to where a
 // straight line between the two is zero.
 template <class Scalar>
-bool ImplicitSolver<Scalar>::hold_back(double work_before, std::size_t num_held) {
-  const double work_after = work_left_ - work_of_held(num_held) + work_of_bodies();
+bool ImplicitSolver<Scalar>::shorten_step(double work_before, std::size_t num_constrained) {
+  const double work_after = work_left_ - work_of_constrained(num_constrained) + work_of_bodies();
   if (!(work_before > 0 && work_after < -0.5 * work_before)) return false;
   const double share = std::max(kSmallestShare, work_before / (work_before - work_after));
   const auto excess = static_cast<Scalar>(1.0 - share);
   // What the whole step has led to a plane may not come to it on a part of the way.
-  for (std::size_t k = num_held; k < held_.size(); ++k) {
-    holds_[at(held_[k])] = Hold::kFree;
-    contact_of_[at(held_[k])] = -1;
+  for (std::size_t k = num_constrained; k < constrained_.size(); ++k) {
+    contact_states_[at(constrained_[k])] = ContactState::kFree;
+    contact_of_[at(constrained_[k])] = -1;
   }
-  held_.resize(num_held);
-  for (const int i : held_) step_.row(i).setZero();
+  constrained_.resize(num_constrained);
+  for (const int i : constrained_) step_.row(i).setZero();
   add_motions(&Body::step, step_);
   move_bodies(-excess);
-  places_ -= excess * step_.template cast<Scalar>();
+  positions_ -= excess * step_.template cast<Scalar>();
   return true;
 }
 
 template <class Scalar>
-double ImplicitSolver<Scalar>::energy_of(NodeRange nodes, const Nodes& places) const {
-  const double squares = sum_kernel<Scalar>().weighted_distance(
-      weights_.data(), static_cast<int>(weights_.size()), nodes, places.data(), targets_.data());
-  return forces_.potential(nodes, places) + 0.5 * squares;
+double ImplicitSolver<Scalar>::energy_of(NodeRange nodes, const Nodes& positions) const {
+  const double squares =
+      sum_kernel<Scalar>().weighted_distance(weights_.data(), static_cast<int>(weights_.size()),
+                                             nodes, positions.data(), inertial_positions_.data());
+  return forces_.potential(nodes, positions) + 0.5 * squares;
 }
 
-// What an implicit step minimises [J], with the bodies that give way to it and with what friction does.
+// What an implicit step minimizes [J], with the bodies that are coupled both ways and with what friction does.
 template <class Scalar>
-double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem, const Nodes& places,
+double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem, const Nodes& positions,
                                       Vector6 Body::*motion) {
-  return sum_over_parts([&](NodeRange nodes) { return energy_of(nodes, places); }) +
-         energy_of_step_forces(places) + energy_of_holds(problem, places, motion);
+  return sum_over_parts([&](NodeRange nodes) { return energy_of(nodes, positions); }) +
+         energy_of_step_forces(positions) + energy_of_contacts(problem, positions, motion);
 }
 
 template <class Scalar>
-double ImplicitSolver<Scalar>::energy_of_holds(const StepProblem<Scalar>& problem,
-                                               const Nodes& places, Vector6 Body::*motion) const {
+double ImplicitSolver<Scalar>::energy_of_contacts(const StepProblem<Scalar>& problem,
+                                                  const Nodes& positions,
+                                                  Vector6 Body::*motion) const {
   double sum = 0;
   for (const Body& body : bodies_) {
-    const Vector6& way = body.*motion;
-    sum += 0.5 * static_cast<double>(way.dot(body.inertia.template cast<Scalar>() * way));
+    const Vector6& displacement = body.*motion;
+    sum += 0.5 * static_cast<double>(
+                     displacement.dot(body.inertia.template cast<Scalar>() * displacement));
   }
-  for (const int i : held_) {
+  for (const int i : constrained_) {
     if (contact_of_[at(i)] < 0) continue;
     // A surface that is led may do work by friction; slip only takes it away.
     const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
     const Vector3<Scalar> friction = friction_.col(i).template cast<Scalar>();
-    Vector3<Scalar> slip = at_node(places, i) - at_node(starts_, i) - contact.motion;
+    Vector3<Scalar> slip = at_node(positions, i) - at_node(start_positions_, i) - contact.motion;
     if (contact.body < 0) {
-      if (holds_[at(i)] == Hold::kOnPlane) {
-        sum += static_cast<double>(friction_bounds_[i] * slip_of(contact, at_node(places, i)));
+      if (contact_states_[at(i)] == ContactState::kOnPlane) {
+        sum += static_cast<double>(friction_bounds_[i] * slip_of(contact, at_node(positions, i)));
       }
       continue;
     }
-    slip -= motion_at(bodies_[at(contact.body)].*motion, contact.arm);
+    slip -= motion_at(bodies_[at(contact.body)].*motion, contact.lever_arm);
     sum -= static_cast<double>(std::min(Scalar(0), friction.dot(slip)));
   }
   return sum;
@@ -90,63 +93,64 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
   for_each_part([&](NodeRange nodes) {
     const int count = nodes.end - nodes.begin;
-    unmoved_.middleRows(nodes.begin, count) = starts_.middleRows(nodes.begin, count);
+    unmoved_.middleRows(nodes.begin, count) = start_positions_.middleRows(nodes.begin, count);
   });
-  for (const int node : pinned_) unmoved_.row(node) = targets_.row(node);
+  for (const int node : pinned_) unmoved_.row(node) = inertial_positions_.row(node);
   for (Body& body : bodies_) {
     body.unmoved = body.is_linked ? Vector6(-body.motion_alone) : Vector6(Vector6::Zero());
   }
-  for (const LedNode<Scalar>& led : problem.led) {
-    Vector3<Scalar> place = led.place;
-    if (led.body >= 0) place += motion_at(bodies_[at(led.body)].unmoved, led.arm);
-    unmoved_.row(led.node) = place.transpose();
+  for (const KinematicNode<Scalar>& kinematic : problem.kinematic) {
+    Vector3<Scalar> position = kinematic.position;
+    if (kinematic.body >= 0)
+      position += motion_at(bodies_[at(kinematic.body)].unmoved, kinematic.lever_arm);
+    unmoved_.row(kinematic.node) = position.transpose();
   }
   for (const PlaneContact<Scalar>& contact : problem.contacts) {
     if (!is_free_[at(contact.node)] || contact.body >= 0) continue;
-    if (holds_[at(contact.node)] == Hold::kFixed) {
-      unmoved_.row(contact.node) = starts_.row(contact.node) + contact.motion.transpose();
+    if (contact_states_[at(contact.node)] == ContactState::kFixed) {
+      unmoved_.row(contact.node) = start_positions_.row(contact.node) + contact.motion.transpose();
     }
     const Scalar gap = contact.normal.dot(at_node(unmoved_, contact.node)) - contact.offset;
     if (gap < 0) unmoved_.row(contact.node) -= gap * contact.normal.transpose();
   }
 }
 
-// The exact solution has no more of the energy that it minimises than the places at the start. One that has is iterated on,
-// with a linearisation that no spring can exceed: each round takes energy away, however badly its linear system is solved (as
+// The exact solution has no more of the energy that it minimizes than the positions at the start. One that has is iterated on,
+// with a linearization that no spring can exceed: each iteration takes energy away, however badly its linear system is solved (as
 // the global step of Bouaziz et al. 2014). Contacts that come and go may spoil that: the last resort is a line search from the
 // start.
 template <class Scalar>
-void ImplicitSolver<Scalar>::descend(const StepProblem<Scalar>& problem, int iterations) {
+void ImplicitSolver<Scalar>::enforce_descent(const StepProblem<Scalar>& problem, int iterations) {
   stay_at_start(problem);
   const double slack = kRoundingShare * step_energy_;
   const double most = energy(problem, unmoved_, &Body::unmoved) + slack;
-  const double reached = energy(problem, places_, &Body::motion);
+  const double reached = energy(problem, positions_, &Body::motion);
   if (reached <= most) return;
   report_.is_converged = false;
   report_.energy_left = std::max(report_.energy_left, std::min(reached - most, step_energy_));
-  const auto goes_up = [&] { return !(energy(problem, places_, &Body::motion) <= most); };
-  if (!(reached <= most + kFarUp * step_energy_)) go_back();
-  forces_.set_least_across(1);
+  const auto goes_up = [&] { return !(energy(problem, positions_, &Body::motion) <= most); };
+  if (!(reached <= most + kFarUp * step_energy_)) restore_start();
+  forces_.set_least_transverse_stiffness(1);
   evaluate();
-  for (int round = 0; round < kSafeRounds; ++round) {
-    do_round(problem, {.iterations = iterations, .factorises = true});
+  for (int iteration = 0; iteration < kSafeIterations; ++iteration) {
+    iterate_once(problem, {.iterations = iterations, .factorizes = true});
     if (!goes_up()) break;
   }
-  forces_.set_least_across(0);
+  forces_.set_least_transverse_stiffness(0);
   for (int halving = 0; goes_up(); ++halving) {
     if (halving == kHalvings) {
-      go_back();
+      restore_start();
       break;
     }
-    places_ = Scalar(0.5) * (places_ + unmoved_);
+    positions_ = Scalar(0.5) * (positions_ + unmoved_);
     for (Body& body : bodies_) body.motion = Scalar(0.5) * (body.motion + body.unmoved);
   }
   evaluate();
 }
 
 template <class Scalar>
-void ImplicitSolver<Scalar>::go_back() {
-  places_ = unmoved_;
+void ImplicitSolver<Scalar>::restore_start() {
+  positions_ = unmoved_;
   for (Body& body : bodies_) body.motion = body.unmoved;
 }
 
@@ -155,16 +159,16 @@ void ImplicitSolver<Scalar>::go_back() {
 // rounding. Where something does, what is left over is no error of the whole body's: in a stiff sheet a
 // micrometre is worth many newtons.
 template <class Scalar>
-std::optional<Vector3<Scalar>> ImplicitSolver<Scalar>::find_balance(
+std::optional<Vector3<Scalar>> ImplicitSolver<Scalar>::net_momentum_correction(
     const StepProblem<Scalar>& problem) {
-  if (!pinned_.empty() || links_.size() != held_.size()) return std::nullopt;
+  if (!pinned_.empty() || links_.size() != constrained_.size()) return std::nullopt;
   for (const Body& body : bodies_) {
     if (body.is_linked && body.is_held) return std::nullopt;
   }
   const auto sum = sum_over_parts<Eigen::Vector4d>([&](NodeRange nodes) {  // of forces, of inertia
     const int count = nodes.end - nodes.begin;
     Eigen::Vector4d part;
-    part << unbalanced_.middleRows(nodes.begin, count)
+    part << residual_forces_.middleRows(nodes.begin, count)
                 .template cast<double>()
                 .colwise()
                 .sum()
@@ -185,8 +189,8 @@ std::optional<Vector3<Scalar>> ImplicitSolver<Scalar>::find_balance(
   // A step that was taken back has left over what planes would have held.
   for (const PlaneContact<Scalar>& contact : problem.contacts) {
     if (contact.body >= 0 && bodies_[at(contact.body)].is_linked) continue;
-    const Vector3<Scalar> place = at_node(places_, contact.node) + shift;
-    if (contact.normal.dot(place) < contact.offset) return std::nullopt;
+    const Vector3<Scalar> position = at_node(positions_, contact.node) + shift;
+    if (contact.normal.dot(position) < contact.offset) return std::nullopt;
   }
   for (Body& body : bodies_) {
     if (body.is_linked) body.motion.template head<3>() += shift;

@@ -1,0 +1,227 @@
+// Newton's method on the energy that an implicit step minimizes (Gast et al. 2015), with a line search on it.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <weft/fast_solver/implicit_solver.hpp>
+
+namespace weft::fast {
+namespace {
+
+/// Iterations after which the coarse correction is made anew, for the linearization as it is then.
+constexpr int kIterationsPerFactor = 4;
+/// How often in a step contacts are decided: in its first iterations, where most of them are found out, and of a solution.
+constexpr int kFirstDecisions = 2;
+constexpr int kMostDecisions = 8;
+/// How much an iteration's gain is of that of the one before: assumed of the first, and at most.
+constexpr double kFirstShrink = 0.1;
+constexpr double kSlowest = 0.9;
+/// Iterations whose shrinking tells how much the last one may have left.
+constexpr std::size_t kShrinksSeen = 4;
+/// From this share of the gain of the iteration before on, so many times, an iteration gains rounding only.
+constexpr double kStalled = 0.9;
+constexpr int kMostStalled = 3;
+/// Least stiffness across a spring over that along it, after an iteration that has gained energy, and how it grows if that was not
+/// enough: with 1 no iteration gains any.
+constexpr double kFirstTransverse = 0.02;
+constexpr double kTransverseGrowth = 7;
+/// The share of an energy that is rounding [-].
+constexpr double kEnergyRounding = 2e-7;
+/// There is no more to be gained than so many times what positions gain by their rounding alone [-].
+constexpr double kRoundings = 4;
+/// A single iteration may leave this share of the gain that is asked for [-].
+constexpr double kLastShare = 0.02;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::iterate_once(const StepProblem<Scalar>& problem,
+                                          const NewtonIteration& iteration) {
+  if (iteration.decides) {
+    decide_contact_states(problem, iteration);
+  } else {
+    list_constrained();
+    update_friction(problem);
+  }
+  set_system_inertia();
+  if (iteration.is_first || iteration.factorizes) {
+    const Scalar squared_step = problem.inertia_step * problem.inertia_step;
+    forces_.factorize(coarse_correction_, contact_states_, static_cast<float>(1 / squared_step),
+                      *team_);
+  }
+  last_gain_ = solve_linear(problem, iteration.iterations, iteration.least_gain);
+  const double of_bodies = work_of_bodies();
+  move();
+  const std::size_t num_constrained = constrained_.size();
+  const double of_others = of_bodies - work_of_constrained(num_constrained);
+  clamp(problem);
+  evaluate(iteration.linearizes);
+  if (!shorten_step(work_done_ + of_others, num_constrained)) return;
+  clamp(problem);
+  evaluate(iteration.linearizes);
+}
+
+// Newton's method until what is left to gain is less than asked for, or no more than rounding.
+template <class Scalar>
+void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
+                                     const SolverSettings& solver_settings) {
+  const bool has_contacts = !problem.contacts.empty();
+  const double asked = 2 * solver_settings.tolerance * solver_settings.tolerance * step_energy_;
+  double before = 0;
+  double energy_before = 0;
+  std::array<double, kShrinksSeen> last_shrinks{};
+  double transverse = 0;
+  double rounding = 0;
+  int num_stalled = 0;
+  int num_decisions = 0;
+  bool decides = true;
+  report_ = {.is_converged = false};
+  anderson_.forget();
+  for (int iteration = 0; iteration < solver_settings.newton_iterations && !report_.is_converged;
+       ++iteration) {
+    report_.newton_iterations = iteration + 1;
+    save_positions();
+    iterate_once(problem, {.iterations = solver_settings.linear_iterations,
+                           .is_first = iteration == 0,
+                           .decides = decides,
+                           .continues = problem.continues,
+                           .factorizes = iteration % kIterationsPerFactor == 0,
+                           .least_gain = kLastShare * asked});
+    if (decides) ++num_decisions;
+    if (iteration == 0) rounding = kRoundings * gain_of_rounding();
+    const bool are_contact_states_new = decides && (iteration == 0 || have_contact_states_changed_);
+    const double now = energy(problem, positions_, &Body::motion);
+    if (!are_contact_states_new && !(now <= energy_before * (1 + kEnergyRounding) + asked)) {
+      if (transverse == 1) {
+        // With this linearization every spring gains. What is left is rounding, if that is all that the step could have gained.
+        restore_positions();
+        const double least = std::max({rounding, asked, kEnergyRounding * std::abs(energy_before)});
+        const bool is_decided = !has_contacts || num_decisions >= kMostDecisions;
+        report_.is_converged = is_decided && !last_gain_.is_broken && last_gain_.total <= least;
+        break;
+      }
+      transverse = std::min(1.0, std::max(kFirstTransverse, kTransverseGrowth * transverse));
+      forces_.set_least_transverse_stiffness(static_cast<Scalar>(transverse));
+      restore_positions();
+      anderson_.forget();
+      decides = false;
+      continue;
+    }
+    energy_before = now;
+    transverse = transverse > kFirstTransverse ? transverse / kTransverseGrowth : 0.0;
+    forces_.set_least_transverse_stiffness(static_cast<Scalar>(transverse));
+    const double shrinks = before > 0 ? last_gain_.total / before : kFirstShrink;
+    const double limited = std::min(kSlowest, shrinks);
+    const double left = last_gain_.left + last_gain_.total * limited / (1 - limited);
+    // Accelerated iterations gain little now and then, with some way to go. That is known here, but too late to stop by.
+    last_shrinks[at(iteration) % last_shrinks.size()] = shrinks;
+    const double slowest =
+        std::min(kSlowest, *std::max_element(last_shrinks.begin(), last_shrinks.end()));
+    report_.energy_left = last_gain_.is_broken
+                              ? step_energy_
+                              : (last_gain_.left + last_gain_.total * slowest / (1 - slowest)) / 2;
+    num_stalled = !are_contact_states_new && !(shrinks < kStalled) ? num_stalled + 1 : 0;
+    // What is stiff goes on to gain by rounding alone, while what is soft may have some way to go.
+    const bool is_rounding = last_gain_.total <= rounding && !(shrinks < kStalled);
+    const bool is_solved = (left <= asked || is_rounding) && !last_gain_.is_broken;
+    const bool is_over =
+        is_solved || (num_stalled >= kMostStalled && solver_settings.tolerance > 0);
+    // With these contacts. Whether they are the right ones is asked of a solution: on the way there forces say little.
+    const bool can_decide = has_contacts && num_decisions < kMostDecisions;
+    report_.is_converged =
+        is_solved && (!has_contacts || (decides && !are_contact_states_new) || !can_decide);
+    if (is_over && !report_.is_converged && !can_decide) break;
+    decides = can_decide && ((iteration < kFirstDecisions && !problem.continues) || is_over);
+    if (decides) num_stalled = 0;
+    before = last_gain_.total;
+    if (are_contact_states_new) {
+      anderson_.forget();
+    } else if (!report_.is_converged && iteration + 1 < solver_settings.newton_iterations) {
+      energy_before = accelerate(problem, now);
+    }
+  }
+  forces_.set_least_transverse_stiffness(0);
+}
+
+// Goes on to the combination of the last iterations, if that has less energy than the last one has reached. Returns the energy then.
+template <class Scalar>
+double ImplicitSolver<Scalar>::accelerate(const StepProblem<Scalar>& problem, double reached) {
+  using Products = typename AndersonHistory<Scalar>::Products;
+  anderson_.next();
+  const Products products = sum_over_parts<Products>([this](NodeRange nodes) {
+    const Products of_part = anderson_.add(nodes, last_positions_, positions_, last_results_);
+    const int count = nodes.end - nodes.begin;
+    last_results_.middleRows(nodes.begin, count) = positions_.middleRows(nodes.begin, count);
+    return of_part;
+  });
+  for (Body& body : bodies_) {
+    if (anderson_.has_last()) {
+      body.result_changes[at(anderson_.newest())] = body.motion - body.last_result;
+    }
+    body.last_result = body.motion;
+  }
+  anderson_.added();
+  if (anderson_.count() == 0) return reached;
+  const typename AndersonHistory<Scalar>::Weights weights = anderson_.weights(products);
+  for_each_part(
+      [this, weights](NodeRange nodes) { anderson_.combine(nodes, weights, positions_); });
+  for (Body& body : bodies_) {
+    for (int k = 0; k < anderson_.count(); ++k) {
+      body.motion -= static_cast<Scalar>(weights[k]) * body.result_changes[at(k)];
+    }
+  }
+  const double combined = energy(problem, positions_, &Body::motion);
+  if (combined <= reached) {
+    evaluate();
+    return combined;
+  }
+  positions_ = last_results_;
+  for (Body& body : bodies_) body.motion = body.last_result;
+  return reached;
+}
+
+/// What an iteration would gain if positions were exact but for their last digit [J], twice an energy as LinearGain.
+template <class Scalar>
+double ImplicitSolver<Scalar>::gain_of_rounding() {
+  constexpr double kVariance = 1.0 / 12;  // of numbers rounded to whole ones
+  constexpr double kUnit = std::numeric_limits<Scalar>::epsilon();
+  const BlockArrays& blocks = forces_.diagonal_blocks();
+  return kVariance * kUnit * kUnit * sum_over_parts([&](NodeRange nodes) {
+           const int count = nodes.end - nodes.begin;
+           double sum = 0;
+           for (int axis = 0; axis < 3; ++axis) {
+             const auto stiffness = blocks.col(axis).segment(nodes.begin, count) +
+                                    inertia_.segment(nodes.begin, count);
+             const auto positions = positions_.col(axis).segment(nodes.begin, count);
+             sum +=
+                 static_cast<double>(positions.cwiseAbs2().template cast<float>().dot(stiffness));
+           }
+           return sum;
+         });
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::save_positions() {
+  for_each_part([this](NodeRange nodes) {
+    const int count = nodes.end - nodes.begin;
+    last_positions_.middleRows(nodes.begin, count) = positions_.middleRows(nodes.begin, count);
+  });
+  for (Body& body : bodies_) body.last_motion = body.motion;
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::restore_positions() {
+  positions_ = last_positions_;
+  for (Body& body : bodies_) body.motion = body.last_motion;
+  evaluate();
+}
+
+template class ImplicitSolver<float>;
+template class ImplicitSolver<double>;
+
+}  // namespace weft::fast
