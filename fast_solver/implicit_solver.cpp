@@ -14,17 +14,17 @@ namespace {
 /// together do not overshoot; .5 to .7 converge alike.
 constexpr float kSmoothing = 0.6F;
 
-/// What is wrong with a solution moves the rigid bodies that are coupled both ways: iterations on top, and the share of the first
+/// An error of the solution accelerates two-way coupled bodies: additional iterations, and the fraction of the first
 /// residual forces that may be left.
 constexpr int kLinkedIterations = 1;
 constexpr double kLinkedResidual = 0.02;
 
-/// An iteration that gains no more than this share of what its iteration has gained is the last of that iteration: with short steps
+/// An iteration that gains no more than this fraction of the gain so far is the last of its linear solve, because with short steps
 /// inertia outweighs springs.
 constexpr double kLastGain = 1e-4;
-/// Less than this share of a correction's curvature, left across the direction before, is rounding [-].
+/// A curvature below this fraction of the correction's own is rounding [-].
 constexpr float kLeastCurvature = 1e-4F;
-/// Iterations whose gains together tell what is left to gain, and the share of the whole that may be left.
+/// The last iterations whose gains estimate what is left to gain, and the fraction of the whole that may be left.
 constexpr int kGainDelay = 4;
 constexpr double kForcing = 0.1;
 
@@ -85,7 +85,7 @@ double ImplicitSolver<Scalar>::energy_of_step_forces(const Nodes& positions) {
   return step_force_law_->energy(step_force_positions_);
 }
 
-// Forces at the present positions, and what they would do along the last step.
+// Evaluates the residual at the present positions, and its work along the last step.
 template <class Scalar>
 void ImplicitSolver<Scalar>::evaluate(bool linearizes) {
   if (step_force_law_ != nullptr) evaluate_step_forces();
@@ -112,7 +112,7 @@ void ImplicitSolver<Scalar>::evaluate(bool linearizes) {
   residual_squares_ = both[1];
 }
 
-// By each node's own block of the diagonal, which says most about motion across the sheet.
+// Block Jacobi, the fine level of the preconditioner: it is accurate for motion that is transverse to the sheet.
 template <class Scalar>
 void ImplicitSolver<Scalar>::smooth(NodeRange nodes, Floats& correction) {
   const auto stride = static_cast<int>(blocks_.rows());
@@ -121,7 +121,7 @@ void ImplicitSolver<Scalar>::smooth(NodeRange nodes, Floats& correction) {
   project(nodes, correction);
 }
 
-// Rows of linked nodes hold their own motion across the normal, if any, and get that of the body.
+// Rows of linked nodes contain their own tangential motion, if any, and get that of the body.
 template <class Scalar>
 template <class Next>
 void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body::*motion,
@@ -186,7 +186,7 @@ typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition(F
   return sum;
 }
 
-// The right-hand side, and in step_ what holds demand of nodes before anything is solved for.
+// Sets up the right-hand side, and in step_ the displacements that constraints prescribe.
 template <class Scalar>
 void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
   for_each_part([this](NodeRange nodes) {
@@ -249,9 +249,9 @@ void ImplicitSolver<Scalar>::set_system_inertia() {
   }
 }
 
-// Leaves the corrections of the last iterations, which move() adds to the step. Flexible conjugate gradients (Notay 2000).
-// Returns twice the energy that the solution takes away, by the linear model: the sum of gain times length over iterations,
-// which is the squared energy norm of the error before; the last terms of it tell how much is left (Strakos and Tichy 2002).
+// Flexible conjugate gradients (Notay 2000). The preconditioned residuals of the last iterations stay in corrections_, and move()
+// adds them to the step. Returns twice the decrease of the quadratic model. It is the sum of gain times alpha, the squared
+// energy norm of the initial error; its last terms estimate what is left (Strakos and Tichy 2002).
 template <class Scalar>
 LinearGain ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem, int iterations,
                                                 double least_gain) {
@@ -311,7 +311,7 @@ LinearGain ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& probl
   return sum;
 }
 
-// What the corrections that are kept add to the step, and the last direction in their place if there is an iteration to follow.
+// Adds the stored corrections to the step, and replaces them by the last direction if another iteration follows.
 template <class Scalar>
 void ImplicitSolver<Scalar>::sum_up(NodeRange nodes, bool keeps_direction) {
   const int count = directions_.count();

@@ -23,17 +23,19 @@
 
 namespace weft::fast {
 
-/// Newton's method, each linear system by conjugate gradients, until the energy that is left to gain is below a tolerance. The
-/// preconditioner is additive, of two levels (Dryja and Widlund 1987): the blocks of the diagonal, which are exact where
-/// neighbors have little to say, and a correction on coarse basis functions over aggregates of nodes, which have the stiffness of the present
-/// step: what the cloth does slowly and together. Contacts are eliminated: a node on a plane moves in
-/// the plane, one that sticks not at all (Baraff and Witkin 1998), and what it takes to hold them is
-/// the contact force, whose sign and friction decide how the next iteration holds them. Nodes that touch a rigid body
-/// which is coupled both ways, or hang on it, move with it: its six unknowns are solved for with the nodes.
+/// Minimizes the incremental potential of one implicit step by Newton's method with a line search (Baraff and Witkin 1998; Gast
+/// et al. 2015). docs/implicit_step.md describes the whole iteration.
+/// Flexible conjugate gradients (Notay 2000) solve each linear system. The preconditioner is additive and has two levels (Dryja
+/// and Widlund 1987). The fine level inverts the 3 x 3 diagonal blocks. The coarse level is smoothed aggregation with the
+/// stiffness of the present step, because diagonal blocks do not see slow motions of the whole cloth.
 ///
-/// Places and forces in Scalar, corrections in single precision.
-/// Deterministic: the same bits for any number of threads. No allocation in solve(), except for more
-/// contacts than ever before, and where other nodes are led than in the step before.
+/// Contacts are eliminated from the linear system (Baraff and Witkin 1998): a sliding node moves in its plane and a sticking
+/// node does not move. The residual at such a node is the contact force. Its sign and Coulomb's law choose the contact state of
+/// the next iteration. Nodes that touch a two-way coupled rigid body move with it, and its six unknowns are solved for together
+/// with the nodes.
+///
+/// Positions and forces are Scalar; corrections are single precision. Results have the same bits for any number of threads.
+/// solve() allocates memory only if there are more contacts than ever before or if the set of kinematic nodes has changed.
 template <class Scalar>
 class ImplicitSolver : TeamLoops {
  public:
@@ -45,16 +47,16 @@ class ImplicitSolver : TeamLoops {
 
   [[nodiscard]] int num_nodes() const { return forces_.num_nodes(); }
 
-  /// The cloth has come apart: springs in the place of all that have an end among the changed nodes (flags),
-  /// copies of the origins behind the other nodes, masses of all [kg]. Takes a small part of what a
-  /// solver made anew takes, because coarse basis functions stay: copies have their origins' parts in them.
+  /// Updates the solver after the cloth has torn. springs: replaces all springs with an end among the changed nodes (flags);
+  /// masses: those of all nodes [kg]; origins: nodes whose copies are appended behind the others. It is much faster than a
+  /// new solver because a copy keeps the coarse basis functions of its origin.
   void tear(const SpringNetwork& springs, const std::vector<char>& is_changed,
             const VectorX<double>& masses, const std::vector<int>& origins);
 
-  /// Other nodes are free than before: n flags. Takes time for what is near them only.
+  /// Changes which nodes are free: n flags. The cost depends only on the neighborhood of the nodes that have changed.
   void set_free(const std::vector<bool>& is_free);
 
-  /// positions: 3 x n [m], in: a guess; out: the solution.
+  /// Solves one step. positions: 3 x n [m]; on entry the initial guess, on return the solution.
   void solve(const StepProblem<Scalar>& problem, const SolverSettings& solver_settings,
              Matrix3XRef<Scalar> positions) {
     WorkerTeam serial;
@@ -63,33 +65,33 @@ class ImplicitSolver : TeamLoops {
   void solve(const StepProblem<Scalar>& problem, const SolverSettings& solver_settings,
              Matrix3XRef<Scalar> positions, WorkerTeam& team);
 
-  /// After solve(): what a node is pushed with by contacts, or a kinematic node by what leads it [N]; zero for others.
+  /// After solve(): the force of a contact on its node, or the force that moves a kinematic node [N]. It is zero for other nodes.
   [[nodiscard]] Vector3<Scalar> constraint_force(int node) const {
     return at_node(constraint_forces_, node);
   }
-  /// After solve(): ways of some nodes in a row, 3 x their number [m] += what positions would need to be on top, if they had more digits; at most the
-  /// rounding of each. Of a slow motion in short steps it is a good part.
+  /// After solve(): adds the compensated update to displacements of consecutive nodes, 3 x their number [m]. Rounding removed
+  /// it from the positions. It matters because a slow motion moves nodes by few units in the last place in a short step.
   void add_compensation(int first_node, Matrix3XRef<Scalar> displacements) const;
-  /// After solve(): forces of springs and of the step's own forces on some nodes in a row, 3 x their number [N].
+  /// After solve(): the forces of the springs and of StepForces on some consecutive nodes, 3 x their number [N].
   void get_forces(int first_node, Matrix3XRef<Scalar> forces) const;
-  /// After solve(): the contact of the problem that holds a node, or -1.
+  /// After solve(): the index of the problem's contact that is active at a node, or -1.
   [[nodiscard]] int contact_of(int node) const {
     return contact_of_[static_cast<std::size_t>(node)];
   }
-  /// After solve(): how far a body of the problem is coupled both ways, of its center [m] and about it [rad]: the nodes have pushed
-  /// it and what holds it with (inertia + held) motion / h^2.
+  /// After solve(): the generalized displacement of a two-way coupled body relative to its motion without the cloth: translation of
+  /// its center [m] and rotation about it [rad]. The force on the body is (inertia + held) motion / h^2.
   [[nodiscard]] Vector6 body_motion(int body) const {
     return bodies_[static_cast<std::size_t>(body)].motion;
   }
-  /// After solve(): m |y - q|^2 / (2 h'^2), the energy of the motion without springs [J].
+  /// After solve(): m |y - q|^2 / (2 h'^2), the energy of the step's motion without springs [J].
   [[nodiscard]] double step_energy() const { return step_energy_; }
-  /// What springs store at positions, and what dampers take away on the way there from the start of the step [J].
+  /// The energy that springs store at these positions plus what dampers dissipate on the way there from the start of the step [J].
   [[nodiscard]] double spring_energy(ConstMatrix3XRef<Scalar> positions, WorkerTeam& team);
-  /// After solve(): whether a node was put in front of a plane that the last linear system did not know.
+  /// After solve(): whether a node was projected onto a plane that was not part of the last linear system.
   [[nodiscard]] bool was_clamped() const { return was_clamped_; }
   /// After solve().
   [[nodiscard]] const SolverReport& report() const { return report_; }
-  /// After solve(): root mean square of the residual forces over that of the step's first guess [-].
+  /// After solve(): the root mean square residual over that of the initial guess [-].
   [[nodiscard]] double residual() const { return residual_; }
 
  private:
@@ -129,7 +131,7 @@ class ImplicitSolver : TeamLoops {
   void smooth(int part);
   void load_bodies(const StepProblem<Scalar>& problem);
   void link(int node, int body, const Vector3<Scalar>& lever_arm, const Vector3<Scalar>& normal);
-  /// The motion of what is at the end of an arm, to first order.
+  /// The displacement at the end of a lever arm, to first order.
   [[nodiscard]] static Vector3<Scalar> motion_at(const Vector6& motion,
                                                  const Vector3<Scalar>& lever_arm) {
     return motion.template head<3>() + motion.template tail<3>().cross(lever_arm);
@@ -164,7 +166,7 @@ class ImplicitSolver : TeamLoops {
   void save_positions();
   void restore_positions();
   [[nodiscard]] double accelerate(const StepProblem<Scalar>& problem, double reached);
-  /// What an implicit step minimizes [J].
+  /// The incremental potential [J].
   [[nodiscard]] double energy(const StepProblem<Scalar>& problem, const Nodes& positions,
                               Vector6 Body::*motion);
   [[nodiscard]] double energy_of(NodeRange nodes, const Nodes& positions) const;
@@ -186,24 +188,25 @@ class ImplicitSolver : TeamLoops {
   void update_compensation(NodeRange nodes);
   void clamp(const StepProblem<Scalar>& problem);
 
-  const StepForces<Scalar>* step_force_law_ = nullptr;  ///< likewise
+  const StepForces<Scalar>* step_force_law_ = nullptr;  ///< while a step is solved
   NetworkForces<Scalar> forces_;
   CoarseCorrection coarse_correction_;
-  VectorX<Scalar> masses_;  ///< [kg], filled up with zeros
+  VectorX<Scalar> masses_;  ///< [kg], padded with zeros
   std::vector<bool> is_free_;
   std::vector<int> pinned_;
-  std::vector<int> kinematic_;  ///< ascending: of the last step
+  std::vector<int> kinematic_;  ///< those of the last step, ascending
   std::vector<int> next_kinematic_;
-  std::vector<int> constrained_;  ///< nodes with a hold, in order while linear systems are solved
+  std::vector<int>
+      constrained_;  ///< nodes that are not kFree, ascending while linear systems are solved
   std::vector<Link> links_;
   std::vector<Body> bodies_;
-  std::vector<int> linked_blocks_;   ///< of nodes
-  VectorX<float> inertia_;           ///< m / h'^2 [N/m]; 0 for pinned nodes; filled up with zeros
-  VectorX<float> system_inertia_;    ///< the same with the drag of friction
+  std::vector<int> linked_blocks_;   ///< blocks of nodes that are linked to one body
+  VectorX<float> inertia_;           ///< m / h'^2 [N/m]; 0 for pinned nodes; padded with zeros
+  VectorX<float> system_inertia_;    ///< inertia_ plus the drag of friction
   bool has_drag_ = false;            ///< system_inertia_ differs
-  VectorX<Scalar> drag_;             ///< of each sliding node [N/m]
-  VectorX<Scalar> friction_bounds_;  ///< likewise, by Coulomb's law [N]
-  VectorX<Scalar> weights_;          ///< the same in Scalar
+  VectorX<Scalar> drag_;             ///< for each sliding node [N/m]
+  VectorX<Scalar> friction_bounds_;  ///< bound of each sliding node by Coulomb's law [N]
+  VectorX<Scalar> weights_;          ///< inertia_ in Scalar
   // The present problem [m].
   Nodes inertial_positions_;
   Nodes start_positions_;
@@ -212,27 +215,28 @@ class ImplicitSolver : TeamLoops {
   Nodes constraint_forces_;
   Nodes compensation_;
   Nodes unmoved_;
-  Nodes last_positions_;  ///< where the iteration began
-  Nodes last_results_;    ///< of the iteration before
+  Nodes last_positions_;  ///< positions at the start of the iteration
+  Nodes last_results_;    ///< result of the last iteration
   AndersonHistory<Scalar> anderson_;
-  Matrix3X<Scalar> step_force_positions_;  ///< as StepForces take them
+  Matrix3X<Scalar> step_force_positions_;  ///< positions as StepForces takes them
   Matrix3X<Scalar> step_forces_;
-  std::vector<ContactState> contact_states_;         ///< of each node, filled up
-  std::vector<ContactState> contact_states_before_;  ///< the same in the iteration before
-  std::vector<int> contact_of_;  ///< of each node: the contact that holds it, or -1
-  Matrix3X<float> normals_;      ///< of each node on a plane
-  Matrix3X<float> friction_;     ///< of each sliding node [N]
-  BlockArrays blocks_;           ///< inverse of the diagonal's
+  std::vector<ContactState> contact_states_;         ///< for each node, padded
+  std::vector<ContactState> contact_states_before_;  ///< contact states of the iteration before
+  std::vector<int> contact_of_;                      ///< for each node: its active contact, or -1
+  Matrix3X<float> normals_;                          ///< for each node on a plane
+  Matrix3X<float> friction_;                         ///< for each sliding node [N]
+  BlockArrays blocks_;                               ///< inverse diagonal blocks
   Floats step_, residual_vector_, direction_, direction_product_, correction_product_, work_;
   Floats smoothed_, coarse_;  ///< parts of a correction
   std::array<Floats, DirectionWeights::kMost> corrections_;
-  alignas(kAlignment) DirectionWeights directions_;  ///< made of them; not near what workers read
-  bool has_direction_ = false;   ///< from before the first of them, in direction_
-  double work_left_ = 0;         ///< residual_forces_ . step_ [J]
-  double residual_squares_ = 0;  ///< of residual_forces_ [N^2]
-  double work_done_ = 0;         ///< the same before the step was taken [J]
+  alignas(kAlignment)
+      DirectionWeights directions_;  ///< coefficients of corrections_, apart from what workers read
+  bool has_direction_ = false;       ///< direction_ holds the one before corrections_[0]
+  double work_left_ = 0;             ///< residual_forces_ . step_ [J]
+  double residual_squares_ = 0;      ///< squared norm of residual_forces_ [N^2]
+  double work_done_ = 0;             ///< work_left_ before the step was taken [J]
   double residual_ = 0;
-  LinearGain last_gain_;  ///< of the last iteration
+  LinearGain last_gain_;  ///< gain of the last iteration
   SolverReport report_;
   double step_energy_ = 0;
   bool has_constraint_forces_ = false;

@@ -17,11 +17,11 @@ struct BodyLink {
   Vector3<float> lever_arm;  ///< [m]
   Vector3<float> normal;     ///< zero: in all directions
 
-  /// The motion of the node's place with the body's motion: of its center, and about it.
+  /// The displacement of the node for a generalized displacement of the body.
   [[nodiscard]] Vector3<float> motion_with(const Eigen::Matrix<float, 6, 1>& motion) const {
     return along_link(motion.head<3>() + motion.tail<3>().cross(lever_arm));
   }
-  /// The transpose: adds to the force on the body, and about its center, what pushes the node.
+  /// The transpose: adds a force on the node to the generalized force on the body.
   void add_force(const Vector3<float>& force, Eigen::Matrix<float, 6, 1>& sum) const {
     const Vector3<float> felt = along_link(force);
     sum.head<3>() += felt;
@@ -33,18 +33,18 @@ struct BodyLink {
   }
 };
 
-/// What a step solves for of a rigid body that is coupled both ways: motions and forces of its center, and about it.
+/// The unknowns of a two-way coupled rigid body: generalized displacements and forces, about its center.
 template <class Scalar>
 struct LinkedBody {
   using Vector6 = Eigen::Matrix<Scalar, 6, 1>;
   using Floats6 = Eigen::Matrix<float, 6, 1>;
   using Matrix6 = Eigen::Matrix<float, 6, 6>;
 
-  Vector6 motion = Vector6::Zero();       ///< beyond that of the body left alone [m, rad]
-  Vector6 last_motion = Vector6::Zero();  ///< where the iteration began
-  Vector6 last_result = Vector6::Zero();  ///< of the iteration before
+  Vector6 motion = Vector6::Zero();       ///< relative to the motion of a free body [m, rad]
+  Vector6 last_motion = Vector6::Zero();  ///< motion at the start of the iteration
+  Vector6 last_result = Vector6::Zero();  ///< for the iteration before
   std::array<Vector6, AndersonHistory<Scalar>::kMemory> result_changes{};
-  Vector6 unmoved = Vector6::Zero();  ///< the same where nothing has moved in the step
+  Vector6 unmoved = Vector6::Zero();  ///< motion for which nothing has moved in the step
   Vector6 motion_alone = Vector6::Zero();
   Matrix6 inertia = Matrix6::Zero();  ///< over h^2
   Eigen::LLT<Matrix6> stiffness;      ///< with what is linked to it
@@ -52,7 +52,7 @@ struct LinkedBody {
   Floats6 step, residual, direction, direction_product;
   Floats6 correction, correction_product, coarse_product;
   Floats6 present_residual;
-  bool is_linked = false;  ///< any node, in the present round
+  bool is_linked = false;  ///< any node, in the present iteration
   bool is_held = false;    ///< by what is not among bodies
 };
 

@@ -2,13 +2,13 @@
 
 namespace weft::fast {
 
-/// How well a step was solved: by Newton's method, each iteration of which minimizes a model of the step's energy
+/// How accurately a step was solved. Each Newton iteration minimizes a quadratic model of the incremental potential
 ///
 ///   E(x) = m |x - y|^2 / (2 h'^2) + V(x)
 ///
-/// A solution that is e away from the minimum has e^T H e / 2 more energy than it. Where no spring is compressed, H is at
-/// least m / h'^2, and what is left to gain bounds the error: the root mean square of |e| over the mass is at most
-/// h' sqrt(2 energy_left / m). Compressed springs push nodes aside, and a sheet that crumples may be farther off.
+/// A solution with the error e has e^T H e / 2 more energy than the minimum, H the Hessian. If no spring is compressed, H is at
+/// least m / h'^2. Then the root mean square of |e| over the mass is at most h' sqrt(2 energy_left / m). Compressed springs
+/// soften H, so that the error of a crumpled sheet may be larger.
 struct SolverReport {
   int newton_iterations = 0;  ///< linearizations
   double energy_left = 0.0;  ///< what more iterations would gain, from how the last ones shrank [J]

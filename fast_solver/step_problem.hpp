@@ -7,7 +7,8 @@
 
 namespace weft::fast {
 
-/// Forces that follow the positions within a step, beside those of the network: minus the gradient of an energy.
+/// Forces that depend on the positions within a step, in addition to those of the network. They are minus the gradient of an
+/// energy.
 template <class Scalar>
 class StepForces {
  public:
@@ -21,11 +22,11 @@ class StepForces {
   [[nodiscard]] virtual double energy(ConstMatrix3XRef<Scalar> positions) const = 0;
 };
 
-/// One implicit step: find x with
+/// One implicit step. It asks for the x that solves
 ///
 ///   m_i (x_i - y_i) / h'^2 = f_i(x) + contact_i         for free nodes
 ///
-/// f of a SpringNetwork and of StepForces, y where the node would go without f. Implicit Euler has h' = h.
+/// where f are the forces of a SpringNetwork and of StepForces and y are the inertial positions. Implicit Euler has h' = h.
 template <class Scalar>
 struct StepProblem {
   Eigen::Ref<const Matrix3X<Scalar>>

@@ -8,7 +8,7 @@
 namespace weft::fast {
 namespace {
 
-/// Coarse basis functions are at least so many, or 2.5 sqrt(nodes): what it takes to factorize grows slower than the network then.
+/// There are at least so many coarse basis functions, or 2.5 sqrt(nodes). Then the cost of the factor grows slower than the network.
 constexpr int kLeastBasis = 24;
 constexpr double kBasisPerRoot = 2.5;
 /// Terms below this share of a spring's largest one are left out [-]. Where springs are much stiffer than inertia, what is
@@ -17,7 +17,7 @@ constexpr double kBasisPerRoot = 2.5;
 constexpr float kLeastTerm = 0.01F;
 /// A coupling below this share of the largest one of each of its two coarse basis functions is taken for none [-].
 constexpr float kLeastCoupling = 0.003F;
-/// Sum of the numbers of a spring's coarse basis functions, from which on it couples them to what does not move: these springs all count.
+/// A spring whose coefficients have at least this sum couples basis functions to fixed nodes. All such springs count.
 constexpr float kLeastBound = 0.05F;
 /// Springs of a coarse basis function that are enough to know the stiffness between it and its neighbors, about.
 constexpr int kSpringsOfBasis = 60;
@@ -56,7 +56,7 @@ CoarseCorrection::CoarseCorrection(const ConnectivityGraph& network, const EdgeS
   note_springs(slots, {});
 }
 
-// What depends on which coarse basis functions know each other.
+// Rebuilds what depends on the pairs of coupled basis functions.
 void CoarseCorrection::make_factor() {
   first_pairs_.clear();
   for (int basis = 0; basis <= num_basis_; ++basis) {
@@ -104,7 +104,7 @@ void CoarseCorrection::set_basis_weights(int node, const Prolongation& basis_fun
   }
 }
 
-// Where there is no part in a coarse basis function, one that is near, so that coarse basis functions of a part of the nodes are.
+// Points unused entries to a basis function nearby, so that those of a node range stay in a narrow interval.
 void CoarseCorrection::fill_gaps(NodeRange nodes) {
   const auto begin = weights_.begin() + nodes.begin;
   const auto end = weights_.begin() + nodes.end;
@@ -206,7 +206,7 @@ CoarseCorrection::Row CoarseCorrection::difference(int node, int other) const {
   return row;
 }
 
-/// -1 for coarse basis functions that do not know each other.
+/// Returns -1 for coarse basis functions that are not coupled.
 int CoarseCorrection::pair_of(int a, int b) const {
   const std::pair<int, int> both = std::minmax(a, b);
   const auto end = pairs_.begin() + first_pairs_[at(both.first) + 1];
@@ -214,7 +214,7 @@ int CoarseCorrection::pair_of(int a, int b) const {
   return found != end && *found == both ? static_cast<int>(found - pairs_.begin()) : -1;
 }
 
-// The energy of sum d_a x_a over a spring, as springs between coarse basis functions and to what does not move.
+// Expands the energy of a spring with the difference sum d_a x_a into springs between basis functions and to fixed points.
 void CoarseCorrection::add_terms(const Row& row, std::vector<CoarseTerm>& terms) const {
   float sum = 0;
   float largest = 0;
@@ -308,7 +308,7 @@ void CoarseCorrection::note_springs(const EdgeSlots& slots, const std::vector<ch
   }
 }
 
-// A network's nodes are in an order in which few coarse basis functions are those of a part's nodes.
+// Finds the interval of basis functions of a node range. It is narrow because the nodes are well ordered.
 void CoarseCorrection::find_ranges(int p) {
   Part& part = of_parts_[at(p)];
   part.basis_functions = {num_basis_, 0};

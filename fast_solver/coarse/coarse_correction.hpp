@@ -23,13 +23,14 @@ namespace weft::fast {
 /// Vectors of x, y, z and a number that is not used: what a processor loads and adds at once.
 using Fours = AlignedMatrix<float, 4, Eigen::Dynamic>;
 
-/// What a few iterations from node to node cannot carry: P (P^T A P)^-1 P^T residual, with A the linearized network as it is
-/// in the present step, and P coarse basis functions over aggregates of some tens of nodes (smoothed_aggregation.hpp). Whatever a cloth does
-/// slowly and together, it does nearly so: carry a corner's load, swing, fold over a collider.
+/// The coarse level of the preconditioner: P (P^T A P)^-1 P^T residual, with A the linearized network of the present step and P
+/// the coarse basis functions of smoothed aggregation (Vanek, Mandel and Brezina 1996; smoothed_aggregation.hpp). It carries
+/// what block Jacobi cannot: slow motions of the whole cloth, such as swinging or bearing a load at a corner. The Galerkin
+/// matrix P^T A P is assembled from a sample of the springs, which is enough to know the couplings (kSpringsOfBasis).
 ///
-/// Nodes that are held have no part in P.
-/// Threads  one object from one thread at a time, but for calls that say otherwise. Allocates nothing after construction, but
-///          for set_free(), add_copies() and note_springs().
+/// Nodes that cannot move have no weight in P.
+/// Threads  one object from one thread at a time, except where a function says otherwise. Memory is allocated only by the
+///          constructor, set_free(), add_copies() and note_springs().
 class CoarseCorrection {
  public:
   CoarseCorrection() = default;
@@ -41,12 +42,12 @@ class CoarseCorrection {
   /// network: all nodes, which are free. slots: of the same springs. set_masses() is due then.
   CoarseCorrection(const ConnectivityGraph& network, const EdgeSlots& slots);
 
-  /// The nodes of ring 0 are free if they were not, and the other way round: coarse basis functions anew for all within kBasisReach springs.
-  /// rings: up to twice that; network, is_free: of their nodes. set_masses() is due then.
+  /// Toggles whether the nodes of ring 0 are free, and recomputes the coarse basis functions within kBasisReach springs of them.
+  /// neighborhood: rings up to twice that; network, is_free: for its nodes. set_masses() must be called afterwards.
   void set_free(const ConnectivityGraph& network, const Neighborhood& neighborhood,
                 const std::vector<bool>& is_free, const EdgeSlots& slots);
 
-  /// Nodes that come behind the others, copies of these: they have their origins' parts.
+  /// Appends copies of these nodes behind the others. A copy has the weights of its origin.
   void add_copies(const std::vector<int>& origins);
   /// The springs of some blocks of kNodeBlock nodes, flags; and of all that come behind them.
   void note_springs(const EdgeSlots& slots, const std::vector<char>& blocks);
@@ -56,16 +57,16 @@ class CoarseCorrection {
   void set_bending(const EdgeSlots& slots, const std::function<double(std::size_t)>& stiffness);
   /// masses: of each node.
   void set_masses(const VectorX<float>& masses);
-  /// For the present linearization: linear as in NetworkView, root_scale too; holds of each node; inertia over mass.
+  /// Assembles and factorizes P^T A P. linear and root_scale are those of NetworkView; holds are the contact states of the nodes.
   void factorize(const unsigned short* linear, float root_scale,
                  const std::vector<ContactState>& holds, float inertia_over_mass, WorkerTeam& team);
 
-  /// The restriction of the residual of the nodes of a part. Several calls may run at once.
+  /// Restriction: the residual of one node range. Calls for different ranges may run at the same time.
   void restrict_residual(int part, const std::vector<int>& constrained,
                          const NodeArrays<float>& residual);
-  /// For coarse unknowns, after the residual of all nodes.
+  /// Solves for the coarse coefficients, after restrict_residual() of all ranges.
   void solve(WorkerTeam& team);
-  /// From coarse unknowns to the nodes of a part. Several calls may run at once.
+  /// Prolongation: the correction of one node range. Calls for different ranges may run at the same time.
   void prolongate(int part, const std::vector<int>& constrained,
                   NodeArrays<float>& correction) const;
 
@@ -80,7 +81,7 @@ class CoarseCorrection {
     int begin = 0;
     int end = 0;
   };
-  /// What the nodes of a part add up.
+  /// The contribution of one node range to the coarse system.
   struct Part {
     Range basis_functions;
     Range sums;
@@ -88,13 +89,13 @@ class CoarseCorrection {
     Fours residual;
     Fours other_residual;
   };
-  /// Numbers of some coarse basis functions.
+  /// A sparse row: coefficients of some coarse basis functions.
   struct Row {
     struct Entry {
       int basis;
       float coefficient;
     };
-    std::array<Entry, 6> entries;  ///< of two nodes at most
+    std::array<Entry, 6> entries;  ///< those of two nodes at most
     int count = 0;
 
     [[nodiscard]] const Entry* begin() const { return entries.data(); }
@@ -123,24 +124,24 @@ class CoarseCorrection {
 
   int num_nodes_ = 0;
   int num_basis_ = 0;
-  double springs_for_one_ = 1;  ///< that one in the sample stands for
+  double springs_for_one_ = 1;  ///< the number of springs that one in the sample stands for
   NodePartition parts_;
   Aggregates aggregates_;
   std::vector<BasisWeights> weights_;
-  std::vector<float> largest_couplings_;    ///< of each coarse basis function
-  std::vector<std::pair<int, int>> pairs_;  ///< of coarse basis functions, ascending
+  std::vector<float> largest_couplings_;    ///< for each coarse basis function
+  std::vector<std::pair<int, int>> pairs_;  ///< for coarse basis functions, ascending
   std::vector<int>
-      first_pairs_;  ///< of each coarse basis function as the lower one, and behind the last
+      first_pairs_;  ///< for each coarse basis function as the lower one, and behind the last
   std::vector<Block> blocks_;
-  std::vector<CoarseNode> alone_;  ///< of each node
+  std::vector<CoarseNode> alone_;  ///< for each node
   DissectedCholesky factor_;
   std::vector<Part> of_parts_;
   AlignedVector<float> sums_;     ///< blocks, of all parts
-  std::vector<float> bending_;    ///< of blocks, the same in all directions; empty: none
-  AlignedVector<float> masses_;   ///< of coarse basis functions
-  AlignedVector<float> inertia_;  ///< likewise
+  std::vector<float> bending_;    ///< for blocks, the same in all directions; empty: none
+  AlignedVector<float> masses_;   ///< for coarse basis functions
+  AlignedVector<float> inertia_;  ///< for coarse basis functions [N/m]
   std::vector<DissectedCholesky::Summand> residuals_;  ///< in of_parts_
-  Fours solution_;                                     ///< of coarse basis functions
+  Fours solution_;                                     ///< for coarse basis functions
 };
 
 }  // namespace weft::fast

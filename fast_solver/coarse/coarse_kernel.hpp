@@ -20,7 +20,7 @@ struct CoarseSpring {
   int node;
   int other;
   int num_terms;
-  float share;  ///< that the others like it have
+  float share;  ///< the number of springs that it stands for in the sample
 };
 
 /// The terms of a spring whose other end is held.
@@ -33,26 +33,26 @@ struct CoarseNode {
 struct CoarseSprings {
   const CoarseSpring* springs;
   int num_springs;
-  const CoarseTerm* terms;  ///< of all springs, one after the other
+  const CoarseTerm* terms;  ///< for all springs, one after the other
   const CoarseNode* nodes;
-  const unsigned char* is_held;  ///< of each node
+  const unsigned char* is_held;  ///< for each node
   const unsigned short* linear;
   float scale;    ///< of what is stored
   int first_sum;  ///< of those that are given
 };
 
-/// Rows of the upper factor U of a matrix that is a band with a separator, three rows for each unknown. A row of an unknown
-/// begins at the unknown's own column: near numbers, the rest of which are zeros, then those of the separator.
+/// Rows of the upper factor U of a subdomain, three for each unknown. A row starts at its unknown's own column: first the band,
+/// padded with zeros, then the columns of the separator.
 struct FactorRows {
   float* values;
-  float* diagonal;    ///< of each unknown, six: inverses of U's diagonal, then u01, u02, u12
+  float* diagonal;    ///< for each unknown, six: inverses of U's diagonal, then u01, u02, u12
   int num_near;       ///< kRowPad zeros and more included
-  int num_separator;  ///< multiple of kRowPad, filled up with zeros
-  int stride;         ///< of rows: both together
+  int num_separator;  ///< multiple of kRowPad, padded with zeros
+  int stride;         ///< for rows: both together
   int width;          ///< unknowns that a row reaches, its own included
 };
 
-/// A node's part in coarse basis functions; without one: weights of 0.
+/// The weights of a node in coarse basis functions. Unused entries have the weight 0.
 struct BasisWeights {
   int basis_functions[3] = {0, 0, 0};
   float weights[3] = {0, 0, 0};
@@ -62,20 +62,20 @@ struct CoarseKernel {
   /// sums[term.sum] += term.factor stiffness, for each term of each spring; those of its other end alone where one end is
   /// held, none where both are.
   void (*add_springs)(const CoarseSprings& springs, float* sums);
-  /// Makes the factor of num unknowns, which reach none behind them but the separator's. corner: what they take from the block
+  /// Makes the factor of num unknowns, which reach none behind them but the separator's. schur_complement: what they take from the block
   /// of the separator, rows of num_separator numbers, upper half. An unknown with a pivot below `least` of what is stored for it in
   /// diagonal gets no part in solutions.
   void (*factorize)(const FactorRows& rows, int num, float least, float* schur_complement);
-  /// vector = U^-T vector for these unknowns; separator -= what they leave for it.
+  /// Forward substitution: vector = U^-T vector, and separator -= the contribution of these unknowns.
   void (*forward_substitute)(const FactorRows& rows, int num, float* vector, float* separator);
-  /// vector = U^-1 vector, where separator has the separator's solution.
+  /// Backward substitution: vector = U^-1 vector, where separator holds the separator's solution.
   void (*backward_substitute)(const FactorRows& rows, int num, float* vector,
                               const float* separator);
   /// sums and other_sums, in fours, += weights of nodes times the nodes' values, from sum first_sum on: what is wanted is the
   /// sum of both.
   void (*restrict_residual)(const BasisWeights* weights, int begin, int end, const float* values,
                             long stride, int first_sum, float* sums, float* other_sums);
-  /// The transpose: values of nodes from fours.
+  /// Prolongation, the transpose: values of nodes from coarse coefficients in fours.
   void (*prolongate)(const BasisWeights* weights, int begin, int end, const float* fours,
                      float* values, long stride);
 };

@@ -21,10 +21,10 @@ int padded_size(int count) {
   return (count + kRowPad - 1) / kRowPad * kRowPad;
 }
 
-/// How many ends of a piece are looked at.
+/// The number of pseudo-peripheral unknowns of a component that are tried.
 constexpr int kMostEnds = 8;
 
-/// Walks from pair to pair. Takes time for what it reaches, not for all unknowns.
+/// Breadth-first search over pairs. Its cost depends on what it reaches, not on the number of unknowns.
 class BreadthFirstSearch {
  public:
   explicit BreadthFirstSearch(const Neighbors& neighbors)
@@ -54,13 +54,13 @@ class BreadthFirstSearch {
   std::vector<int> reached_;
 };
 
-/// An unknown of a piece, and how far the others are from it.
+/// A pseudo-peripheral unknown of a connected component, with the distance of every other one.
 struct PeripheralUnknown {
   int unknown;
-  std::vector<int> distances;  ///< of each of the piece, in its order
+  std::vector<int> distances;  ///< for each unknown of the component, in its order
 };
 
-/// Ends of a piece that are far from each other.
+/// Unknowns of a connected component that are far from each other (farthest-point sampling).
 std::vector<PeripheralUnknown> peripheral_unknowns(const std::vector<int>& component,
                                                    BreadthFirstSearch& search,
                                                    const std::vector<char>& is_in) {
@@ -94,7 +94,7 @@ int width_of(const std::vector<int>& order, const Neighbors& neighbors,
   return width;
 }
 
-/// The flagged unknowns in an order in which neighbors are near each other (Cuthill and McKee 1969): piece after piece,
+/// Cuthill and McKee's order (1969) of the flagged unknowns, which has a small bandwidth: component after component,
 /// each from the one of its ends that makes it narrowest.
 std::vector<int> narrow_order(const Neighbors& neighbors, std::vector<char> is_in,
                               BreadthFirstSearch& search) {
@@ -118,10 +118,10 @@ std::vector<int> narrow_order(const Neighbors& neighbors, std::vector<char> is_i
   return result;
 }
 
-/// A piece in two halves and what is between them.
+/// A connected component split into two subdomains and a separator.
 struct Dissection {
   std::vector<int> unknowns;
-  std::vector<signed char> side;  ///< of each of them: 0 or 1; 2: between
+  std::vector<signed char> side;  ///< for each of them: 0 or 1; 2: between
   std::array<int, 3> sizes{};
 };
 
@@ -142,7 +142,7 @@ Dissection dissect(const std::vector<int>& order, std::size_t count, const Neigh
   return result;
 }
 
-/// Across the way from one of its ends to another one: those for which least is between, and the halves are alike.
+/// Cuts between two pseudo-peripheral unknowns. The pair with a small separator and balanced subdomains is chosen.
 Dissection dissect(const std::vector<int>& component, const Neighbors& neighbors,
                    BreadthFirstSearch& search, const std::vector<char>& is_in) {
   const std::vector<PeripheralUnknown> ends = peripheral_unknowns(component, search, is_in);
@@ -170,7 +170,8 @@ Dissection dissect(const std::vector<int>& component, const Neighbors& neighbors
   return best;
 }
 
-/// 0 or 1: the half of each unknown; 2: what is between them. Only a piece that is most of all is parted.
+/// The subdomain of each unknown, 0 or 1; 2 is the separator. Only a component with more than half of all unknowns is split;
+/// smaller ones go to the subdomain that has fewer unknowns.
 std::vector<signed char> sides_of(const Neighbors& neighbors, BreadthFirstSearch& search) {
   const auto n = static_cast<int>(neighbors.size());
   std::vector<signed char> side(at(n), -1);
@@ -333,7 +334,7 @@ void DissectedCholesky::factorize(const float* blocks, const float* inertia, Wor
   kernel.factorize(rows, last.size(), kLeastPivot, nullptr);
 }
 
-// Each half sums up its own unknowns: most of what it reads is what its thread has written.
+// Each subdomain gathers its own right-hand side, because its thread has most of that data in its cache.
 void DissectedCholesky::gather(Subdomain& subdomain, std::span<const Summand> right) const {
   // Behind the unknowns too: what is not a number must not get stuck there.
   std::fill(subdomain.vector.begin(), subdomain.vector.end(), 0.0F);

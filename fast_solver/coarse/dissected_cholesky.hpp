@@ -12,9 +12,11 @@
 
 namespace weft::fast {
 
-/// The Cholesky factor of a matrix of 3 x 3 blocks that is made anew again and again, in single precision: a separator that
-/// parts the unknowns into two halves, each of them a band. The halves are independent work.
-/// Threads  one object from one thread at a time, and on a team. Allocates nothing after construction.
+/// Cholesky factor of a symmetric matrix of 3 x 3 blocks by one level of nested dissection (George 1973), in single precision.
+/// A separator splits the unknowns into two subdomains, which are factorized in parallel. Each subdomain is a band in
+/// Cuthill and McKee's order (1969) and contributes a Schur complement to the separator's dense block. The structure is
+/// analyzed once because the matrix is factorized again in every few iterations.
+/// Threads  one object from one thread at a time, and on a team. Only the constructor allocates memory.
 class DissectedCholesky {
  public:
   DissectedCholesky() = default;
@@ -44,7 +46,7 @@ class DissectedCholesky {
   void solve(std::span<const Summand> right, float* solution, WorkerTeam& team);
 
  private:
-  /// Unknowns begin ... end - 1 of the order; without a separator for the separator itself.
+  /// Unknowns begin ... end - 1 of the elimination order: a subdomain, or the separator itself.
   struct Subdomain {
     int begin = 0;
     int end = 0;
@@ -56,7 +58,7 @@ class DissectedCholesky {
     AlignedVector<float> vector;
     AlignedVector<float> schur_complement;
     AlignedVector<float> separator;
-    std::vector<int> pairs;  ///< that it has a block for
+    std::vector<int> pairs;  ///< pairs whose blocks it contains
 
     [[nodiscard]] int size() const { return end - begin; }
   };
@@ -69,12 +71,12 @@ class DissectedCholesky {
 
   static constexpr int kSubdomains = 2;
   std::array<Subdomain, kSubdomains + 1> subdomains_;  ///< the last one is the separator
-  std::vector<int> positions_;                         ///< of each unknown in the order
+  std::vector<int> positions_;                         ///< for each unknown in the order
   std::vector<int> unknowns_;                          ///< in the order
   std::vector<std::pair<int, int>> pairs_;
-  std::vector<int> first_pairs_;            ///< of each unknown as the lower one
-  std::vector<std::vector<int>> pairs_of_;  ///< of each unknown
-  int num_separator_ = 0;                   ///< numbers, filled up
+  std::vector<int> first_pairs_;            ///< for each unknown as the lower one
+  std::vector<std::vector<int>> pairs_of_;  ///< for each unknown
+  int num_separator_ = 0;                   ///< numbers, padded
 };
 
 }  // namespace weft::fast

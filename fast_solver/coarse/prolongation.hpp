@@ -6,7 +6,7 @@
 
 namespace weft::fast {
 
-/// How few nodes speak for many: value of unknown i = sum of weights times values of coarse unknowns.
+/// The prolongation matrix in compressed rows: unknown i = sum of weights times coarse coefficients.
 struct Prolongation {
   int num_coarse = 0;
   std::vector<int> starts;     ///< unknown i has entries starts[i] ... starts[i + 1] - 1

@@ -20,9 +20,9 @@ namespace {
 /// The relaxation of Jacobi's method [-].
 constexpr double kRelaxation = 2.0 / 3;
 constexpr int kSweeps = kBasisReach;
-/// Between roots, over that of springs and the root of an aggregate's unknowns: what gives about as many as are wanted on a grid.
+/// The distance of roots over the mean spring length times sqrt(unknowns per aggregate). It gives about the wanted number on a grid.
 constexpr double kMeanDistance = 0.6;
-/// Distances are made so much longer than a smaller number of roots asks for.
+/// Distances grow by this factor more than a smaller number of roots requires.
 constexpr double kWider = 1.03;
 
 std::size_t at(int i) {
@@ -75,7 +75,7 @@ class NearestRoots {
 };
 
 /// Unknowns with springs, corners and edges first: coarse basis functions are flat behind their last roots, a free edge is what swings
-/// most, and round a corner that is held they are steep.
+/// most, and around a corner that is held they are steep.
 std::vector<int> corners_first(const SymmetricMatrix& matrix) {
   std::vector<int> order;
   for (int i = 0; i < matrix.size(); ++i) {
@@ -110,7 +110,7 @@ Aggregates in_order(std::vector<int> aggregate_of, int num_aggregates) {
   return {count, std::move(aggregate_of)};
 }
 
-/// Rows of weights: what an unknown has of each aggregate.
+/// Sparse rows of weights: one weight per aggregate.
 class Rows {
  public:
   using Entry = std::pair<int, double>;  ///< aggregate, weight
@@ -130,7 +130,7 @@ class Rows {
   std::vector<std::size_t> starts_ = {0};
 };
 
-/// Each free unknown of the first count becomes what its neighbors are, by their springs, for a part.
+/// One damped Jacobi sweep over the first count unknowns; unknowns that are not free get no weights.
 void smooth(const SymmetricMatrix& matrix, const std::vector<bool>& is_free, int count,
             const Rows& rows, RowSum& sum, Rows& result) {
   result.clear();
@@ -174,9 +174,9 @@ Aggregates find_aggregates(const ConnectivityGraph& network, int num_aggregates)
   const double share = static_cast<double>(order.size()) / num_aggregates;
   double distance = share > 1 ? kMeanDistance * mean * std::sqrt(share) : 0.0;
   NearestRoots roots = roots_at(distance, order, network);
-  // No two roots of a piece are farther from each other than all springs are long.
+  // No two roots of a component are farther from each other than all springs are long.
   for (int last = 0; roots.num_roots() > num_aggregates && distance < sum;) {
-    // In a sheet. Many pieces have a root each, whatever the distance.
+    // This holds for a sheet. Many components keep a root each, whatever the distance.
     const double too_many = static_cast<double>(roots.num_roots()) / num_aggregates;
     distance = std::max(distance, mean / 2) * std::sqrt(too_many) *
                (roots.num_roots() == last ? 2.0 : kWider);

@@ -10,22 +10,22 @@ namespace weft::fast {
 /// Weights that an unknown has at most.
 inline constexpr int kMostWeights = 3;
 
-/// Springs in a row, beyond which it says nothing about an unknown's coarse basis functions whether another one is free.
+/// The reach of coarse basis functions: whether an unknown is free affects those of unknowns up to so many springs away.
 inline constexpr int kBasisReach = 4;
 
-/// Unknowns that are near each other over springs.
+/// Aggregates: disjoint sets of unknowns that springs connect.
 struct Aggregates {
   int count = 0;
   std::vector<int> of_unknown;  ///< -1: none
 };
 
-/// About num_aggregates of them or fewer, one in each piece of the network at least, numbered by their first unknowns. What has
-/// no springs has none. Whether unknowns are free makes no difference.
+/// About num_aggregates aggregates or fewer, but at least one in each connected component, numbered by their first unknowns. An
+/// unknown without springs belongs to none. Whether unknowns are free makes no difference.
 [[nodiscard]] Aggregates find_aggregates(const ConnectivityGraph& network, int num_aggregates);
 
-/// Coarse basis functions over aggregates, which overlap: an unknown has the part of each aggregate that it would have if its neighbors' parts were
-/// averaged some times (smoothed aggregation, Vanek, Mandel and Brezina 1996), the kMostWeights largest of them. Near
-/// what holds unknowns, coarse basis functions are low; those that are not free have none, nor has what has no aggregate.
+/// Coarse basis functions by smoothed aggregation (Vanek, Mandel and Brezina 1996): damped Jacobi sweeps smooth the indicator
+/// function of each aggregate, and an unknown keeps its kMostWeights largest weights. The functions are small near fixed
+/// unknowns. Unknowns that are not free or have no aggregate have no weights.
 [[nodiscard]] Prolongation smoothed_aggregation(const ConnectivityGraph& network,
                                                 const std::vector<bool>& is_free,
                                                 const Aggregates& aggregates);

@@ -1,4 +1,4 @@
-// What coarse basis functions need to know of a network: which nodes are near each other, and how much springs coupling them.
+// The graph that aggregation works on: which nodes springs connect, and how strongly.
 #include <weft/fast_solver/network/connectivity_graph.hpp>
 
 #include <cstddef>
@@ -60,19 +60,19 @@ Neighborhood NetworkForces<Scalar>::neighborhood_of(const std::vector<int>& node
                                                     int num_springs) const {
   std::vector<char> is_in(at(num_nodes()), 0);
   for (const int node : nodes) is_in[at(node)] = 1;
-  Neighborhood rings{nodes, {static_cast<int>(nodes.size())}};
+  Neighborhood neighborhood{nodes, {static_cast<int>(nodes.size())}};
   std::size_t next = 0;
   for (int ring = 1; ring <= num_springs; ++ring) {
-    for (; next < at(rings.ends.back()); ++next) {
-      for_each_spring(slots_, rings.nodes[next], [&](int other, std::size_t) {
+    for (; next < at(neighborhood.ends.back()); ++next) {
+      for_each_spring(slots_, neighborhood.nodes[next], [&](int other, std::size_t) {
         if (is_in[at(other)] != 0) return;
         is_in[at(other)] = 1;
-        rings.nodes.push_back(other);
+        neighborhood.nodes.push_back(other);
       });
     }
-    rings.ends.push_back(static_cast<int>(rings.nodes.size()));
+    neighborhood.ends.push_back(static_cast<int>(neighborhood.nodes.size()));
   }
-  return rings;
+  return neighborhood;
 }
 
 template ConnectivityGraph NetworkForces<float>::connectivity_graph(const std::vector<int>&) const;

@@ -6,13 +6,14 @@
 
 namespace weft::fast {
 
-/// A network whose springs resist as much across as along, without masses. Made by NetworkForces.
+/// The graph Laplacian of the springs, weighted by their stiffness: as if a spring resisted transverse motion as much as axial
+/// motion. It has no masses. NetworkForces makes it.
 struct ConnectivityGraph {
   SymmetricMatrix matrix;       ///< [N/m]
-  std::vector<double> lengths;  ///< of the spring of each entry, at rest [m]
+  std::vector<double> lengths;  ///< for the spring of each entry, at rest [m]
 };
 
-/// Nodes around some nodes, which are ring 0; ring k is k springs away.
+/// The k-ring neighborhood of some nodes: ring 0 is these nodes, and ring k is k springs away.
 struct Neighborhood {
   std::vector<int> nodes;  ///< ring after ring
   std::vector<int> ends;   ///< rings 0 to k are the first ends[k] nodes

@@ -8,20 +8,18 @@
 
 namespace weft::fast {
 
-/// The edges of a network as the processor's vectors want them: a block is kNodeBlock nodes in a row,
-/// a slot one neighbor for each of them. On a grid the neighbors are in a row as well, at the same
-/// distance from their nodes, so that whole vectors are loaded. Other slots fetch their neighbors one
-/// by one.
+/// The edges of a network in a sliced ELLPACK layout (Kreutzer et al. 2014). A slice is a block of kNodeBlock consecutive nodes,
+/// and a slot holds one neighbor for each of them, one per lane. On a grid the neighbors are consecutive as well, so that whole
+/// vectors are loaded. Other slots gather their neighbors one by one.
 ///
-/// Every edge has a lane at both ends: to add the opposite force to a neighbor would mean to read,
-/// change and write vectors across cache lines, which takes longer than to compute it twice. So
-/// nothing is written but a block's own nodes, and any number of threads gives the same bits.
+/// Every edge has a lane at both ends and is computed twice. That is faster than scattering the opposite force across cache lines. It
+/// also gives the same bits for any number of threads, because only a block's own nodes are written.
 struct EdgeSlots {
   int num_nodes = 0;
   std::vector<SlotRange> blocks;
   std::vector<EdgeSlot> slots;
-  std::vector<int> others;  ///< of each lane of each slot: the neighbor; an empty lane's own node
-  std::vector<int> edges;   ///< of each lane of each slot: its edge, or -1
+  std::vector<int> others;  ///< for each lane of each slot: the neighbor; an empty lane's own node
+  std::vector<int> edges;   ///< for each lane of each slot: its edge, or -1
 
   [[nodiscard]] int num_slots() const { return static_cast<int>(slots.size()); }
   [[nodiscard]] int num_blocks() const { return static_cast<int>(blocks.size()); }

@@ -296,7 +296,7 @@ void NetworkForces<Scalar>::multiply(NodeRange nodes, const VectorX<float>& iner
                                      NodeArrays<float>& product) const {
   network_kernel<Scalar>().multiply(view(), nodes, inertia.data(), displacements.data(),
                                     product.data());
-  // What is not a number must not get stuck behind the nodes.
+  // A NaN must not stay in the padding behind the nodes.
   const int num_beyond = nodes.end - std::max(nodes.begin, num_nodes());
   if (num_beyond > 0) product.middleRows(nodes.end - num_beyond, num_beyond).setZero();
 }

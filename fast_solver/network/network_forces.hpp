@@ -14,12 +14,11 @@ namespace weft::fast {
 
 /// The forces of a SpringNetwork and their linearization, several edges at a time on the vector unit.
 ///
-/// Linearized at x, the stiffness of an edge is s u u^T + t (I - u u^T) with s = k' + c / h along it
-/// and t = max(0, f / l) + w across: the part that a compressed spring takes away is left out, so that
-/// the matrix stays positive definite (Choi and Ko 2002).
-/// Scalar: of positions and forces. Products are in single precision, because they only make corrections.
-/// Threads  what takes nodes may run for several parts of them at once; all else from one thread at a time. Allocates
-///          nothing after construction, but for replace() and what describes the network.
+/// The stiffness of an edge at x is s u u^T + t (I - u u^T), with s = k' + c / h axial and t = max(0, f / l) + w transverse. The
+/// negative transverse stiffness of a compressed spring is left out, so that the matrix stays positive definite (Choi and Ko
+/// 2002). Positions and forces are Scalar. Products are single precision, which suffices because they only make corrections.
+/// Threads  functions that take node ranges may run for several ranges at once; all others from one thread at a time. Only the
+///          constructor, replace() and the functions that describe the network allocate memory.
 template <class Scalar>
 class NetworkForces {
  public:
@@ -45,9 +44,9 @@ class NetworkForces {
   /// Notes what the rest of the step needs of its start; starts: q of all nodes [m].
   void begin_step(NodeRange nodes, const NodeArrays<Scalar>& starts);
 
-  /// From the next add_forces() on t is at least this share of s, 0 to 1. With 1 no spring can store more than its
-  /// linearization says, so that a step that the linear system thinks good is good (as the global step of Bouaziz et
-  /// al. 2014); with 0 steps of Newton's method are as large as they can be.
+  /// From the next add_forces() on, t is at least this share of s, 0 to 1. With 1 the linearization bounds every spring's energy
+  /// from above, so that a step which decreases the model decreases the energy (as the global step of Bouaziz et al. 2014). With
+  /// 0 the model is closest to the springs and Newton's steps are largest.
   void set_least_transverse_stiffness(Scalar share) { least_transverse_ = share; }
 
   /// forces += those of the network at positions x of all nodes [N], and linearizes there unless told not to.
@@ -106,12 +105,12 @@ class NetworkForces {
   void write(std::size_t place, const Spring& spring);
 
   EdgeSlots slots_;
-  std::vector<int> room_;  ///< of each block: slots from its first one on
+  std::vector<int> room_;  ///< for each block: slots from its first one on
   SlotMaker maker_;
   AlignedVector<Scalar> springs_;
   bool has_damping_ = false;  ///< without: no array
   bool has_bending_ = false;
-  AlignedVector<Scalar> damping_;  ///< of each lane [N s/m]
+  AlignedVector<Scalar> damping_;  ///< for each lane [N s/m]
   AlignedVector<Scalar> dampers_;
   AlignedVector<float> bending_;
   Scalar least_transverse_ = 0;

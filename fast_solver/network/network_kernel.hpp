@@ -57,7 +57,7 @@ struct NetworkKernel {
   double (*energy)(const NetworkView<Scalar>& network, NodeRange nodes, const Scalar* positions);
 };
 
-/// Sums over some nodes, in double precision but for short pieces. Arrays of nodes have `stride` numbers per
+/// Sums over some nodes, in double precision except for short runs. Arrays of nodes have `stride` numbers per
 /// component.
 template <class Scalar>
 struct SumKernel {
@@ -83,7 +83,7 @@ struct VectorKernel {
     float by_direction;
     float by_product;
   };
-  /// inverse = share (blocks + inertia)^-1, node by node; 0 where there is none.
+  /// inverse = share (blocks + inertia)^-1, pointwise; 0 where there is none.
   void (*invert_blocks)(const float* inertia, float share, int stride, NodeRange nodes,
                         const float* blocks, float* inverse);
   /// result = blocks vectors, node by node: 3 arrays from 6.

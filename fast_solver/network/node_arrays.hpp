@@ -12,7 +12,7 @@ namespace weft::fast {
 
 /// Nodes that are computed together.
 inline constexpr int kNodeBlock = 16;
-/// Arrays of nodes are filled up with zeros to a multiple of it: a thread's nodes begin with a line of the cache in all
+/// Arrays of nodes are padded with zeros to a multiple of it: a thread's nodes begin with a line of the cache in all
 /// of them, and in the one before there is nothing of it.
 inline constexpr int kNodesPerCacheLine = 64;
 

@@ -8,9 +8,9 @@ namespace weft::fast {
 /// A sparse symmetric matrix, compressed by rows: both (i, j) and (j, i) are stored, the diagonal apart.
 struct SymmetricMatrix {
   std::vector<int> starts;       ///< row i has entries starts[i] ... starts[i + 1] - 1
-  std::vector<int> columns;      ///< of each entry, never the row itself
-  std::vector<double> values;    ///< of each entry
-  std::vector<double> diagonal;  ///< of each row
+  std::vector<int> columns;      ///< for each entry, never the row itself
+  std::vector<double> values;    ///< for each entry
+  std::vector<double> diagonal;  ///< for each row
 
   [[nodiscard]] int size() const { return static_cast<int>(diagonal.size()); }
 };

@@ -8,7 +8,7 @@
 
 namespace weft::fast {
 
-/// What is solved for implicitly: between the two nodes i and j of every edge
+/// The implicit springs and dampers. Every edge with nodes i and j has
 ///
 ///   tension     k' (l - l0)            k' = stiffness if l >= l0, else compressed_stiffness
 ///   damper      c (dl/dt)              l the distance of i and j

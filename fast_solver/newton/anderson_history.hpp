@@ -11,11 +11,12 @@
 
 namespace weft::fast {
 
-/// Anderson's acceleration (1965; of type II as Walker and Ni 2011; for simulations as Peng et al. 2018): from the last
-/// iterations of x -> g(x), the combination of their results whose step g(x) - x is shortest. Newton's method with a
-/// linearization that leaves out some of the stiffness gains the same share in each iteration; combinations gain more.
+/// Anderson acceleration of a fixed-point iteration x -> g(x) (Anderson 1965; type II as in Walker and Ni 2011; for simulation
+/// Peng et al. 2018). It combines the last results so that the combined step g(x) - x is shortest. Newton's method needs it
+/// here because the linearization omits negative stiffness, so that plain iterations converge only linearly.
 ///
-/// Steps in single precision, which are small beside positions. A part of the nodes at a time, by any thread.
+/// Steps are single precision, which suffices because they are small compared with positions. Node ranges may be added by any
+/// thread.
 template <class Scalar>
 class AndersonHistory {
  public:
@@ -33,7 +34,7 @@ class AndersonHistory {
       result_changes_[index(k)].setZero(rows, 3);
     }
   }
-  /// What comes has nothing to do with what was.
+  /// Restarts the acceleration.
   void forget() {
     has_last_ = false;
     count_ = 0;
@@ -71,7 +72,7 @@ class AndersonHistory {
     return products;
   }
   void added() { has_last_ = true; }
-  /// How much of each change of results is to be taken away.
+  /// The least-squares coefficient of each change of results.
   [[nodiscard]] Weights weights(const Products& products) const {
     constexpr double kRegularization = 1e-8;
     Eigen::Matrix<double, kMemory, kMemory> system = products.template leftCols<kMemory>();

@@ -1,4 +1,4 @@
-// What contacts and what prescribes a node do to it during a solve.
+// Contact states (free, sliding, sticking) and kinematic nodes during a solve (Baraff and Witkin 1998).
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -20,15 +20,15 @@ constexpr double kStiffestDrag = 30;
 /// A moving node's least inertia [N/m], which keeps a quotient finite.
 constexpr double kLeastInertia = 1e-30;
 
-/// The part along the normal, of one node's vector.
+/// Removes the normal component of one node's vector.
 void take_away(const Vector3<float>& normal, NodeArrays<float>& vectors, int node) {
   vectors.row(node) -= vectors.row(node).dot(normal) * normal.transpose();
 }
 
 }  // namespace
 
-// What holds a node is decided by what it would do if it stuck: the force that is left there is
-// weighed against what friction can bear.
+// Chooses the contact state of every node (active set). The residual at a sticking node is compared with what Coulomb friction
+// can bear.
 template <class Scalar>
 void ImplicitSolver<Scalar>::decide_contact_states(const StepProblem<Scalar>& problem,
                                                    const NewtonIteration& iteration) {
@@ -165,7 +165,7 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   set_friction(contact, expected);
 }
 
-// The friction of a node that slides on what is not coupled both ways, at its present place.
+// The friction of a node that slides on a one-way coupled surface, at its present position.
 template <class Scalar>
 void ImplicitSolver<Scalar>::set_friction(const PlaneContact<Scalar>& contact, Scalar expected) {
   const int i = contact.node;
@@ -200,7 +200,7 @@ void ImplicitSolver<Scalar>::update_friction(const StepProblem<Scalar>& problem)
   }
 }
 
-// What the rounding of positions makes of the forces of stiff springs [N].
+// The error of stiff springs' forces that rounded positions cause [N].
 template <class Scalar>
 Scalar ImplicitSolver<Scalar>::rounding_of_force(int node) const {
   constexpr Scalar kRoundings = 8;
@@ -208,7 +208,7 @@ Scalar ImplicitSolver<Scalar>::rounding_of_force(int node) const {
          at_node(positions_, node).cwiseAbs().maxCoeff();
 }
 
-// How far what pushes a node would move it along a normal, if its neighbors stood still [m]. Without springs would
+// The displacement of a node along a normal by the residual there if its neighbors stood still [m]. Without springs it would
 // be too far by much: gas in a ball pushes thirty times as hard as the weight, and the skin holds it back.
 template <class Scalar>
 Scalar ImplicitSolver<Scalar>::first_push(int node, const Vector3<Scalar>& normal) const {

@@ -5,11 +5,11 @@
 
 namespace weft::fast {
 
-/// What the directions of conjugate gradients and their step are made of: with corrections c,
+/// Coefficients of the directions and of the step of conjugate gradients, in terms of preconditioned residuals c:
 ///
-///   d_k = c_k - share_k d_(k-1),   step = sum of length_k d_k,
+///   d_k = c_k - beta_k d_(k-1),   step = sum of alpha_k d_k
 ///
-/// so that only corrections have to be kept, and nobody asks for a direction before the end.
+/// Only the c are stored, because no direction is needed before several iterations are done.
 class DirectionWeights {
  public:
   /// Corrections that are kept; then step and direction are summed up.
@@ -37,7 +37,7 @@ class DirectionWeights {
   /// The weights of the sum of factors_k d_k.
   [[nodiscard]] Weights sum_of(const std::array<float, kMost>& factors) const {
     Weights weights{};
-    float of_next = 0;  // of d_(k+1), times -share_(k+1)
+    float of_next = 0;  // the coefficient of d_(k+1), times -beta_(k+1)
     for (int k = count_ - 1; k >= 0; --k) {
       const auto i = static_cast<std::size_t>(k);
       weights[i] = factors[i] + of_next;

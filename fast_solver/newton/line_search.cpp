@@ -1,4 +1,4 @@
-// What keeps a step from gaining energy or momentum, however badly it has converged.
+// Line search and fallbacks, which keep a step from gaining energy or momentum even if it has not converged.
 #include <algorithm>
 
 #include <weft/fast_solver/implicit_solver.hpp>
@@ -6,7 +6,7 @@
 namespace weft::fast {
 namespace {
 
-/// The share of a step that is taken at least [-].
+/// The smallest fraction of a step that is taken [-].
 constexpr double kSmallestShare = 0.1;
 /// The share of that energy that rounding may make of a step that changes nothing [-].
 constexpr double kRoundingShare = 0.01;
@@ -22,16 +22,16 @@ std::size_t at(int i) {
 
 }  // namespace
 
-// A linearization may promise too much where springs turn far in one step. The work of the forces
-// that are left tells: if it opposes the step by more than half of what drove it, back to where a
-// straight line between the two is zero.
+// Shortens the step where the linear model fails, because springs turn far in one step. The test is the directional derivative of the
+// energy at the end of the step. If it opposes the step by more than half of what drove it, the step is cut back to the zero
+// of the secant.
 template <class Scalar>
 bool ImplicitSolver<Scalar>::shorten_step(double work_before, std::size_t num_constrained) {
   const double work_after = work_left_ - work_of_constrained(num_constrained) + work_of_bodies();
   if (!(work_before > 0 && work_after < -0.5 * work_before)) return false;
   const double share = std::max(kSmallestShare, work_before / (work_before - work_after));
   const auto excess = static_cast<Scalar>(1.0 - share);
-  // What the whole step has led to a plane may not come to it on a part of the way.
+  // A node that met a plane in the full step may not reach it in the shortened one.
   for (std::size_t k = num_constrained; k < constrained_.size(); ++k) {
     contact_states_[at(constrained_[k])] = ContactState::kFree;
     contact_of_[at(constrained_[k])] = -1;
@@ -52,7 +52,7 @@ double ImplicitSolver<Scalar>::energy_of(NodeRange nodes, const Nodes& positions
   return forces_.potential(nodes, positions) + 0.5 * squares;
 }
 
-// What an implicit step minimizes [J], with the bodies that are coupled both ways and with what friction does.
+// The incremental potential [J], including two-way coupled bodies and the dissipation of friction.
 template <class Scalar>
 double ImplicitSolver<Scalar>::energy(const StepProblem<Scalar>& problem, const Nodes& positions,
                                       Vector6 Body::*motion) {
@@ -72,7 +72,7 @@ double ImplicitSolver<Scalar>::energy_of_contacts(const StepProblem<Scalar>& pro
   }
   for (const int i : constrained_) {
     if (contact_of_[at(i)] < 0) continue;
-    // A surface that is led may do work by friction; slip only takes it away.
+    // A surface that is kinematic may do work by friction; slip only takes it away.
     const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
     const Vector3<Scalar> friction = friction_.col(i).template cast<Scalar>();
     Vector3<Scalar> slip = at_node(positions, i) - at_node(start_positions_, i) - contact.motion;
@@ -88,7 +88,7 @@ double ImplicitSolver<Scalar>::energy_of_contacts(const StepProblem<Scalar>& pro
   return sum;
 }
 
-// Where nothing has moved but what is led, in front of all planes.
+// The start of the step with kinematic nodes moved, projected in front of all planes.
 template <class Scalar>
 void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
   for_each_part([&](NodeRange nodes) {
@@ -115,10 +115,9 @@ void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
   }
 }
 
-// The exact solution has no more of the energy that it minimizes than the positions at the start. One that has is iterated on,
-// with a linearization that no spring can exceed: each iteration takes energy away, however badly its linear system is solved (as
-// the global step of Bouaziz et al. 2014). Contacts that come and go may spoil that: the last resort is a line search from the
-// start.
+// Enforces that the solution has no more energy than the start of the step, as the exact one does. If it has more, iterations
+// continue with the stiffest linearization, whose steps always decrease the energy (as the global step of Bouaziz et al.
+// 2014). Changing contact states may defeat that, so the last resort is a backtracking line search towards the start.
 template <class Scalar>
 void ImplicitSolver<Scalar>::enforce_descent(const StepProblem<Scalar>& problem, int iterations) {
   stay_at_start(problem);
@@ -154,10 +153,9 @@ void ImplicitSolver<Scalar>::restore_start() {
   for (Body& body : bodies_) body.motion = body.unmoved;
 }
 
-// What conjugate gradients have left over would push the cloth, and the bodies that hang on it, as a whole.
-// Where nothing immovable holds it, a shift of all nodes, which no spring feels, takes that away to
-// rounding. Where something does, what is left over is no error of the whole body's: in a stiff sheet a
-// micrometre is worth many newtons.
+// Net-momentum correction. The residual that conjugate gradients leave would push the cloth, and the bodies attached to it, as
+// a whole. If nothing fixed constrains them, a rigid shift removes that, because no spring feels it. If something does, the net
+// residual is no error of the whole body's motion, and there is no correction.
 template <class Scalar>
 std::optional<Vector3<Scalar>> ImplicitSolver<Scalar>::net_momentum_correction(
     const StepProblem<Scalar>& problem) {

@@ -1,4 +1,4 @@
-// What a solver is made of: nodes and springs, and what pins, kinematic nodes and tears change between steps.
+// Changes of the network between steps: pins, kinematic nodes and tears.
 #include <algorithm>
 #include <iterator>
 #include <numeric>
@@ -89,14 +89,14 @@ void ImplicitSolver<Scalar>::set_free(const std::vector<bool>& is_free) {
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::change_correction(const std::vector<int>& changed) {
-  const Neighborhood rings = forces_.neighborhood_of(changed, 2 * kBasisReach);
-  coarse_correction_.set_free(forces_.connectivity_graph(rings.nodes), rings,
-                              have_basis_weights(rings.nodes), forces_.slots());
+  const Neighborhood neighborhood = forces_.neighborhood_of(changed, 2 * kBasisReach);
+  coarse_correction_.set_free(forces_.connectivity_graph(neighborhood.nodes), neighborhood,
+                              have_basis_weights(neighborhood.nodes), forces_.slots());
   coarse_correction_.set_masses(masses_.template cast<float>());
   forces_.note_bending(coarse_correction_);
 }
 
-// Flags of some nodes: neither pinned nor led.
+// Flags of some nodes: neither pinned nor kinematic.
 template <class Scalar>
 std::vector<bool> ImplicitSolver<Scalar>::have_basis_weights(const std::vector<int>& nodes) const {
   std::vector<bool> result;
@@ -107,7 +107,7 @@ std::vector<bool> ImplicitSolver<Scalar>::have_basis_weights(const std::vector<i
   return result;
 }
 
-// Kinematic nodes are held like pins, for many steps: coarse basis functions are low near them as well.
+// Kinematic nodes stay prescribed for many steps, like pins. Therefore coarse basis functions are small near them as well.
 template <class Scalar>
 void ImplicitSolver<Scalar>::follow_kinematic(const StepProblem<Scalar>& problem) {
   next_kinematic_.clear();
@@ -144,7 +144,7 @@ void ImplicitSolver<Scalar>::tear(const SpringNetwork& springs, const std::vecto
   coarse_correction_.note_springs(forces_.slots(), blocks);
   coarse_correction_.set_masses(masses_.template cast<float>());
   forces_.note_bending(coarse_correction_);
-  // A copy of what is led has no coarse basis functions yet, and nothing leads it.
+  // A copy of a kinematic node is free and has no coarse basis functions yet.
   std::vector<int> of_kinematic;
   const int first = num_nodes() - static_cast<int>(origins.size());
   for (std::size_t k = 0; k < origins.size(); ++k) {

@@ -9,20 +9,20 @@
 namespace weft::fast {
 namespace {
 
-/// Iterations after which the coarse correction is made anew, for the linearization as it is then.
+/// The coarse matrix is factorized again after so many iterations.
 constexpr int kIterationsPerFactor = 4;
-/// How often in a step contacts are decided: in its first iterations, where most of them are found out, and of a solution.
+/// How often contact states are decided in a step: in its first iterations, which find most of them, and at solutions.
 constexpr int kFirstDecisions = 2;
 constexpr int kMostDecisions = 8;
-/// How much an iteration's gain is of that of the one before: assumed of the first, and at most.
+/// The ratio of an iteration's gain to that of the one before: assumed for the first, and the upper bound.
 constexpr double kFirstShrink = 0.1;
 constexpr double kSlowest = 0.9;
 /// Iterations whose shrinking tells how much the last one may have left.
 constexpr std::size_t kShrinksSeen = 4;
-/// From this share of the gain of the iteration before on, so many times, an iteration gains rounding only.
+/// If the ratio exceeds this so many times in a row, iterations only gain rounding.
 constexpr double kStalled = 0.9;
 constexpr int kMostStalled = 3;
-/// Least stiffness across a spring over that along it, after an iteration that has gained energy, and how it grows if that was not
+/// Least transverse over axial stiffness of a spring after an iteration that increased the energy, and its growth if that was not
 /// enough: with 1 no iteration gains any.
 constexpr double kFirstTransverse = 0.02;
 constexpr double kTransverseGrowth = 7;
@@ -66,7 +66,7 @@ void ImplicitSolver<Scalar>::iterate_once(const StepProblem<Scalar>& problem,
   evaluate(iteration.linearizes);
 }
 
-// Newton's method until what is left to gain is less than asked for, or no more than rounding.
+// Newton's method until what is left to gain is below the tolerance or is rounding.
 template <class Scalar>
 void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
                                      const SolverSettings& solver_settings) {
@@ -126,7 +126,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
                               ? step_energy_
                               : (last_gain_.left + last_gain_.total * slowest / (1 - slowest)) / 2;
     num_stalled = !are_contact_states_new && !(shrinks < kStalled) ? num_stalled + 1 : 0;
-    // What is stiff goes on to gain by rounding alone, while what is soft may have some way to go.
+    // Stiff springs keep gaining by rounding while soft ones may still be far from their solution.
     const bool is_rounding = last_gain_.total <= rounding && !(shrinks < kStalled);
     const bool is_solved = (left <= asked || is_rounding) && !last_gain_.is_broken;
     const bool is_over =
@@ -148,7 +148,8 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
   forces_.set_least_transverse_stiffness(0);
 }
 
-// Goes on to the combination of the last iterations, if that has less energy than the last one has reached. Returns the energy then.
+// Continues from the Anderson combination of the last iterations if it has less energy than the last result. Returns the
+// energy of the positions that are kept.
 template <class Scalar>
 double ImplicitSolver<Scalar>::accelerate(const StepProblem<Scalar>& problem, double reached) {
   using Products = typename AndersonHistory<Scalar>::Products;
@@ -185,7 +186,7 @@ double ImplicitSolver<Scalar>::accelerate(const StepProblem<Scalar>& problem, do
   return reached;
 }
 
-/// What an iteration would gain if positions were exact but for their last digit [J], twice an energy as LinearGain.
+/// The gain of an iteration from the rounding of positions alone [J], twice an energy as in LinearGain.
 template <class Scalar>
 double ImplicitSolver<Scalar>::gain_of_rounding() {
   constexpr double kVariance = 1.0 / 12;  // of numbers rounded to whole ones

@@ -2,8 +2,8 @@
 
 namespace weft::fast {
 
-/// What a linear system of Newton's method gains, twice an energy of the linear model [J]: what its solution takes away, and
-/// of that, what the last iterations did, which tells how much is left.
+/// The energies that a linear solve gains, each twice the decrease of the quadratic model [J]: that of all iterations, and that
+/// of the last few. The latter estimates what is left to gain (Strakos and Tichy 2002).
 struct LinearGain {
   double total = 0;
   double left = 0;
@@ -12,14 +12,13 @@ struct LinearGain {
 
 /// One iteration of Newton's method.
 struct NewtonIteration {
-  int iterations;         ///< of conjugate gradients at most
-  bool is_first = false;  ///< of a step
-  bool decides = true;    ///< how contacts hold nodes
-  bool continues =
-      false;  ///< in the first iteration: a node that was held in the solve before stays so
-  bool linearizes = true;   ///< for another iteration
-  bool factorizes = false;  ///< makes the coarse correction anew
-  double least_gain = 0;    ///< of an iteration that another one follows [J]
+  int iterations;           ///< limit of conjugate gradients
+  bool is_first = false;    ///< whether it is the first of a step
+  bool decides = true;      ///< whether contact states are decided
+  bool continues = false;   ///< in the first iteration: contact states of the last solve are kept
+  bool linearizes = true;   ///< whether forces are linearized afterwards
+  bool factorizes = false;  ///< whether the coarse matrix is factorized again
+  double least_gain = 0;    ///< stop the linear solve below this gain [J]
 };
 
 }  // namespace weft::fast

@@ -1,4 +1,4 @@
-// Rigid bodies that are coupled both ways: six unknowns each, solved for together with the nodes.
+// Two-way coupled rigid bodies: six unknowns each, which are solved for together with the nodes.
 #include <algorithm>
 
 #include <weft/fast_solver/implicit_solver.hpp>
@@ -46,7 +46,7 @@ Vector3<Scalar> ImplicitSolver<Scalar>::motion_with(int body,
   return motion_at(bodies_[at(body)].motion, lever_arm);
 }
 
-// An arm that the body has turned: by more than its first order, or what hangs on a body that spins would be drawn out.
+// The rotated lever arm. The rotation is exact because a first-order one would stretch what is attached to a spinning body.
 template <class Scalar>
 Vector3<Scalar> ImplicitSolver<Scalar>::turned(int body, const Vector3<Scalar>& lever_arm) const {
   const Vector3<Scalar> turn = bodies_[at(body)].motion.template tail<3>();
@@ -82,7 +82,7 @@ void ImplicitSolver<Scalar>::gather_of(int body, const Floats& forces, Floats6& 
   }
 }
 
-// A body that nothing is linked to in this iteration has moved as if left alone.
+// A body without linked nodes in this iteration moves as without the cloth.
 template <class Scalar>
 void ImplicitSolver<Scalar>::release_bodies() {
   for (Body& body : bodies_) body.is_linked = false;
@@ -92,8 +92,8 @@ void ImplicitSolver<Scalar>::release_bodies() {
   }
 }
 
-// What a body resists with, and the springs of all nodes that move with it: column by column, because springs
-// between two such nodes do not resist. Only at these nodes is anything moved or asked for.
+// Factorizes the 6 x 6 stiffness of each body: its inertia and the springs of all nodes that move with it. It is computed
+// column by column, because springs between two such nodes do not contribute.
 template <class Scalar>
 void ImplicitSolver<Scalar>::factorize_bodies() {
   if (bodies_.empty()) return;
@@ -127,7 +127,7 @@ void ImplicitSolver<Scalar>::factorize_bodies() {
   }
 }
 
-// What pushes the bodies in the present state: nodes, friction, their own inertia.
+// The generalized residual of each body: forces of linked nodes, friction and its own inertia.
 template <class Scalar>
 void ImplicitSolver<Scalar>::find_body_residuals(Floats6 Body::*result) {
   for (Body& body : bodies_) body.*result = -(body.inertia * body.motion.template cast<float>());

@@ -11,8 +11,8 @@
 
 namespace weft::fast {
 
-/// The nodes of a network in parts of about the same size, for the loops of a WorkerTeam and for sums: which they are
-/// depends on the number of nodes alone, so that sums over parts have the same bits for any number of threads.
+/// Splits the nodes of a network into ranges of about the same size, for loops of a WorkerTeam and for sums. The ranges depend
+/// only on the number of nodes, so that sums over them have the same bits for any number of threads.
 class NodePartition {
  public:
   NodePartition() = default;
@@ -47,7 +47,7 @@ void run_parts(WorkerTeam& team, int num_nodes, const Work& work) {
   });
 }
 
-/// Those of some nodes in ascending order that are in a range.
+/// The nodes of an ascending list that lie in a range.
 [[nodiscard]] inline std::span<const int> in_range(const std::vector<int>& sorted,
                                                    NodeRange nodes) {
   const auto begin = std::lower_bound(sorted.begin(), sorted.end(), nodes.begin);

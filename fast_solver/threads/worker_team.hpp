@@ -14,17 +14,17 @@
 
 namespace weft::fast {
 
-/// Threads that go through the loops of one solve together. Such a loop takes ten microseconds, less than a task of
-/// oneTBB takes to be found by another thread, so that workers wait for the next loop without sleeping.
+/// Threads that share the parallel loops of one solve. Such a loop takes about ten microseconds, which is less than another
+/// thread needs to find a oneTBB task. Therefore workers spin between loops.
 ///
-/// Workers are tasks of oneTBB: they come when they find the time, and without any the caller does everything. A loop
-/// has parts, and each thread has the same ones in every loop, which are in its cache; the caller takes those of a
-/// worker that does not begin. What a part computes may not depend on who does it.
+/// Workers are oneTBB tasks. They join when a thread is available, and without any the caller does all the work. Each thread
+/// has the same parts in every loop, because their data are in its cache. The caller claims the parts of a worker that does not
+/// begin. The result of a part must not depend on the thread that computes it.
 ///
-/// Where other programs need the processors, a worker may be stopped. In the middle of a part its caller has to wait for
-/// it; if that costs more than workers gain, the caller does without them for a while, a longer one each time.
+/// The operating system may suspend a worker in the middle of a part, and the caller has to wait for it. If that costs more
+/// than workers gain, the team falls back to the caller's thread only for a while, each time for longer.
 ///
-/// While a team is open its caller must not wait for other tasks of oneTBB: it might be given a worker's.
+/// While a team is open its caller must not wait for other oneTBB tasks, because it might be given a worker's task.
 class WorkerTeam {
  public:
   /// Parts of a loop at most.
@@ -97,7 +97,7 @@ class WorkerTeam {
   }
 
  private:
-  /// What a worker needs of a loop: a copy of its work, or where that is.
+  /// The work of a loop for a worker: a copy, or its address.
   using Job = std::array<std::uint64_t, 13>;
   using Call = void (*)(const Job& job, int part) noexcept;
   static constexpr std::uint64_t kNone = 0;
@@ -122,7 +122,7 @@ class WorkerTeam {
     std::atomic<std::uint64_t> number{kNone};
     std::atomic<Call> call{nullptr};
     std::atomic<int> num_parts{0};
-    std::atomic<int> num_words{0};  ///< of the job
+    std::atomic<int> num_words{0};  ///< for the job
     std::array<std::atomic<std::uint64_t>, std::tuple_size_v<Job>> job{};
   };
   static_assert(sizeof(Loop) == 128);
@@ -155,19 +155,19 @@ class WorkerTeam {
   std::uint64_t num_loops_ = 0;
   std::uint64_t num_done_before_ = 0;  ///< num_done_ after the last loop
   alignas(64) std::atomic<bool> is_open_{false};
-  std::atomic<int> num_workers_{0};                     ///< that have come
+  std::atomic<int> num_workers_{0};                     ///< workers that have joined
   alignas(64) std::atomic<std::uint64_t> num_done_{0};  ///< parts of all loops, by workers
   std::array<Claim, kMostParts> claims_;
   int num_scopes_ = 0;
   int num_threads_ = 1;
   std::uint64_t absent_ = 0;   ///< flags of members
-  int looks_for_arrival_ = 0;  ///< that are left
+  int looks_for_arrival_ = 0;  ///< polls that are left
   std::chrono::steady_clock::time_point opened_;
   double lost_ = 0;              ///< since then, in waiting for stopped workers [s]
   double budget_ = kMostBudget;  ///< gained by workers over lost, at most kMostCredit [s]
   int num_serial_ = 0;           ///< times to be opened without workers
-  int next_serial_ = 0;          ///< the same when the credit is used up
-  int num_good_ = 0;             ///< times open with credit left since next_serial_ has changed
+  int next_serial_ = 0;          ///< the same when the budget is used up
+  int num_good_ = 0;             ///< times open with budget left since next_serial_ has changed
   /// Made by open(): a group belongs to the parallel loop that it was first used in, for ever.
   std::optional<tbb::task_group> workers_;
 };

@@ -146,9 +146,9 @@ TEST(ImplicitSolver, EachIterationComesCloser) {
   const Matrix3X<double> q = mesh.rest_positions;
   const Matrix3X<double> y = fallen(q, Matrix3X<double>::Zero(3, q.cols()), is_free);
   ImplicitSolver<double> solver(network, mesh.masses, is_free);
-  const auto solved = [&](int rounds, int iterations) {
+  const auto solved = [&](int newton_iterations, int linear_iterations) {
     Matrix3X<double> x = q;
-    solver.solve({y, q, kTimeStep, kTimeStep}, {rounds, iterations}, x);
+    solver.solve({y, q, kTimeStep, kTimeStep}, {newton_iterations, linear_iterations}, x);
     return x;
   };
   const Matrix3X<double> expected = solved(1, 60);
@@ -166,7 +166,7 @@ TEST(ImplicitSolver, EachIterationComesCloser) {
   EXPECT_LT(last, 2e-3 * first);
 }
 
-// Pins may come and go between steps, and nodes be led for a while: as a solver that was made with pins.
+// Pins may come and go between steps, and nodes be kinematic for a while: as a solver that was made with pins.
 TEST(ImplicitSolver, FollowsPins) {
   const ClothMesh mesh = hanging_cloth();
   const SpringNetwork network = springs(mesh, 3000.0);
@@ -192,14 +192,14 @@ TEST(ImplicitSolver, FollowsPins) {
     const double error_of_fresh = (solved(fresh, {2, 8}) - expected).norm();
     EXPECT_LT(error, error_of_fresh + 0.01 * first) << pins.size();
     const auto solved_by_leader = [&](const SolverSettings& solver_settings) {
-      std::vector<KinematicNode<double>> led;
-      for (const int pin : pins) led.push_back({pin, y.col(pin)});
+      std::vector<KinematicNode<double>> kinematic;
+      for (const int pin : pins) kinematic.push_back({pin, y.col(pin)});
       Matrix3X<double> x = q;
       leader.solve({.inertial_positions = y,
                     .start_positions = q,
                     .time_step = kTimeStep,
                     .inertia_step = kTimeStep,
-                    .kinematic = led},
+                    .kinematic = kinematic},
                    solver_settings, x);
       return x;
     };
@@ -323,12 +323,12 @@ TEST(ImplicitSolver, LeadsANodeAndSaysWhatThatTakes) {
   const SpringNetwork network = springs(mesh, 100.0);
   ImplicitSolver<double> solver(network, mesh.masses, all_free_but(mesh, {}));
   const Matrix3X<double> q = mesh.rest_positions;
-  std::vector<KinematicNode<double>> led(1);
-  led[0].node = 4;
-  led[0].position = q.col(4) + Vector3<double>(0, 0.01, 0);
+  std::vector<KinematicNode<double>> kinematic(1);
+  kinematic[0].node = 4;
+  kinematic[0].position = q.col(4) + Vector3<double>(0, 0.01, 0);
   Matrix3X<double> x = q;
-  solver.solve({q, q, kTimeStep, kTimeStep, {}, led}, {10, 10}, x);
-  EXPECT_EQ(x.col(4), led[0].position);
+  solver.solve({q, q, kTimeStep, kTimeStep, {}, kinematic}, {10, 10}, x);
+  EXPECT_EQ(x.col(4), kinematic[0].position);
   // Nothing else pushes: the force has given all the momentum there is.
   const Vector3<double> momentum = (x - q) * mesh.masses / kTimeStep;
   EXPECT_GT(momentum[1], 1e-3);

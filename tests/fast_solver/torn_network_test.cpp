@@ -157,7 +157,7 @@ TEST(TornSolver, ConvergesRightAfterATear) {
   Step expected(tear.mesh);
   const double residual = after.residual(solver);
   const double of_fresh = expected.residual(fresh);
-  // The old coarse basis functions coupling both sides of the cut together: allowed to leave four times as much, and less than a
+  // The old coarse basis functions couple both sides of the cut together: allowed to leave four times as much, and less than a
   // hundredth of what the step began with.
   EXPECT_LT(residual, 4 * of_fresh);
   EXPECT_LT(residual, 0.01);

@@ -55,10 +55,11 @@ struct Sheet {
       if (is_free[at(i)] == is_pin) changed.push_back(i);
       is_free[at(i)] = !is_pin;
     }
-    const Neighborhood rings = forces->neighborhood_of(changed, 2 * kBasisReach);
+    const Neighborhood neighborhood = forces->neighborhood_of(changed, 2 * kBasisReach);
     std::vector<bool> are_free;
-    for (const int i : rings.nodes) are_free.push_back(is_free[at(i)]);
-    correction.set_free(forces->connectivity_graph(rings.nodes), rings, are_free, forces->slots());
+    for (const int i : neighborhood.nodes) are_free.push_back(is_free[at(i)]);
+    correction.set_free(forces->connectivity_graph(neighborhood.nodes), neighborhood, are_free,
+                        forces->slots());
   }
   void factorize() {
     correction.set_masses(inertia);
@@ -136,7 +137,7 @@ TEST(SmoothedAggregates, AreFewHatsThatShareEveryNode) {
       EXPECT_LT(sum, i / kSide == 0 ? 1e-12 : 0.9) << i;
     }
   }
-  // A aggregate in the corner of three others may lose each of its nodes to them.
+  // An aggregate in the corner of three others may lose each of its nodes to them.
   EXPECT_GT(std::count_if(of_basis.begin(), of_basis.end(), [](double sum) { return sum > 0; }),
             9 * basis_functions.num_coarse / 10);
 }

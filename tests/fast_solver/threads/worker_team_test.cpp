@@ -194,7 +194,7 @@ TEST(WorkerTeam, IsOpenAgainAfterAPause) {
   const std::vector<long> expected = chain(alone, 4, 200);
   WorkerTeam team;
   {
-    const WorkerTeam::Pause pause(team);  // of a team that is not open
+    const WorkerTeam::Pause pause(team);  // For a team that is not open
   }
   EXPECT_EQ(team.num_threads(), 1);
   const WorkerTeam::Scope scope(team, 3);
