@@ -50,7 +50,7 @@ class DeformableForces : public btDeformableLagrangianForce {
 
   /// Joins the forces of a solver. repairs_implicit: the solver is one whose implicit step is sound
   /// (DeformableSolver); otherwise the first implicit step throws Error, for Bullet's own gives the
-  /// nodes after a pinned one their neighbours' forces. Throws Error if it has joined already.
+  /// nodes after a pinned one their neighbors' forces. Throws Error if it has joined already.
   void add_to(btDeformableBodySolver& solver, bool repairs_implicit = false);
   void remove_from(btDeformableBodySolver& solver);
 

@@ -16,12 +16,12 @@ void prepare_for_deformable_world(btSoftBody& body);
 /// and its head get wrong:
 ///
 /// * implicit mode: the forces that predict contact velocities were handed out by a counter that
-///   skips pinned nodes, so that every node after the first pinned one got its neighbour's;
+///   skips pinned nodes, so that every node after the first pinned one got its neighbor's;
 /// * implicit mode without a gravity force: an uninitialised vector was added to all velocities;
 /// * implicit mode without world.setUseProjection(true): a preconditioner that does not exist was
 ///   used; here the projection is used in any case;
 /// * a body without links whose constants are renewed (setMass and others) hung the program for
-///   ever, in a tree that is built by joining neighbours;
+///   ever, in a tree that is built by joining neighbors;
 /// * a node held by a deformable anchor kept an outdated trial position m_q.
 ///
 ///   DeformableSolver solver;

@@ -25,7 +25,7 @@ struct LinkContext {
 ///   k = (mu / h^2) ((1 - kLST)^-n - 1)          kLST = 1 - (1 + k h^2 / mu)^(-1/n)
 ///
 /// Validity: exact for one link that nobody else touches, to first order in the strain (Bullet's
-/// link is a quadratic approximation of the length). In a mesh the visits of neighbouring links
+/// link is a quadratic approximation of the length). In a mesh the visits of neighboring links
 /// undo one another in part; the map holds there for k h^2 / mu << 1, and a softer answer must be
 /// expected above. kLST = 1 is a rigid link.
 

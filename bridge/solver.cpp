@@ -41,9 +41,9 @@ bool is_among(const btAlignedObjectArray<btSoftBody*>& present, btSoftBody* body
 }
 
 /// Why implicit springs cannot stand in for what the body has; nothing if they can.
-std::optional<std::string> obstacle_to_fast(const btSoftBody& body,
-                                            const std::vector<forces::LawSpecification>& laws) {
-  if (auto reason = FastBody::obstacle(body)) return reason;
+std::optional<std::string> reason_against_fast(const btSoftBody& body,
+                                               const std::vector<forces::LawSpecification>& laws) {
+  if (auto reason = FastBody::reason_against(body)) return reason;
   const auto is_tension = [](const forces::LawSpecification& law) { return law.law == "tension"; };
   if (body.m_links.size() > 0 && std::none_of(laws.begin(), laws.end(), is_tension)) {
     return "it has " + std::to_string(body.m_links.size()) +
@@ -114,7 +114,7 @@ void SoftBodySolver::replace_laws(btSoftBody& body, LawSet laws, VectorX<btScala
 std::optional<std::string> SoftBodySolver::attach_fast(
     btSoftBody& body, const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
     const FastSettings& settings) {
-  if (auto reason = obstacle_to_fast(body, laws)) return reason;
+  if (auto reason = reason_against_fast(body, laws)) return reason;
   check_topology("soft body solver", body, mesh);
   LawSet set = explicit_laws(mesh, laws);
   auto fast = std::make_unique<FastBody>(mesh, laws, mesh.masses, settings);
@@ -381,8 +381,8 @@ void SoftBodySolver::tell_of_each_other(btSoftBody& body, btSoftBody& other) {
   const auto is_at_rest = [](const Attachment* attachment) {
     return attachment && attachment->fast && attachment->fast->is_at_rest();
   };
-  if (a && a->fast) a->fast->meet_cloth(is_at_rest(b));
-  if (b && b->fast) b->fast->meet_cloth(is_at_rest(a));
+  if (a && a->fast) a->fast->notify_cloth(is_at_rest(b));
+  if (b && b->fast) b->fast->notify_cloth(is_at_rest(a));
 }
 
 // Bullet's margin of a contact grows with the speed of the node, and so does the speed with which the contact throws it
@@ -408,11 +408,11 @@ ContactEntry& SoftBodySolver::contact_by_flag(btSoftBody& body) {
 
 void SoftBodySolver::processCollision(btSoftBody* body, btSoftBody* other) {
   Attachment* const attachment = find(*body);
-  if (!attachment) return meet_cloth(*body, *other);
-  attachment->guard([&] { meet_cloth(*body, *other); });
+  if (!attachment) return notify_cloth(*body, *other);
+  attachment->guard([&] { notify_cloth(*body, *other); });
 }
 
-void SoftBodySolver::meet_cloth(btSoftBody& body, btSoftBody& other) {
+void SoftBodySolver::notify_cloth(btSoftBody& body, btSoftBody& other) {
   tell_of_each_other(body, other);
   if (is_still(body) || is_still(other)) return;
   const auto is_asked_for = [&](const btSoftBody& one) {

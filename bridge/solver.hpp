@@ -208,7 +208,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   void settle_contact_velocities();
   void tell_of_each_other(btSoftBody& body, btSoftBody& other);
   [[nodiscard]] ContactEntry& contact_by_flag(btSoftBody& body);
-  void meet_cloth(btSoftBody& body, btSoftBody& other);
+  void notify_cloth(btSoftBody& body, btSoftBody& other);
   void for_bodies(const std::function<void(btSoftBody&, Attachment*)>& work);
   void solve_fast_bodies();
   void detect_contacts(btScalar time_step);

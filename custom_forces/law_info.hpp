@@ -32,7 +32,7 @@ struct LawTraits {
   bool needs_closed_surface = false;  ///< refuses a mesh whose triangles leave a hole
   /// the force on a node is the same function of its own place, velocity and mass for every node, computed by the
   /// thread that asks: a state of some of the nodes gives theirs
-  bool node_by_node = false;
+  bool is_pointwise = false;
   enum class Level {
     kForce,     ///< adds forces
     kVelocity,  ///< a damper whose exact action on velocities is known: advance_velocities

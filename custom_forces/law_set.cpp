@@ -104,7 +104,7 @@ template <class Scalar>
 bool LawSet<Scalar>::is_node_by_node() const {
   return std::all_of(laws_.begin(), laws_.end(), [](const auto& law) {
     const LawTraits& traits = law->info().traits;
-    return traits.node_by_node && traits.level != LawTraits::Level::kInertia &&
+    return traits.is_pointwise && traits.level != LawTraits::Level::kInertia &&
            law->scratch_columns() == 0;
   });
 }

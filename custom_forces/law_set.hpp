@@ -37,7 +37,7 @@ class LawSet {
                                        Matrix3XRef<Scalar> forces);
 
   /// Whether add_forces() may be asked for a state of some of the nodes, by several threads at the same time: all laws
-  /// are node_by_node, add forces and need no scratch memory.
+  /// are pointwise, add forces and need no scratch memory.
   [[nodiscard]] bool is_node_by_node() const;
 
   void add_stiffness_product(const State<Scalar>& state, ConstMatrix3XRef<Scalar> displacements,

@@ -97,8 +97,8 @@ class Run {
     for (int i = 0; i < body_->m_nodes.size(); ++i) {
       btSoftBody::Node& node = body_->m_nodes[i];
       if (node.m_im <= 0 || cloth_.pull > 0) continue;
-      const Vector3<double> arm = mesh_.rest_positions.col(i) - Vector3<double>(0, 0.8, 0);
-      const Vector3<double> v = direction + turn.cross(arm);
+      const Vector3<double> lever_arm = mesh_.rest_positions.col(i) - Vector3<double>(0, 0.8, 0);
+      const Vector3<double> v = direction + turn.cross(lever_arm);
       node.m_v = btVector3(static_cast<btScalar>(v[0]), static_cast<btScalar>(v[1]),
                            static_cast<btScalar>(v[2]));
     }

@@ -32,7 +32,7 @@ double seconds(const std::function<void()>& call) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// A cloth of n x n nodes with 12 neighbours each, 1 cm apart, held along one edge.
+/// A cloth of n x n nodes with 12 neighbors each, 1 cm apart, held along one edge.
 void measure(int n, int num_steps, ResultFile& file) {
   ClothGrid grid;
   grid.nodes = {n, n};

@@ -79,7 +79,7 @@ void SoftBodySolver::Attachment::predict(btScalar time_step) {
   if (blow_up) return;
   // The program may have done since what attach() and attach_fast() refuse.
   if (fast) {
-    if (auto reason = FastBody::obstacle(*body))
+    if (auto reason = FastBody::reason_against(*body))
       return stop("it cannot be fast any more: " + *reason);
   }
   if (body->m_cfg.timescale != btScalar(1)) {
@@ -88,7 +88,7 @@ void SoftBodySolver::Attachment::predict(btScalar time_step) {
   const auto predict_fast = [&] { fast->predict(*body, time_step, positions, velocities); };
   const bool fits = masses().size() == body->m_nodes.size();  // if not, the laws say so
   if (fast && fits) {
-    fast->take_impulses(*body, time_step);
+    fast->apply_external_impulses(*body, time_step);
     fast->set_laws(laws, masses());
   }
   if (fast && fits && !deferred.is_in_flight() && laws.is_node_by_node()) {

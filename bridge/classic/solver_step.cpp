@@ -12,7 +12,7 @@
 
 #include <weft/bridge/classic/attachment.hpp>
 #include <weft/bridge/classic/position_limits.hpp>
-#include <weft/bridge/rigid/rigid_parts.hpp>
+#include <weft/bridge/rigid/rigid_substeps.hpp>
 #include <weft/core/trace.hpp>
 
 namespace weft::bridge {
@@ -119,10 +119,10 @@ void SoftBodySolver::solve_fast_bodies() {
 void SoftBodySolver::detect_contacts(btScalar time_step) {
   std::vector<Attachment*>& bodies = attachments_->stepped;
   in_parallel(bodies, [&](Attachment& one) {
-    if (one.fast->looks_alone()) one.fast->detect_contacts(*one.body, time_step);
+    if (one.fast->detects_alone()) one.fast->detect_contacts(*one.body, time_step);
   });
   in_turn(bodies, [&](Attachment& one) {
-    if (!one.fast->looks_alone()) one.fast->detect_contacts(*one.body, time_step);
+    if (!one.fast->detects_alone()) one.fast->detect_contacts(*one.body, time_step);
   });
 }
 
@@ -166,7 +166,7 @@ void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_
   const btScalar part_step = time_step_ / static_cast<btScalar>(num_parts);
   std::vector<btRigidBody*> dynamic;
   for (const Attachment* one : group) one->fast->list_dynamic(*one->body, dynamic);
-  RigidParts rigid(dynamic, time_step_, num_parts);
+  RigidSubsteps rigid(dynamic, time_step_, num_parts);
   std::vector<Attachment*>& bodies = attachments_->stepped;
   bodies = group;
   in_parallel(bodies, [&](Attachment& one) { one.fast->begin_parts(*one.body, time_step_); });
@@ -194,26 +194,26 @@ bool SoftBodySolver::may_meet_cloth() const {
 void SoftBodySolver::solve_listed_bodies(btScalar time_step) {
   std::vector<Attachment*>& bodies = attachments_->stepped;
   std::vector<const btRigidBody*>& pushed = attachments_->pushed;
-  const auto list_pushed = [&] {
+  const auto list_coupled = [&] {
     pushed.clear();
-    for (const Attachment* one : bodies) one->fast->list_pushed(*one->body, pushed);
+    for (const Attachment* one : bodies) one->fast->list_coupled(*one->body, pushed);
     std::sort(pushed.begin(), pushed.end());
   };
-  list_pushed();
+  list_coupled();
   in_parallel(bodies,
               [&](Attachment& one) { one.fast->begin_solve(*one.body, time_step, pushed); });
   std::vector<Attachment*>& asked = attachments_->asked;
   asked.assign(bodies.begin(), bodies.end());
-  for (int look = 0; look < FastBody::kMostLooks && !asked.empty(); ++look) {
+  for (int look = 0; look < FastBody::kMostRedetections && !asked.empty(); ++look) {
     in_parallel(asked, [&](Attachment& one) {
-      if (one.fast->looks_alone()) one.fast->look_again(*one.body, time_step);
+      if (one.fast->detects_alone()) one.fast->redetect_contacts(*one.body, time_step);
     });
     in_turn(asked, [&](Attachment& one) {
-      if (!one.fast->looks_alone()) one.fast->look_again(*one.body, time_step);
+      if (!one.fast->detects_alone()) one.fast->redetect_contacts(*one.body, time_step);
     });
     std::erase_if(asked, [](const Attachment* one) { return !one->fast->is_unfinished(); });
     drop_stopped(bodies);
-    list_pushed();
+    list_coupled();
     in_parallel(asked,
                 [&](Attachment& one) { one.fast->solve_again(*one.body, time_step, pushed); });
   }

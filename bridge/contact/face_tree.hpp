@@ -27,7 +27,7 @@ struct MotionBox {
 /// Whether two boxes have a place in common.
 [[nodiscard]] bool meet(const MotionBox& a, const MotionBox& b);
 
-/// Nodes of a body in groups of neighbours, decided once from where they are at first.
+/// Nodes of a body in groups of neighbors, decided once from where they are at first.
 class NodeGroups {
  public:
   static constexpr int kLargest = 16;

@@ -54,7 +54,7 @@ HullFacets::HullFacets(const btConvexHullShape& shape) {
       facet.corners.push_back(vertices[static_cast<std::size_t>(edge->getSourceVertex())]);
       edge = edge->getNextEdgeOfFace();
     } while (edge != first);
-    // Newell's sum: a corner that lies on the line of its neighbours does no harm.
+    // Newell's sum: a corner that lies on the line of its neighbors does no harm.
     facet.normal.setZero();
     Vector3<double> middle = Vector3<double>::Zero();
     for (std::size_t c = 0; c < facet.corners.size(); ++c) {
@@ -63,7 +63,7 @@ HullFacets::HullFacets(const btConvexHullShape& shape) {
       middle += facet.corners[c] / static_cast<double>(facet.corners.size());
     }
     const double area = facet.normal.norm();
-    if (!(area > kTouch * size_ * size_)) continue;  // a sliver: its neighbours hold the place
+    if (!(area > kTouch * size_ * size_)) continue;  // a sliver: its neighbors hold the place
     facet.normal /= area;
     facet.offset = facet.normal.dot(middle);
     const bool is_inward = facet.offset < facet.normal.dot(center);

@@ -35,7 +35,7 @@ MotionBox box_of(const btSoftBody& body, std::span<const int> nodes) {
 }
 
 /// Plane through the first surface on the way from one place to another.
-std::optional<RigidContact> stop_on_the_way(const Obstacle& obstacle, const btVector3& from,
+std::optional<RigidContact> stop_on_the_way(const Collider& collider, const btVector3& from,
                                             const btVector3& to, btScalar margin) {
   btCollisionWorld::ClosestRayResultCallback hit(from, to);
   // Bullet's default test of a ray with a convex shape passes through a box of 2 cm in one of six
@@ -43,7 +43,7 @@ std::optional<RigidContact> stop_on_the_way(const Obstacle& obstacle, const btVe
   hit.m_flags |= btTriangleRaycastCallback::kF_UseGjkConvexCastRaytest;
   btCollisionWorld::rayTestSingle(
       btTransform(btQuaternion::getIdentity(), from), btTransform(btQuaternion::getIdentity(), to),
-      const_cast<btCollisionObject*>(obstacle.object), obstacle.shape, obstacle.place, hit);
+      const_cast<btCollisionObject*>(collider.object), collider.shape, collider.place, hit);
   if (!hit.hasHit() || !(hit.m_hitNormalWorld.length2() > 0)) return std::nullopt;
   RigidContact contact;
   contact.normal = hit.m_hitNormalWorld.normalized();
@@ -52,15 +52,15 @@ std::optional<RigidContact> stop_on_the_way(const Obstacle& obstacle, const btVe
   return contact;
 }
 
-/// An obstacle that surface_distance() knows, in double precision: the ground may be a box of many metres, of which a place
+/// A collider that surface_distance() knows, in double precision: the ground may be a box of many metres, of which a place
 /// is a millionth.
-class ExactObstacle {
+class ExactCollider {
  public:
-  ExactObstacle(const Obstacle& obstacle, btScalar margin)
-      : obstacle_(obstacle),
+  ExactCollider(const Collider& collider, btScalar margin)
+      : collider_(collider),
         margin_(static_cast<double>(margin)),
-        origin_(from_bullet(obstacle.place.getOrigin())) {
-    for (int k = 0; k < 3; ++k) turn_.row(k) = from_bullet(obstacle.place.getBasis().getRow(k));
+        origin_(from_bullet(collider.place.getOrigin())) {
+    for (int k = 0; k < 3; ++k) turn_.row(k) = from_bullet(collider.place.getBasis().getRow(k));
   }
 
   /// The contact of a node that goes from one place to another. One that is followed is stopped on its way, unless that
@@ -75,7 +75,7 @@ class ExactObstacle {
       return end.distance < length && surface_from(from, length).distance + end.distance <= length;
     };
     if (is_followed && may_be_on_the_way()) {
-      if (auto contact = stop_on_the_way(obstacle_, from, to, static_cast<btScalar>(margin_))) {
+      if (auto contact = stop_on_the_way(collider_, from, to, static_cast<btScalar>(margin_))) {
         return contact;
       }
     }
@@ -92,23 +92,23 @@ class ExactObstacle {
   static constexpr double kRounding = 1e-6;  ///< of ways in single precision
   [[nodiscard]] SurfaceDistance surface_from(const btVector3& place, double reach) const {
     const Vector3<double> local = turn_.transpose() * (from_bullet(place) - origin_);
-    return surface_distance(*obstacle_.shape, obstacle_.facets, local, reach).value();
+    return surface_distance(*collider_.shape, collider_.facets, local, reach).value();
   }
 
-  const Obstacle& obstacle_;
+  const Collider& collider_;
   double margin_;
   Vector3<double> origin_;
   Matrix3<double> turn_;
 };
 
 /// The same in Bullet's distance field of any shape.
-std::optional<RigidContact> find_in_field(const btSoftBody& body, const Obstacle& obstacle,
+std::optional<RigidContact> find_in_field(const btSoftBody& body, const Collider& collider,
                                           const btVector3& from, const btVector3& to,
                                           btScalar margin, bool is_followed) {
   if (is_followed) {
-    if (auto contact = stop_on_the_way(obstacle, from, to, margin)) return contact;
+    if (auto contact = stop_on_the_way(collider, from, to, margin)) return contact;
   }
-  const btCollisionObjectWrapper object(nullptr, obstacle.shape, obstacle.object, obstacle.place,
+  const btCollisionObjectWrapper object(nullptr, collider.shape, collider.object, collider.place,
                                         -1, -1);
   btSoftBody::sCti found;
   if (!body.checkContact(&object, to, 2 * margin, found)) return std::nullopt;
@@ -147,18 +147,18 @@ btScalar largest_motion(const btTransform& back, const MotionBox& nodes) {
 
 }  // namespace
 
-Obstacle make_obstacle(const btCollisionObjectWrapper& object, const HullFacets* facets, int number,
+Collider make_collider(const btCollisionObjectWrapper& object, const HullFacets* facets, int number,
                        btScalar time_step) {
-  Obstacle obstacle{object.getCollisionObject(), object.getCollisionShape(),
+  Collider collider{object.getCollisionObject(), object.getCollisionShape(),
                     object.getWorldTransform(), facets, number};
-  if (const btRigidBody* const rigid = movable(obstacle.object)) {
+  if (const btRigidBody* const rigid = movable(collider.object)) {
     btTransform end;
     btTransformUtil::integrateTransform(rigid->getWorldTransform(), rigid->getLinearVelocity(),
                                         rigid->getAngularVelocity(), time_step, end);
-    obstacle.object_place = rigid->getWorldTransform();
-    obstacle.motion = end * obstacle.object_place.inverse();
+    collider.object_place = rigid->getWorldTransform();
+    collider.motion = end * collider.object_place.inverse();
   }
-  return obstacle;
+  return collider;
 }
 
 btRigidBody* movable(const btCollisionObject* object) {
@@ -166,7 +166,7 @@ btRigidBody* movable(const btCollisionObject* object) {
   return rigid != nullptr && !rigid->isStaticOrKinematicObject() ? rigid : nullptr;
 }
 
-void NodeWays::update(const btSoftBody& body, fast::WorkerTeam* team) {
+void SweptNodes::update(const btSoftBody& body, fast::WorkerTeam* team) {
   if (is_of_now_) return;
   is_of_now_ = true;
   if (groups_.num_nodes() != body.m_nodes.size()) {
@@ -191,30 +191,30 @@ void NodeWays::update(const btSoftBody& body, fast::WorkerTeam* team) {
   for (const MotionBox& box : boxes_) all_.include(box);
 }
 
-void add_rigid_contacts(const btSoftBody& body, NodeWays& ways, const Obstacle& obstacle,
+void add_rigid_contacts(const btSoftBody& body, SweptNodes& ways, const Collider& collider,
                         btScalar time_step, PinnedNodes pinned, std::vector<RigidContact>& contacts,
                         fast::WorkerTeam* team) {
-  if (!obstacle.object->hasContactResponse()) return;
+  if (!collider.object->hasContactResponse()) return;
   // Where the step begins is what Bullet knows of a dynamic body, and where it ends of a kinematic one.
-  const btRigidBody* const dynamic = movable(obstacle.object);
-  const btRigidBody* led = dynamic == nullptr ? btRigidBody::upcast(obstacle.object) : nullptr;
+  const btRigidBody* const dynamic = movable(collider.object);
+  const btRigidBody* led = dynamic == nullptr ? btRigidBody::upcast(collider.object) : nullptr;
   if (led != nullptr && led->getLinearVelocity().isZero() && led->getAngularVelocity().isZero()) {
     led = nullptr;
   }
-  const btTransform back = obstacle.motion.inverse();
+  const btTransform back = collider.motion.inverse();
   const btScalar margin = body.getCollisionShape()->getMargin();
   btVector3 low;
   btVector3 high;
-  obstacle.shape->getAabb(obstacle.place, low, high);
+  collider.shape->getAabb(collider.place, low, high);
   const MotionBox box = box_of(low, high).grown(2 * margin);
   MotionBox reached = box;
   if (dynamic != nullptr) reached = box.grown(largest_motion(back, ways.all()));
   if (led != nullptr) reached = box.grown(largest_motion(*led, ways.all(), time_step));
   if (!meet(reached, ways.all())) return;
   const bool looks_at_pinned =
-      pinned == PinnedNodes::kWithDynamicObjects && !obstacle.object->isStaticOrKinematicObject();
-  const bool needs_field = needs_distance_field(*obstacle.shape, obstacle.facets);
-  const ExactObstacle exact(obstacle, margin);
+      pinned == PinnedNodes::kWithDynamicObjects && !collider.object->isStaticOrKinematicObject();
+  const bool needs_field = needs_distance_field(*collider.shape, collider.facets);
+  const ExactCollider exact(collider, margin);
   const auto look_at = [&](int i, std::vector<RigidContact>& found) {
     const btSoftBody::Node& node = body.m_nodes[i];
     if ((node.m_im <= 0 && !looks_at_pinned) || node.m_battach != 0) return;
@@ -230,19 +230,19 @@ void add_rigid_contacts(const btSoftBody& body, NodeWays& ways, const Obstacle& 
     most.setMax(to);
     if (!meet(box_of(least, most), box)) return;
     const bool is_fast = (to - from).length2() > margin * margin;
-    auto contact = needs_field ? find_in_field(body, obstacle, from, to, margin, is_fast)
+    auto contact = needs_field ? find_in_field(body, collider, from, to, margin, is_fast)
                                : exact.find(from, to, is_fast);
     if (!contact) return;
     contact->node = i;
     contact->motion = motion;
-    contact->object = obstacle.object;
-    contact->obstacle = obstacle.number;
+    contact->object = collider.object;
+    contact->collider = collider.number;
     if (dynamic != nullptr) {
       contact->met = to;
-      contact->met_by_object = obstacle.object_place.invXform(to);
-      contact->normal_by_object = contact->normal * obstacle.object_place.getBasis();
+      contact->met_by_object = collider.object_place.invXform(to);
+      contact->normal_by_object = contact->normal * collider.object_place.getBasis();
       contact->gap = btDot(contact->normal, to) - contact->offset;
-      follow_object(*contact, obstacle.motion * obstacle.object_place);
+      follow_object(*contact, collider.motion * collider.object_place);
     }
     found.push_back(*contact);
   };

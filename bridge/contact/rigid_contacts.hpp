@@ -25,7 +25,7 @@ struct RigidContact {
   btScalar offset = 0;        ///< [m]
   btVector3 motion{0, 0, 0};  ///< of the surface during the step [m]
   const btCollisionObject* object = nullptr;
-  int obstacle = 0;  ///< Obstacle::number
+  int collider = 0;  ///< Collider::number
   // A dynamic object carries the plane with it: the node's place as seen from the object, in the world where the
   // step began, and as the object has it; the normal as the object has it.
   btVector3 met{0, 0, 0};
@@ -35,7 +35,7 @@ struct RigidContact {
 };
 
 /// What a body's bounds meet: a whole object, or a part of it.
-struct Obstacle {
+struct Collider {
   const btCollisionObject* object;
   const btCollisionShape* shape;
   btTransform place;         ///< where the step begins; of what is not dynamic, where it stands
@@ -46,12 +46,12 @@ struct Obstacle {
   btTransform motion = btTransform::getIdentity();
 };
 
-/// An obstacle of the present step, before Bullet has moved it: dynamic ones are expected to go on with their velocity.
-[[nodiscard]] Obstacle make_obstacle(const btCollisionObjectWrapper& object,
+/// A collider of the present step, before Bullet has moved it: dynamic ones are expected to go on with their velocity.
+[[nodiscard]] Collider make_collider(const btCollisionObjectWrapper& object,
                                      const HullFacets* facets, int number, btScalar time_step);
 
 /// A body's nodes by where their ways lead, from m_q to m_x.
-class NodeWays {
+class SweptNodes {
  public:
   /// The ways are others than at the last update().
   void outdate() { is_of_now_ = false; }
@@ -100,14 +100,14 @@ enum class PinnedNodes {
   kWithDynamicObjects  ///< those in front of objects that they can push
 };
 
-/// Appends the contacts of a body's nodes with an obstacle, between btSoftBody::predictMotion and
+/// Appends the contacts of a body's nodes with a collider, between btSoftBody::predictMotion and
 /// solveConstraints of a step of time_step [s]. ways: of the body as it is.
 ///
-/// Nodes are looked up at the predicted place, as the obstacle sees it, up to twice the collision margin: exactly (surface_distance()), or in
+/// Nodes are looked up at the predicted place, as the collider sees it, up to twice the collision margin: exactly (surface_distance()), or in
 /// Bullet's distance field of the shape, as Bullet does. A node that travels farther than the margin is followed along
 /// its way, relative to the object, and stopped at the surface that it meets first: however thin the
 /// object, it is not shot through. Anchored nodes are left out. By a team, in the same order for any.
-void add_rigid_contacts(const btSoftBody& body, NodeWays& ways, const Obstacle& obstacle,
+void add_rigid_contacts(const btSoftBody& body, SweptNodes& ways, const Collider& collider,
                         btScalar time_step, PinnedNodes pinned, std::vector<RigidContact>& contacts,
                         fast::WorkerTeam* team = nullptr);
 

@@ -42,7 +42,7 @@ bool RigidResponse::knows(const btCollisionObject& object) {
 }
 
 void RigidResponse::begin_step() {
-  ways_.outdate();
+  swept_.outdate();
   contacts_.clear();
 }
 
@@ -51,13 +51,13 @@ void RigidResponse::collide(btSoftBody& body, const btCollisionObjectWrapper& ob
   auto& collision_object = *const_cast<btCollisionObject*>(object.getCollisionObject());
   btRigidBody* const moving = btRigidBody::upcast(&collision_object);
   btRigidBody* const dynamic = movable(&collision_object);
-  ways_.update(body);
+  swept_.update(body);
   found_.clear();
   // At once what a cloth that lies with all its nodes needs, and nothing later on.
   found_.reserve(static_cast<std::size_t>(body.m_nodes.size()));
   contacts_.reserve(static_cast<std::size_t>(body.m_nodes.size()));
   const HullFacets* const facets = hulls.find(*object.getCollisionShape());
-  add_rigid_contacts(body, ways_, make_obstacle(object, facets, 0, time_step), time_step,
+  add_rigid_contacts(body, swept_, make_collider(object, facets, 0, time_step), time_step,
                      PinnedNodes::kWithDynamicObjects, found_);
   for (const RigidContact& found : found_) {
     Contact contact;
@@ -77,7 +77,7 @@ void RigidResponse::collide(btSoftBody& body, const btCollisionObjectWrapper& ob
 // A place where the node is put says nothing of how it moves: start and end are shifted alike, by what both have in common,
 // for where the surface bends the plane at the end is none at the start. Not for objects that move: where
 // the surface of one was is known to first order in its turn only, and every step would lift nodes by that.
-void RigidResponse::leave_depths(const btSoftBody& body) {
+void RigidResponse::project_out_of_planes(const btSoftBody& body) {
   for (const Contact& contact : contacts_) {
     btSoftBody::Node& node = *contact.node;
     if (node.m_im <= 0 || !contact.with.motion.isZero()) continue;
@@ -142,7 +142,7 @@ void RigidResponse::solve(btSoftBody& body) {
     const btScalar gap = btDot(contact.with.normal, start) - contact.with.offset;
     if (gap < 0) contact.with.offset += (1 - kDepthShare) * gap;
   }
-  leave_depths(body);
+  project_out_of_planes(body);
   visit_all(body);
   body.solveConstraints();
   if (contacts_.empty()) return;

@@ -23,7 +23,7 @@ class RigidResponse {
   /// Whether a body's contacts can be solved so: without links, which would move the nodes afterwards, without clusters,
   /// and with Bullet's positions solved alone.
   [[nodiscard]] static bool fits(const btSoftBody& body);
-  /// False for links of a btMultiBody: Bullet's visits know how these give way.
+  /// False for links of a btMultiBody: Bullet's visits know how these yield.
   [[nodiscard]] static bool knows(const btCollisionObject& object);
 
   void begin_step();
@@ -51,12 +51,12 @@ class RigidResponse {
     btVector3 impulse;     ///< on the node, so far in this step [N s]
   };
 
-  void leave_depths(const btSoftBody& body);
+  void project_out_of_planes(const btSoftBody& body);
   /// How far the node had to be moved with respect to the object [m].
   static btScalar visit(const btSoftBody& body, Contact& contact);
   void visit_all(const btSoftBody& body);
 
-  NodeWays ways_;
+  SweptNodes swept_;
   std::vector<RigidContact> found_;
   std::vector<Contact> contacts_;
 };

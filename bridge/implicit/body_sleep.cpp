@@ -59,7 +59,7 @@ void BodySleep::meet(const btCollisionObject& object, const btTransform& place) 
   if (!object.isStaticOrKinematicObject() && object.isActive()) meets_motion_ = true;
 }
 
-void BodySleep::meet_cloth(bool is_at_rest) {
+void BodySleep::notify_cloth(bool is_at_rest) {
   if (!is_at_rest) meets_motion_ = true;
 }
 

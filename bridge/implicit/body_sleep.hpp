@@ -25,7 +25,7 @@ class BodySleep {
   /// In a step: what the body's bounds meet.
   void meet(const btCollisionObject& object, const btTransform& place);
   /// In a step: cloth that its bounds meet.
-  void meet_cloth(bool is_at_rest);
+  void notify_cloth(bool is_at_rest);
   /// After a step of time_step [s]. A body that falls asleep loses what velocities it has left.
   void end_step(btSoftBody& body, btScalar time_step, const FastSettings& settings);
   void wake();

@@ -37,7 +37,7 @@ FastBody::FastBody(const ClothMesh& mesh, const std::vector<forces::LawSpecifica
   set_num_nodes(masses_.size());
 }
 
-std::optional<std::string> FastBody::obstacle(const btSoftBody& body) {
+std::optional<std::string> FastBody::reason_against(const btSoftBody& body) {
   if (body.m_clusters.size() > 0) return "it has clusters";
   if (body.m_pose.m_bframe && body.m_cfg.kMT > 0) return "it is matched to a pose";
   if (body.m_cfg.timescale != btScalar(1)) return "its m_cfg.timescale is not 1";
@@ -66,8 +66,8 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
     fast::replace_springs(is_changed, springs, network_);
   }
   contacts_.clear();
-  obstacles_.clear();
-  ways_.outdate();
+  colliders_.clear();
+  swept_.outdate();
   excess_ = 0;
   force_history_.forget();
   last_step_ = 0;
@@ -99,7 +99,7 @@ void FastBody::choose_origin(const btSoftBody& body) {
   origin_ = origin;
 }
 
-void FastBody::take_impulses(btSoftBody& body, btScalar time_step) {
+void FastBody::apply_external_impulses(btSoftBody& body, btScalar time_step) {
   limited_.asked_step = time_step;
   const btScalar most = body.m_worldInfo->m_maxDisplacement / time_step;
   impulses_.resize(3, 0);
@@ -142,10 +142,10 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
   });
   last_parts_ = std::exchange(parts_, 1);
   contacts_.clear();
-  obstacles_.clear();
+  colliders_.clear();
   pushed_.begin_step();
   is_support_missing_ = false;
-  ways_.outdate();
+  swept_.outdate();
   if (is_plain(body)) {
     predict_nodes(body, time_step, last_velocities_, scratch_, team_);
   } else {
@@ -193,8 +193,8 @@ void FastBody::publish_bounds(btSoftBody& body) {
 void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& object,
                        HullTable& hulls, btScalar time_step) {
   if ((body.m_cfg.collisions & btSoftBody::fCollision::SDF_RS) == 0) return;
-  obstacles_.push_back(make_obstacle(object, hulls.find(*object.getCollisionShape()),
-                                     static_cast<int>(obstacles_.size()), time_step));
+  colliders_.push_back(make_collider(object, hulls.find(*object.getCollisionShape()),
+                                     static_cast<int>(colliders_.size()), time_step));
 }
 
 void FastBody::prepare_solver(const btSoftBody& body) {
@@ -216,7 +216,7 @@ void FastBody::prepare_solver(const btSoftBody& body) {
 
 void FastBody::set_free(const std::vector<bool>& is_free) {
   const TraceScope trace("factorise");
-  const fast::WorkerTeam::Pause pause(team_);  // helpers would wait for long
+  const fast::WorkerTeam::Pause pause(team_);  // workers would wait for long
   if (solver_) return solver_->set_free(is_free);
   fast::SpringNetwork limited = network_;
   limited_.step = limited_.asked_step;
@@ -231,9 +231,9 @@ void FastBody::set_free(const std::vector<bool>& is_free) {
 
 void FastBody::place(btSoftBody& body, btScalar time_step, bool is_looked_at) {
   is_projected_ = solver_->was_clamped();
-  keep_out_of_missed(body, time_step);
-  leave_depths();
-  give_impulses(body, time_step);
+  project_out_of_missed_colliders(body, time_step);
+  project_out_of_planes();
+  exchange_impulses(body, time_step);
   is_placed_ = is_looked_at;
   if (is_looked_at) write_places(body);
 }
@@ -249,11 +249,11 @@ void FastBody::write_places(btSoftBody& body) {
 
 void FastBody::project_cloth_contacts(btSoftBody& body) {
   if (body.m_scontacts.size() > 0) btSoftBody::PSolve_SContacts(&body, 1, 0);
-  stay_outside(body);
+  project_out_of_colliders(body);
 }
 
 // What has moved nodes since they were put to their places: other cloth.
-bool FastBody::take_pushed_places(const btSoftBody& body) {
+bool FastBody::take_changed_positions(const btSoftBody& body) {
   bool any = false;
   for (int i = 0; i < body.m_nodes.size(); ++i) {
     const btSoftBody::Node& node = body.m_nodes[i];
@@ -268,7 +268,7 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
   const TraceScope trace("write back");
   const fast::WorkerTeam::Scope scope(team_, team_size());
   is_predicted_ = false;
-  const bool is_pushed = is_placed_ && take_pushed_places(body);
+  const bool is_pushed = is_placed_ && take_changed_positions(body);
   const bool meets_cloth = body.m_scontacts.size() > 0 || is_pushed;
   find_velocities();
   step_error_.include(solver_->report(), static_cast<double>(inertia_step_), masses_.sum());
@@ -276,7 +276,7 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
   if (meets_cloth) {
     excess_ = 0;
   } else {
-    keep_energy(time_step);
+    limit_kinetic_energy(time_step);
   }
   for_nodes([&](int begin, int count) {
     for (int i = begin; i < begin + count; ++i) {
@@ -308,7 +308,7 @@ void FastBody::update_normals(btSoftBody& body) {
 void FastBody::solve(btSoftBody& body, btScalar time_step,
                      const fast::SolverSettings& solver_settings, bool is_again) {
   read_constraints(body, time_step, is_again);
-  solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, led_,
+  solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, kinematic_,
                   pushed_.inertias(), bending_.empty() ? nullptr : &bending_, is_again},
                  solver_settings, places_, team_);
   pushed_.take_ways(*solver_, time_step);
@@ -323,8 +323,8 @@ void FastBody::prepare(const btSoftBody& body) {
 void FastBody::detect_contacts(const btSoftBody& body, btScalar time_step) {
   const TraceScope trace("detect contacts");
   const fast::WorkerTeam::Scope scope(team_, team_size());
-  follow_obstacles(false);
-  for (const Obstacle& obstacle : obstacles_) find_contacts(body, obstacle, time_step, contacts_);
+  follow_colliders(false);
+  for (const Collider& collider : colliders_) find_contacts(body, collider, time_step, contacts_);
 }
 
 void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
@@ -332,7 +332,7 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
   const TraceScope trace("fast body");
   const fast::WorkerTeam::Scope scope(team_, team_size());
   pushed_.begin_solve(pushed);
-  if (excess_ > 0 && (was_pushed() || !are_places_kept())) excess_ = 0;
+  if (excess_ > 0 && (was_changed_outside() || !are_places_kept())) excess_ = 0;
   set_targets(body, choose_method(body, time_step), time_step);
   if (!bending_.empty()) bending_.begin_step(starts_);
   solve(body, time_step, settings_.solver, false);
@@ -345,21 +345,21 @@ void FastBody::solve_anew_if_it_gains(btSoftBody& body, btScalar time_step) {
   find_velocities();
   const EnergyBalance balance = energy_balance(time_step, pushed_.energy_to_come(time_step));
   if (balance.kinetic <= balance.most) return;
-  set_targets(body, Method::kEuler, time_step);
+  set_targets(body, Method::kImplicitEuler, time_step);
   solve(body, time_step, settings_.solver, true);
 }
 
-void FastBody::look_again(btSoftBody& body, btScalar time_step) {
+void FastBody::redetect_contacts(btSoftBody& body, btScalar time_step) {
   const TraceScope trace("look again");
   const fast::WorkerTeam::Scope scope(team_, team_size());
-  follow_obstacles(true);
+  follow_colliders(true);
   is_contact_missing_ = find_missed_contacts(body, time_step);
   is_support_missing_ = pushed_.are_supports_wrong(time_step);
 }
 
-bool FastBody::looks_alone() const {
-  return std::none_of(obstacles_.begin(), obstacles_.end(), [](const Obstacle& obstacle) {
-    return needs_distance_field(*obstacle.shape, obstacle.facets);
+bool FastBody::detects_alone() const {
+  return std::none_of(colliders_.begin(), colliders_.end(), [](const Collider& collider) {
+    return needs_distance_field(*collider.shape, collider.facets);
   });
 }
 

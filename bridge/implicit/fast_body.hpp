@@ -17,9 +17,9 @@
 #include <weft/bridge/implicit/force_history.hpp>
 #include <weft/bridge/implicit/node_team.hpp>
 #include <weft/bridge/implicit/stiffness_limit.hpp>
-#include <weft/bridge/rigid/pushed_bodies.hpp>
+#include <weft/bridge/rigid/coupled_bodies.hpp>
 #include <weft/bridge/rigid/rigid_motion.hpp>
-#include <weft/bridge/rigid/rigid_parts.hpp>
+#include <weft/bridge/rigid/rigid_substeps.hpp>
 #include <weft/bridge/step_error.hpp>
 #include <weft/custom_forces/law_info.hpp>
 #include <weft/fast_solver/implicit_solver.hpp>
@@ -44,7 +44,7 @@ class FastBody : public NodeTeam {
            VectorX<double> masses, const FastSettings& settings);
 
   /// Why a body cannot be stepped so; nothing for one that can.
-  [[nodiscard]] static std::optional<std::string> obstacle(const btSoftBody& body);
+  [[nodiscard]] static std::optional<std::string> reason_against(const btSoftBody& body);
 
   [[nodiscard]] const FastSettings& settings() const { return settings_; }
   void set_settings(const FastSettings& settings) {
@@ -72,13 +72,13 @@ class FastBody : public NodeTeam {
   void meet(const btCollisionObject& object, const btTransform& place) {
     sleep_.meet(object, place);
   }
-  void meet_cloth(bool is_at_rest) { sleep_.meet_cloth(is_at_rest); }
+  void notify_cloth(bool is_at_rest) { sleep_.notify_cloth(is_at_rest); }
   void end_step(btSoftBody& body, btScalar time_step) {
     sleep_.end_step(body, time_step, settings_);
   }
 
   /// Forces that somebody else has added to m_f become velocities: impulses, which count once. Before the laws add theirs.
-  void take_impulses(btSoftBody& body, btScalar time_step);
+  void apply_external_impulses(btSoftBody& body, btScalar time_step);
   /// btSoftBody::predictMotion. positions and velocities: m_x [m] and m_v [m/s], 3 x n. Touches only the body, but not
   /// its entry in the broadphase: predictions of several bodies may run at the same time.
   void predict(btSoftBody& body, btScalar time_step, const Matrix3X<btScalar>& positions,
@@ -91,9 +91,9 @@ class FastBody : public NodeTeam {
   /// Whether predict() was called in this step. A body that is woken up in between is to be left alone.
   [[nodiscard]] bool is_predicted() const { return is_predicted_; }
   /// Appends the rigid bodies that this one may push in this step, each once.
-  void list_pushed(const btSoftBody& body, std::vector<const btRigidBody*>& list) const;
-  /// Whether detect_contacts() and look_again() touch only the body too.
-  [[nodiscard]] bool looks_alone() const;
+  void list_coupled(const btSoftBody& body, std::vector<const btRigidBody*>& list) const;
+  /// Whether detect_contacts() and redetect_contacts() touch only the body too.
+  [[nodiscard]] bool detects_alone() const;
   /// After prepare(), once Bullet has moved rigid bodies.
   void detect_contacts(const btSoftBody& body, btScalar time_step);
   /// In how many parts the step is to be taken, after detect_contacts(): in one the surface of a dynamic body that comes far
@@ -103,7 +103,7 @@ class FastBody : public NodeTeam {
   void list_dynamic(const btSoftBody& body, std::vector<btRigidBody*>& list) const;
   /// Around all parts; each is then a step of its own, from detect_contacts() to end_solve().
   void begin_parts(const btSoftBody& body, btScalar time_step);
-  void begin_part(btSoftBody& body, const RigidParts& rigid, int part, int num_parts,
+  void begin_part(btSoftBody& body, const RigidSubsteps& rigid, int part, int num_parts,
                   btScalar part_step);
   void end_parts(btSoftBody& body, btScalar time_step);
   /// In place of btSoftBody::solveConstraints. prepare(), begin_solve(), solve_again() and end_solve() change only the
@@ -115,7 +115,7 @@ class FastBody : public NodeTeam {
                    std::span<const btRigidBody* const> pushed);
   /// Looks for contacts that the solution needs, and for bodies that it has pushed into others: is_unfinished() says
   /// whether it found any.
-  void look_again(btSoftBody& body, btScalar time_step);
+  void redetect_contacts(btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool is_unfinished() const { return is_contact_missing_ || is_support_missing_; }
   void solve_again(btSoftBody& body, btScalar time_step,
                    std::span<const btRigidBody* const> pushed);
@@ -135,7 +135,7 @@ class FastBody : public NodeTeam {
   [[nodiscard]] bool has_normals() const { return has_normals_; }
   /// [s] What the end of this step's velocity counts of a rate: BDF2 takes two thirds of the step, and the rest from the steps before.
   [[nodiscard]] btScalar velocity_step() const { return velocity_step_; }
-  static constexpr int kMostLooks = 2;  ///< how often look_again() is called
+  static constexpr int kMostRedetections = 2;  ///< how often redetect_contacts() is called
 
   /// With rigid objects, of the last step.
   [[nodiscard]] const std::vector<RigidContact>& contacts() const { return contacts_; }
@@ -143,7 +143,7 @@ class FastBody : public NodeTeam {
   [[nodiscard]] const StepError& step_error() const { return step_error_; }
 
  private:
-  enum class Method { kEuler, kBdf2, kForces };
+  enum class Method { kImplicitEuler, kBdf2, kForces };
   /// Kinetic energy of a solution, and the most that what was there and was put in leaves to it [J].
   struct EnergyBalance {
     double kinetic;
@@ -151,7 +151,7 @@ class FastBody : public NodeTeam {
   };
   void solve(btSoftBody& body, btScalar time_step, const fast::SolverSettings& solver_settings,
              bool is_again);
-  [[nodiscard]] bool take_pushed_places(const btSoftBody& body);
+  [[nodiscard]] bool take_changed_positions(const btSoftBody& body);
   void prepare_solver(const btSoftBody& body);
   void set_free(const std::vector<bool>& is_free);
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
@@ -163,26 +163,26 @@ class FastBody : public NodeTeam {
   [[nodiscard]] bool are_places_kept();
   void list_known(const btSoftBody& body);
   [[nodiscard]] RigidContact* known_contact(const RigidContact& found);
-  void follow_obstacles(bool to_solution);
+  void follow_colliders(bool to_solution);
   [[nodiscard]] btTransform solved_place(const btRigidBody& rigid) const;
-  void find_contacts(const btSoftBody& body, const Obstacle& obstacle, btScalar time_step,
+  void find_contacts(const btSoftBody& body, const Collider& collider, btScalar time_step,
                      std::vector<RigidContact>& contacts);
   /// Contacts that the solution would need, and that nobody looked for where Bullet had predicted the
   /// nodes. True if there are any.
   [[nodiscard]] bool find_missed_contacts(btSoftBody& body, btScalar time_step);
   void choose_origin(const btSoftBody& body);
-  [[nodiscard]] bool was_pushed();
+  [[nodiscard]] bool was_changed_outside();
   void read_prediction(const btSoftBody& body);
   [[nodiscard]] btVector3 in_world(int node) const;
   void write_places(btSoftBody& body);
   void read_constraints(const btSoftBody& body, btScalar time_step, bool is_again);
-  void give_impulses(btSoftBody& body, btScalar time_step);
-  void keep_out_of_missed(btSoftBody& body, btScalar time_step);
-  void leave_depths();
-  void stay_outside(btSoftBody& body) const;
+  void exchange_impulses(btSoftBody& body, btScalar time_step);
+  void project_out_of_missed_colliders(btSoftBody& body, btScalar time_step);
+  void project_out_of_planes();
+  void project_out_of_colliders(btSoftBody& body) const;
   [[nodiscard]] bool gets_work_from_outside() const;
   [[nodiscard]] EnergyBalance energy_balance(btScalar time_step, double for_bodies);
-  void keep_energy(btScalar time_step);
+  void limit_kinetic_energy(btScalar time_step);
 
   BendingForces bending_;
   fast::SpringNetwork network_;  ///< until solver_ has it
@@ -215,12 +215,12 @@ class FastBody : public NodeTeam {
   Matrix3X<btScalar> impulses_;         ///< of the present step, over masses [m/s]; empty: none
   Matrix3X<btScalar> left_velocities_;  ///< at its end, after damping
   ForceHistory force_history_;
-  btScalar inertia_step_ = 0;       ///< [s] of the present step
-  btScalar velocity_step_ = 0;      ///< [s] likewise: from origins_ to places_
-  int parts_ = 1;                   ///< of the present step
-  int last_parts_ = 1;              ///< of the last one
-  Method method_ = Method::kEuler;  ///< of the present step
-  btScalar last_step_ = 0;          ///< [s]; 0: no history
+  btScalar inertia_step_ = 0;               ///< [s] of the present step
+  btScalar velocity_step_ = 0;              ///< [s] likewise: from origins_ to places_
+  int parts_ = 1;                           ///< of the present step
+  int last_parts_ = 1;                      ///< of the last one
+  Method method_ = Method::kImplicitEuler;  ///< of the present step
+  btScalar last_step_ = 0;                  ///< [s]; 0: no history
   bool is_predicted_ = false;
   bool has_normals_ = false;   ///< of the places at the end of the present step
   bool is_placed_ = false;     ///< before end_solve()
@@ -230,8 +230,8 @@ class FastBody : public NodeTeam {
   double excess_ = 0;                ///< energy in springs that projections have put in [J]
   bool is_contact_missing_ = false;  ///< in the present solution, for all that is known
   bool is_support_missing_ = false;  ///< likewise
-  std::vector<Obstacle> obstacles_;  ///< of this step
-  NodeWays ways_;
+  std::vector<Collider> colliders_;  ///< of this step
+  SweptNodes swept_;
   NodeNormals normals_;
   std::vector<RigidContact> contacts_;
   std::vector<RigidContact> found_;  ///< of a second look
@@ -239,8 +239,8 @@ class FastBody : public NodeTeam {
   std::vector<int> last_contact_;    ///< of each node, or -1; contact_before_: the one before it
   std::vector<int> contact_before_;
   std::vector<fast::PlaneContact<btScalar>> plane_contacts_;
-  std::vector<fast::KinematicNode<btScalar>> led_;
-  PushedBodies pushed_;
+  std::vector<fast::KinematicNode<btScalar>> kinematic_;
+  CoupledBodies pushed_;
   std::vector<int> scratch_;  ///< kept for its memory
 };
 

@@ -19,10 +19,10 @@ constexpr btScalar kDepthShare = btScalar(0.5);
 constexpr btScalar kPlaneShare = btScalar(0.02);
 }  // namespace
 
-void FastBody::find_contacts(const btSoftBody& body, const Obstacle& obstacle, btScalar time_step,
+void FastBody::find_contacts(const btSoftBody& body, const Collider& collider, btScalar time_step,
                              std::vector<RigidContact>& contacts) {
-  ways_.update(body, &team_);
-  add_rigid_contacts(body, ways_, obstacle, time_step, PinnedNodes::kLeftOut, contacts, &team_);
+  swept_.update(body, &team_);
+  add_rigid_contacts(body, swept_, collider, time_step, PinnedNodes::kLeftOut, contacts, &team_);
 }
 
 // Where a rigid body is at the end of the step: as Bullet has moved it, and as the last solution moves it further.
@@ -39,21 +39,21 @@ btTransform FastBody::solved_place(const btRigidBody& rigid) const {
   return place;
 }
 
-void FastBody::follow_obstacles(bool to_solution) {
-  for (Obstacle& obstacle : obstacles_) {
-    const btRigidBody* const rigid = movable(obstacle.object);
+void FastBody::follow_colliders(bool to_solution) {
+  for (Collider& collider : colliders_) {
+    const btRigidBody* const rigid = movable(collider.object);
     if (rigid == nullptr) continue;
     const btTransform end = to_solution ? solved_place(*rigid) : rigid->getCenterOfMassTransform();
-    obstacle.motion = end * obstacle.object_place.inverse();
+    collider.motion = end * collider.object_place.inverse();
   }
 }
 
-// The contact that is known of a node and an obstacle, after list_known().
+// The contact that is known of a node and a collider, after list_known().
 RigidContact* FastBody::known_contact(const RigidContact& found) {
   for (int c = last_contact_[static_cast<std::size_t>(found.node)]; c >= 0;
        c = contact_before_[static_cast<std::size_t>(c)]) {
     RigidContact& known = contacts_[static_cast<std::size_t>(c)];
-    if (known.obstacle == found.obstacle) return &known;
+    if (known.collider == found.collider) return &known;
   }
   return nullptr;
 }
@@ -72,11 +72,11 @@ void FastBody::list_known(const btSoftBody& body) {
 // was met by another place of the node than it has come to, the plane there counts from now on.
 bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
   deep_.clear();
-  if (obstacles_.empty()) return false;
+  if (colliders_.empty()) return false;
   write_places(body);
   found_.clear();
-  ways_.outdate();
-  for (const Obstacle& obstacle : obstacles_) find_contacts(body, obstacle, time_step, found_);
+  swept_.outdate();
+  for (const Collider& collider : colliders_) find_contacts(body, collider, time_step, found_);
   if (found_.empty()) return false;
   list_known(body);
   const btScalar margin = body.getCollisionShape()->getMargin();
@@ -111,14 +111,14 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
 
 // Contacts that only the last solution shows: nodes that slide from one facet into the next. Not out of dynamic objects, which would have
 // to be pushed for that: a node that is left inside of one comes out in the next step.
-void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
+void FastBody::project_out_of_missed_colliders(btSoftBody& body, btScalar time_step) {
   if (!is_unfinished()) return;
   const std::size_t num_solved = contacts_.size();
-  for (int look = 0; look <= kMostLooks && find_missed_contacts(body, time_step); ++look) {
+  for (int look = 0; look <= kMostRedetections && find_missed_contacts(body, time_step); ++look) {
     for (const RigidContact& contact : contacts_) {
       if (movable(contact.object) != nullptr) continue;
       is_projected_ = true;
-      if (look == kMostLooks && &contact >= &contacts_[num_solved]) {  // between two facets
+      if (look == kMostRedetections && &contact >= &contacts_[num_solved]) {  // between two facets
         places_.col(contact.node) =
             starts_.col(contact.node) + from_bullet<btScalar>(contact.motion);
         continue;
@@ -133,7 +133,7 @@ void FastBody::keep_out_of_missed(btSoftBody& body, btScalar time_step) {
 
 // A node is held by one plane at a time; where facets meet, that of one may let it into another. Where the step
 // began it was outside.
-void FastBody::leave_depths() {
+void FastBody::project_out_of_planes() {
   is_projected_ = is_projected_ || !deep_.empty();
   for (const RigidContact& contact : deep_) {
     const Vector3<btScalar> normal = from_bullet<btScalar>(contact.normal);
@@ -144,8 +144,8 @@ void FastBody::leave_depths() {
   }
 }
 
-// Other cloth may have pushed nodes into what does not give way.
-void FastBody::stay_outside(btSoftBody& body) const {
+// Other cloth may have pushed nodes into what does not move.
+void FastBody::project_out_of_colliders(btSoftBody& body) const {
   for (const RigidContact& contact : contacts_) {
     if (movable(contact.object) != nullptr) continue;
     btSoftBody::Node& node = body.m_nodes[contact.node];
@@ -155,7 +155,7 @@ void FastBody::stay_outside(btSoftBody& body) const {
 }
 
 // Those that are only near are not meant: a cloth that holds a body alone has to move all of it.
-void FastBody::list_pushed(const btSoftBody& body, std::vector<const btRigidBody*>& list) const {
+void FastBody::list_coupled(const btSoftBody& body, std::vector<const btRigidBody*>& list) const {
   const std::size_t num_before = list.size();
   const auto add = [&](const btRigidBody* rigid) {
     const auto mine = list.begin() + static_cast<std::ptrdiff_t>(num_before);
@@ -193,14 +193,14 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     }
     plane_contacts_.push_back(plane);
   }
-  led_.clear();
+  kinematic_.clear();
   for (int a = 0; a < body.m_anchors.size(); ++a) {
     const btSoftBody::Anchor& anchor = body.m_anchors[a];
     const auto node = static_cast<int>(anchor.m_node - &body.m_nodes[0]);
     if (!is_free_[static_cast<std::size_t>(node)]) continue;
-    const bool is_led = std::any_of(led_.begin(), led_.end(),
-                                    [&](const auto& other) { return other.node == node; });
-    if (is_led) continue;  // by an anchor before
+    const bool is_kinematic = std::any_of(kinematic_.begin(), kinematic_.end(),
+                                          [&](const auto& other) { return other.node == node; });
+    if (is_kinematic) continue;  // by an anchor before
     const btVector3 place = anchor.m_body->getWorldTransform() * anchor.m_local;
     fast::KinematicNode<btScalar> led;
     led.node = node;
@@ -209,13 +209,13 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
       led.body = pushed_.number_of(*rigid, dispatcher, time_step, is_again);
       led.lever_arm = arm_of(*rigid, place);
     }
-    led_.push_back(led);
+    kinematic_.push_back(led);
   }
 }
 
-void FastBody::give_impulses(btSoftBody& body, btScalar time_step) {
+void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
   given_to_bodies_ = -pushed_.kinetic_energy();
-  pushed_.give_impulses(time_step);
+  pushed_.exchange_impulses(time_step);
   for (int a = 0; a < body.m_anchors.size(); ++a) {  // that push with a part only
     const btSoftBody::Anchor& anchor = body.m_anchors[a];
     if (anchor.m_influence == 1 || movable(anchor.m_body) == nullptr) continue;

@@ -24,7 +24,7 @@ constexpr btScalar kLively = btScalar(2.5);
 // BDF2 takes a change of velocity between steps for the beginning of a trend, and makes 4/3 of it: such a step is implicit
 // Euler, which counts it once. The steps after it have a history that has had that velocity. Velocities of pins belong to
 // whoever leads them, and are part of no history.
-bool FastBody::was_pushed() {
+bool FastBody::was_changed_outside() {
   if (impulses_.cols() > 0) return true;
   if (left_velocities_.cols() != start_velocities_.cols()) return false;
   for (const int pin : pins_) left_velocities_.col(pin) = start_velocities_.col(pin);
@@ -33,7 +33,7 @@ bool FastBody::was_pushed() {
 
 bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
   if (!settings_.is_second_order || last_step_ != time_step || !contacts_.empty() ||
-      body.m_scontacts.size() > 0 || was_pushed()) {
+      body.m_scontacts.size() > 0 || was_changed_outside()) {
     return false;
   }
   return are_places_kept();
@@ -70,7 +70,7 @@ bool FastBody::are_places_kept() {
 
 FastBody::Method FastBody::choose_method(const btSoftBody& body, btScalar time_step) {
   if (may_use_history(body, time_step)) return Method::kBdf2;
-  return may_use_forces(body, time_step) ? Method::kForces : Method::kEuler;
+  return may_use_forces(body, time_step) ? Method::kForces : Method::kImplicitEuler;
 }
 
 // From what Bullet has predicted, velocities v + h a: where nodes would go without springs.
@@ -121,9 +121,9 @@ void FastBody::find_velocities() {
   });
 }
 
-// Pins and anchors that lead, led obstacles and other cloth do work that nobody knows.
+// Pins and anchors that lead, kinematic colliders and other cloth do work that nobody knows.
 bool FastBody::gets_work_from_outside() const {
-  if (!led_.empty()) return true;
+  if (!kinematic_.empty()) return true;
   for (const RigidContact& contact : contacts_) {
     if (contact.motion.length2() > 0 && movable(contact.object) == nullptr) return true;
     if (btRigidBody::upcast(contact.object) == nullptr)
@@ -136,8 +136,8 @@ bool FastBody::gets_work_from_outside() const {
 // Only where a dynamic body is near enough that springs may have to throw it back.
 void FastBody::keep_forces(btScalar time_step) {
   const bool is_any_near =
-      std::any_of(obstacles_.begin(), obstacles_.end(),
-                  [](const Obstacle& obstacle) { return movable(obstacle.object) != nullptr; });
+      std::any_of(colliders_.begin(), colliders_.end(),
+                  [](const Collider& collider) { return movable(collider.object) != nullptr; });
   if (!is_any_near) return force_history_.forget();
   force_history_.resize(places_.cols(), time_step);
   for_nodes([&](int begin, int count) {
@@ -172,7 +172,7 @@ FastBody::EnergyBalance FastBody::energy_balance(btScalar time_step, double for_
 // energy that nobody has given to it. What is stored in springs cannot be taken away without another step: it is kept in mind
 // until it comes out as motion. Solutions without contacts that stay as they are gain nothing and are not looked at; a plane may
 // have a node's start behind it, where the surface is curved and the node fast.
-void FastBody::keep_energy(btScalar time_step) {
+void FastBody::limit_kinetic_energy(btScalar time_step) {
   if (gets_work_from_outside()) {
     excess_ = 0;
     return;

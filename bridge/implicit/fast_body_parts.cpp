@@ -4,7 +4,7 @@
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/implicit/fast_body.hpp>
-#include <weft/bridge/rigid/rigid_parts.hpp>
+#include <weft/bridge/rigid/rigid_substeps.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -33,14 +33,14 @@ int FastBody::num_parts(const btSoftBody& body, btScalar time_step) const {
     const btRigidBody* const rigid = movable(contact.object);
     if (rigid == nullptr) continue;
     touches_dynamic = true;
-    const Obstacle& obstacle = obstacles_[static_cast<std::size_t>(contact.obstacle)];
-    const btVector3 normal = obstacle.object_place.getBasis() * contact.normal_by_object;
+    const Collider& collider = colliders_[static_cast<std::size_t>(contact.collider)];
+    const btVector3 normal = collider.object_place.getBasis() * contact.normal_by_object;
     const btScalar way = btDot(normal, body.m_nodes[contact.node].m_q - contact.met);
     // By what cloth has done to it in the last solve: so it will go on.
     const btScalar weight = 2 * time_step * time_step * rigid->getGravity().length();
     const btScalar pushed = pushed_.push_in(*rigid, time_step) - weight;
     const btScalar size =
-        std::max(smallest_half_extent(*obstacle.shape), body.getCollisionShape()->getMargin());
+        std::max(smallest_half_extent(*collider.shape), body.getCollisionShape()->getMargin());
     most = std::max({most, way / (kPartShare * size), pushed / (kPushShare * size)});
   }
   // Not much fewer than before: what short steps have begun goes on.
@@ -55,7 +55,7 @@ void FastBody::list_dynamic(const btSoftBody& body, std::vector<btRigidBody*>& l
       list.push_back(rigid);
     }
   };
-  for (const Obstacle& obstacle : obstacles_) add(obstacle.object);
+  for (const Collider& collider : colliders_) add(collider.object);
   for (int a = 0; a < body.m_anchors.size(); ++a) add(body.m_anchors[a].m_body);
 }
 
@@ -66,7 +66,7 @@ void FastBody::begin_parts(const btSoftBody& body, btScalar time_step) {
   for (const int pin : pins_) pin_places_.push_back(body.m_nodes[pin].m_x);
 }
 
-void FastBody::begin_part(btSoftBody& body, const RigidParts& rigid, int part, int num_parts,
+void FastBody::begin_part(btSoftBody& body, const RigidSubsteps& rigid, int part, int num_parts,
                           btScalar part_step) {
   if (part > 0) {
     last_starts_ = starts_;
@@ -95,13 +95,13 @@ void FastBody::begin_part(btSoftBody& body, const RigidParts& rigid, int part, i
   contacts_.clear();
   pushed_.begin_step();
   is_support_missing_ = false;
-  ways_.outdate();
-  for (Obstacle& obstacle : obstacles_) {
-    const btRigidBody* const dynamic = movable(obstacle.object);
+  swept_.outdate();
+  for (Collider& collider : colliders_) {
+    const btRigidBody* const dynamic = movable(collider.object);
     if (dynamic == nullptr) continue;
     const btTransform start = rigid.start_of(*dynamic);
-    obstacle.place = start * obstacle.object_place.inverse() * obstacle.place;
-    obstacle.object_place = start;
+    collider.place = start * collider.object_place.inverse() * collider.place;
+    collider.object_place = start;
   }
 }
 

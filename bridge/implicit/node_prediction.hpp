@@ -20,7 +20,7 @@ inline namespace WEFT_BULLET_PRECISION {
 ///
 /// Boxes of the tree of nodes hold what Bullet's would. A node that has left its own is put into the tree anew, as
 /// Bullet does it; if many have, all boxes grow to hold the ways of the next steps instead, which costs less by far:
-/// neighbours in a cloth stay neighbours, so that the tree stays good.
+/// neighbors in a cloth stay neighbors, so that the tree stays good.
 /// last_velocities: at the start of the step before, 3 x n [m/s], or of another size if not known: how fast ways bend.
 /// By a team, with the same bits for any. scratch: memory that is kept from step to step.
 void predict_nodes(btSoftBody& body, btScalar time_step, ConstMatrix3XRef<btScalar> last_velocities,

@@ -8,7 +8,7 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
 /// Largest k h^2 / m that a step is solved with [-]: beyond, a node's inertia is lost in the rounding of its springs, and the
-/// cloth falls slower than it should, or not at all. A spring at the limit gives way by T h^2 / (1e6 m) under a
+/// cloth falls slower than it should, or not at all. A spring at the limit yields by T h^2 / (1e6 m) under a
 /// tension T: one that carries ten thousand nodes against gravity, by 0.03 mm at 1/60 s.
 inline constexpr double kMostStiffness = sizeof(btScalar) == sizeof(float) ? 1e6 : 1e7;
 

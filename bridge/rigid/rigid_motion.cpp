@@ -26,7 +26,7 @@ btScalar speed_out(const btCollisionObject& object, const btVector3& place, cons
 }  // namespace
 
 btScalar Support::way_out(const RigidWay& way) const {
-  return out.dot(way.head<3>() + way.tail<3>().cross(arm));
+  return out.dot(way.head<3>() + way.tail<3>().cross(lever_arm));
 }
 
 void add_supports(const btRigidBody& body, btDispatcher* dispatcher, btScalar time_step,
@@ -71,7 +71,7 @@ Eigen::Matrix<btScalar, 6, 6> inertia_of_supports(const btRigidBody& body,
   for (const Support& support : supports) {
     if (support.body != &body || !support.is_loaded) continue;
     RigidWay way;
-    way << support.out, support.arm.cross(support.out);
+    way << support.out, support.lever_arm.cross(support.out);
     inertia += kImmovable / body.getInvMass() * way * way.transpose();
   }
   return inertia;

@@ -18,9 +18,9 @@ using RigidWay = Eigen::Matrix<btScalar, 6, 1>;
 /// Where a dynamic body touches an object that nothing moves: cloth cannot push it that way.
 struct Support {
   const btRigidBody* body;
-  Vector3<btScalar> arm;   ///< from the body's centre [m]
-  Vector3<btScalar> out;   ///< unit vector out of the other object
-  bool is_loaded = false;  ///< the body is pushed into the other object
+  Vector3<btScalar> lever_arm;  ///< from the body's centre [m]
+  Vector3<btScalar> out;        ///< unit vector out of the other object
+  bool is_loaded = false;       ///< the body is pushed into the other object
 
   /// How far the place moves out of the other object [m].
   [[nodiscard]] btScalar way_out(const RigidWay& way) const;
@@ -36,7 +36,7 @@ void add_supports(const btRigidBody& body, btDispatcher* dispatcher, btScalar ti
 bool update_loads(const btRigidBody& body, const RigidWay& way, btScalar least,
                   std::vector<Support>& supports);
 
-/// What loaded supports add to the inertia of a body, so that it gives way to nothing there [kg, kg m, kg m^2].
+/// What loaded supports add to the inertia of a body, so that it yields to nothing there [kg, kg m, kg m^2].
 [[nodiscard]] Eigen::Matrix<btScalar, 6, 6> inertia_of_supports(
     const btRigidBody& body, const std::vector<Support>& supports);
 

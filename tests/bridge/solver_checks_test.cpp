@@ -136,12 +136,12 @@ TEST(SolverChecks, FastSettingsOutOfTheirDomainAreRefused) {
 }
 
 /// What makes a body one that cannot be fast, and what is said of it.
-struct Obstacle {
+struct Collider {
   void (*make)(btSoftBody& body);
   std::string reason;
 };
 
-std::vector<Obstacle> obstacles_at_any_time() {
+std::vector<Collider> obstacles_at_any_time() {
   return {
       {[](btSoftBody& body) { body.generateClusters(1); }, "clusters"},
       {[](btSoftBody& body) {
@@ -154,9 +154,9 @@ std::vector<Obstacle> obstacles_at_any_time() {
 }
 
 TEST(SolverChecks, WhatCannotBeFastIsRefusedAndLeftAsItWas) {
-  std::vector<Obstacle> obstacles = obstacles_at_any_time();
+  std::vector<Collider> obstacles = obstacles_at_any_time();
   obstacles.push_back({[](btSoftBody& body) { body.appendLink(0, 5); }, "1 links"});
-  for (const Obstacle& obstacle : obstacles) {
+  for (const Collider& obstacle : obstacles) {
     SoftWorld world({});
     world.info().m_gravity.setValue(0, btScalar(-9.81), 0);
     btSoftBody& body = world.add(make_cloth_body(world.info(), cloth(), {}));
@@ -179,7 +179,7 @@ TEST(SolverChecks, WhatCannotBeFastIsRefusedAndLeftAsItWas) {
 }
 
 TEST(SolverChecks, WhatCannotBeFastAnyMoreIsReported) {
-  for (const Obstacle& obstacle : obstacles_at_any_time()) {
+  for (const Collider& obstacle : obstacles_at_any_time()) {
     SoftWorld world({});
     btSoftBody& body = world.add(make_cloth_body(world.info(), cloth(), {}));
     ASSERT_FALSE(world.solver().attach_fast(body, cloth(), {kSpring}));

@@ -9,7 +9,7 @@ namespace weft::bridge::testing {
 
 inline constexpr double kTimeStep = 1.0 / 128;  // [s] exact in single precision
 
-/// num_nodes nodes of 1 kg on the x axis, 1 m apart, springs between neighbours in the edge set
+/// num_nodes nodes of 1 kg on the x axis, 1 m apart, springs between neighbors in the edge set
 /// "spring", no triangles; the first num_pinned nodes are pinned.
 inline ClothMesh spring_chain(int num_nodes, int num_pinned) {
   ClothMesh mesh;

@@ -51,7 +51,7 @@ WEFT_FOR_LAWS(DissipativeLaw, [](const LawTraits& t) { return t.dissipative; });
 WEFT_FOR_LAWS(ElementLaw, [](const LawTraits& t) {
   return t.elements != forces::ElementKind::kNodes && !t.needs_closed_surface;
 });
-WEFT_FOR_LAWS(NodeByNodeLaw, [](const LawTraits& t) { return t.node_by_node; });
+WEFT_FOR_LAWS(NodeByNodeLaw, [](const LawTraits& t) { return t.is_pointwise; });
 WEFT_FOR_LAWS(LawBlindToRigidMotion, [](const LawTraits& t) { return t.ignores_rigid_motion; });
 WEFT_FOR_LAWS(LawFreeAtRest, [](const LawTraits& t) { return t.free_at_rest; });
 WEFT_FOR_LAWS(ForceLevelLaw,

@@ -12,6 +12,19 @@
 namespace weft::forces {
 namespace {
 
+/// The law's header in custom_forces/laws, relative to the source folder.
+std::string header_of(std::string_view law) {
+  const std::filesystem::path root = WEFT_SOURCE_DIR;
+  const std::string name = fmt::format("{}.hpp", law);
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(root / "custom_forces" / "laws")) {
+    if (entry.path().filename() == name) {
+      return entry.path().lexically_relative(root).generic_string();
+    }
+  }
+  throw std::runtime_error(fmt::format("no {} below custom_forces/laws", name));
+}
+
 std::string domain(const ParameterInfo& parameter) {
   if (parameter.size > 1) return fmt::format("{} finite numbers", parameter.size);
   if (parameter.maximum < ParameterInfo{}.maximum) {
@@ -54,7 +67,7 @@ std::string traits(const LawTraits& t) {
   if (t.ignores_rigid_motion) text += "; feels no rigid motion";
   if (!t.free_at_rest) text += "; may act at the rest shape";
   text += t.has_energy ? "; has an energy" : "; stores no energy";
-  if (t.node_by_node) text += "; acts on each node by itself";
+  if (t.is_pointwise) text += "; acts on each node by itself";
   if (t.dissipative) text += "; only takes energy out";
   if (t.needs_closed_surface) text += "; needs a closed surface";
   if (t.level == LawTraits::Level::kVelocity) {
@@ -109,9 +122,10 @@ std::string page(const LawInfo& law) {
   text += fmt::format(
       "\n* Shapes: positions and velocities 3 x n, masses n; {}\n* Traits: {}\n* Source: {}\n"
       "* Checked by: the contract tests (`tests/contract`); {}\n* Signs, degenerate elements, "
-      "errors: `custom_forces/{}.hpp`\n\nIn a scene file, with every parameter (values are "
+      "errors: `{}`\n\nIn a scene file, with every parameter (values are "
       "examples):\n\n```toml\n[[cloth.law]]\nlaw = \"{}\"\n",
-      shapes(law.traits.elements), traits(law.traits), law.source, law.checked_by, law.id, law.id);
+      shapes(law.traits.elements), traits(law.traits), law.source, law.checked_by,
+      header_of(law.id), law.id);
   for (const ParameterInfo& parameter : law.parameters) {
     text += fmt::format("{} = {}\n", parameter.name, example(parameter));
   }

@@ -23,7 +23,7 @@ const LawInfo VelocityDamping<Scalar>::kInfo{
     .checked_by = "cases oscillator, damped_hang; tests VelocityDamping.*",
     .traits = {.free_at_rest = true,
                .dissipative = true,
-               .node_by_node = true,
+               .is_pointwise = true,
                .level = LawTraits::Level::kVelocity},
     .parameters = kParameters};
 

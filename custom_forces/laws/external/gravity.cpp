@@ -23,7 +23,7 @@ const LawInfo Gravity<Scalar>::kInfo{
     .formula = "f = m g, E = -m g . x",
     .source = "uniform field",
     .checked_by = "cases hanging_chain, drape_sphere; tests Gravity.*",
-    .traits = {.ignores_rigid_motion = true, .has_energy = true, .node_by_node = true},
+    .traits = {.ignores_rigid_motion = true, .has_energy = true, .is_pointwise = true},
     .parameters = kParameters};
 
 template <class Scalar>

@@ -1,4 +1,4 @@
-// Anchors to bodies that give way.
+// Anchors to bodies that yield.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

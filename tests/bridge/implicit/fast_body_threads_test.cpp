@@ -9,7 +9,7 @@
 namespace weft::bridge {
 namespace {
 
-// Large enough for threads within the body; with contacts, a body that gives way, dampers and bending.
+// Large enough for threads within the body; with contacts, a body that yields, dampers and bending.
 TEST(FastBodyThreads, ChangeNoBit) {
   const auto run = [](int num_threads) {
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 4);

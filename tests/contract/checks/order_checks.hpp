@@ -24,7 +24,7 @@ template <class Scalar>
 template <class Scalar>
 [[nodiscard]] Measurement threads_change_no_bit(const Subject& subject);
 
-/// For a law that is node_by_node: entries of forces whose bits differ where it is asked for some of the nodes at a time.
+/// For a pointwise law: entries of forces whose bits differ where it is asked for some of the nodes at a time.
 template <class Scalar>
 [[nodiscard]] Measurement some_nodes_are_enough(const Subject& subject);
 

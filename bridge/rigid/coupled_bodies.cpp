@@ -1,4 +1,4 @@
-#include <weft/bridge/rigid/pushed_bodies.hpp>
+#include <weft/bridge/rigid/coupled_bodies.hpp>
 
 #include <algorithm>
 
@@ -48,7 +48,7 @@ constexpr btScalar kLeastPush = btScalar(0.05);
 
 }  // namespace
 
-void PushedBodies::begin_step() {
+void CoupledBodies::begin_step() {
   last_held_.clear();
   for (const Support& support : supports_) {
     if (support.is_loaded) last_held_.push_back(support.body);
@@ -57,13 +57,13 @@ void PushedBodies::begin_step() {
   supported_.clear();
 }
 
-void PushedBodies::clear() {
+void CoupledBodies::clear() {
   bodies_.clear();
   inertias_.clear();
 }
 
-int PushedBodies::number_of(const btRigidBody& rigid, btDispatcher* dispatcher, btScalar time_step,
-                            bool is_again) {
+int CoupledBodies::number_of(const btRigidBody& rigid, btDispatcher* dispatcher, btScalar time_step,
+                             bool is_again) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (bodies_[b] == &rigid) return static_cast<int>(b);
   }
@@ -82,9 +82,9 @@ int PushedBodies::number_of(const btRigidBody& rigid, btDispatcher* dispatcher, 
 }
 
 // Those of a body that was held in the last step are likely to hold it again: the others have to be found out.
-const std::vector<Support>& PushedBodies::supports_of(const btRigidBody& rigid,
-                                                      btDispatcher* dispatcher,
-                                                      btScalar time_step) {
+const std::vector<Support>& CoupledBodies::supports_of(const btRigidBody& rigid,
+                                                       btDispatcher* dispatcher,
+                                                       btScalar time_step) {
   const bool is_known = std::find(supported_.begin(), supported_.end(), &rigid) != supported_.end();
   if (is_known) return supports_;
   supported_.push_back(&rigid);
@@ -96,7 +96,7 @@ const std::vector<Support>& PushedBodies::supports_of(const btRigidBody& rigid,
 }
 
 // Whether rigid bodies were pushed into others that had not held them in the last solution, or the other way round.
-bool PushedBodies::are_supports_wrong(btScalar time_step) {
+bool CoupledBodies::are_supports_wrong(btScalar time_step) {
   const btScalar least = kLeastPush * time_step * time_step;
   bool are_wrong = false;
   for (std::size_t b = 0; b < bodies_.size() && !supports_.empty(); ++b) {
@@ -106,7 +106,7 @@ bool PushedBodies::are_supports_wrong(btScalar time_step) {
   return are_wrong;
 }
 
-void PushedBodies::take_ways(const fast::ImplicitSolver<btScalar>& solver, btScalar time_step) {
+void CoupledBodies::take_ways(const fast::ImplicitSolver<btScalar>& solver, btScalar time_step) {
   last_.assign(bodies_.begin(), bodies_.end());
   last_ways_.clear();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -115,24 +115,24 @@ void PushedBodies::take_ways(const fast::ImplicitSolver<btScalar>& solver, btSca
   last_step_ = time_step;
 }
 
-RigidWay PushedBodies::way_of(const btRigidBody& rigid) const {
+RigidWay CoupledBodies::way_of(const btRigidBody& rigid) const {
   const auto place = std::find(last_.begin(), last_.end(), &rigid);
   return place == last_.end() ? RigidWay(RigidWay::Zero())
                               : last_ways_[static_cast<std::size_t>(place - last_.begin())];
 }
 
-btScalar PushedBodies::push_in(const btRigidBody& rigid, btScalar time_step) const {
+btScalar CoupledBodies::push_in(const btRigidBody& rigid, btScalar time_step) const {
   const btScalar steps = last_step_ > 0 ? time_step / last_step_ : 0;
   return steps * steps * way_of(rigid).template head<3>().norm();
 }
 
-double PushedBodies::kinetic_energy() const {
+double CoupledBodies::kinetic_energy() const {
   double sum = 0;
   for (const btRigidBody* const rigid : bodies_) sum += kinetic_energy_of(*rigid);
   return sum;
 }
 
-double PushedBodies::energy_to_come(btScalar time_step) const {
+double CoupledBodies::energy_to_come(btScalar time_step) const {
   double sum = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const btRigidBody& rigid = *bodies_[b];
@@ -149,7 +149,7 @@ double PushedBodies::energy_to_come(btScalar time_step) const {
   return sum;
 }
 
-void PushedBodies::give_impulses(btScalar time_step) {
+void CoupledBodies::exchange_impulses(btScalar time_step) {
   velocities_before_.clear();
   for (const btRigidBody* const rigid : bodies_) {
     velocities_before_.emplace_back(rigid->getLinearVelocity(), rigid->getAngularVelocity());
@@ -167,7 +167,7 @@ void PushedBodies::give_impulses(btScalar time_step) {
   }
 }
 
-void PushedBodies::move_at_once(btScalar time_step) {
+void CoupledBodies::move_at_once(btScalar time_step) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const bool touches = std::any_of(supports_.begin(), supports_.end(),
                                      [&](const Support& one) { return one.body == bodies_[b]; });

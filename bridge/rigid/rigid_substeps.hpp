@@ -11,10 +11,10 @@ inline namespace WEFT_BULLET_PRECISION {
 
 /// Dynamic bodies that Bullet has moved already, during a step that cloth takes in parts: they go back to where the step
 /// began, and on by one part at a time, with the velocities that cloth leaves them.
-class RigidParts {
+class RigidSubsteps {
  public:
   /// time_step: of the whole step [s]. The bodies go back at once.
-  RigidParts(const std::vector<btRigidBody*>& bodies, btScalar time_step, int num_parts);
+  RigidSubsteps(const std::vector<btRigidBody*>& bodies, btScalar time_step, int num_parts);
   /// To where each is at the end of the part if left alone.
   void begin_part();
   void end_part();

@@ -14,7 +14,7 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
 /// Dynamic bodies that a cloth may push in a step: what its solver knows of them, and what they get of the solution.
-class PushedBodies {
+class CoupledBodies {
  public:
   void begin_step();
   /// pushed: those of all bodies, in order. Of one that several may push each has a part of its inertia.
@@ -40,10 +40,10 @@ class PushedBodies {
   [[nodiscard]] bool are_supports_wrong(btScalar time_step);
 
   [[nodiscard]] double kinetic_energy() const;
-  /// That give_impulses() will give them [J].
+  /// That exchange_impulses() will give them [J].
   [[nodiscard]] double energy_to_come(btScalar time_step) const;
   /// The momentum of the motion that the solution has given to each.
-  void give_impulses(btScalar time_step);
+  void exchange_impulses(btScalar time_step);
   /// That motion too: Bullet has moved them before, and would leave nodes inside of them until the next step. Not what touches
   /// something else, whose friction may hold it.
   void move_at_once(btScalar time_step);

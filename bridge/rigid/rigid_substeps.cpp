@@ -1,4 +1,4 @@
-#include <weft/bridge/rigid/rigid_parts.hpp>
+#include <weft/bridge/rigid/rigid_substeps.hpp>
 
 #include <algorithm>
 
@@ -17,7 +17,8 @@ btTransform moved(const btTransform& place, const btRigidBody& body, btScalar ti
 
 }  // namespace
 
-RigidParts::RigidParts(const std::vector<btRigidBody*>& bodies, btScalar time_step, int num_parts)
+RigidSubsteps::RigidSubsteps(const std::vector<btRigidBody*>& bodies, btScalar time_step,
+                             int num_parts)
     : part_(time_step / static_cast<btScalar>(num_parts)) {
   for (btRigidBody* const body : bodies) {
     const btTransform& now = body->getCenterOfMassTransform();
@@ -25,14 +26,14 @@ RigidParts::RigidParts(const std::vector<btRigidBody*>& bodies, btScalar time_st
   }
 }
 
-void RigidParts::begin_part() {
+void RigidSubsteps::begin_part() {
   for (Entry& one : entries_) {
     one.alone = moved(one.start, *one.body, part_);
     one.body->setCenterOfMassTransform(one.alone);
   }
 }
 
-void RigidParts::end_part() {
+void RigidSubsteps::end_part() {
   for (Entry& one : entries_) {
     const btTransform going_on = moved(one.start, *one.body, part_);
     const bool is_moved = !(one.body->getCenterOfMassTransform() == one.alone);
@@ -41,13 +42,13 @@ void RigidParts::end_part() {
   }
 }
 
-void RigidParts::finish() {
+void RigidSubsteps::finish() {
   for (const Entry& one : entries_) {
     one.body->setCenterOfMassTransform(one.is_held ? one.moved : one.start);
   }
 }
 
-const btTransform& RigidParts::start_of(const btRigidBody& body) const {
+const btTransform& RigidSubsteps::start_of(const btRigidBody& body) const {
   return std::find_if(entries_.begin(), entries_.end(),
                       [&](const Entry& one) { return one.body == &body; })
       ->start;
