@@ -11,8 +11,8 @@ namespace weft::bridge {
 /// How far the last step of a body with implicit springs was solved. It is the error of the equations of the step, beside that
 /// of taking steps at all.
 struct StepError {
-  /// Of a node from where the equations put it, root mean square over the mass [m]: a bound, from what more iterations would
-  /// gain by estimate (fast::SolverReport). Sheets that crumple are farther off in one step of ten.
+  /// The distance of the nodes from the solution, root mean square over the mass [m]. It is a bound from the estimated gain of
+  /// more iterations (fast::SolverReport). Sheets that crumple are farther off in one step of ten.
   double distance = 0.0;
   int newton_iterations =
       0;  ///< linearisations of the last solution; 0 for a body that sleeps, or has blown up

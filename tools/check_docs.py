@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks the Markdown pages: links and headings exist, every page can be reached, none is longer than a sitting."""
+"""Checks the pages: links and headings exist, every page can be reached, none is longer than a sitting, and retired words
+stay away from pages and code."""
 import re
 import sys
 import tempfile
@@ -11,6 +12,38 @@ START_PAGES = ("README.md", "docs/README.md")
 MAX_LINES = 150
 # Page -> why it may be longer.
 LONG_PAGES = {"CHANGELOG.md": "grows with every version", "README.md": "has a whole program"}
+
+# Private words that the field has a term for (docs/glossary.md): word -> term. None may come back into a page, or into
+# the code of the folders below.
+RETIRED = {
+    r"hats?": "coarse basis function",
+    r"ThreadTeam|thread_team": "WorkerTeam",
+    r"IsotropicNetwork": "ConnectivityGraph",
+    r"BorderedBand": "DissectedCholesky",
+    r"NewtonRound": "NewtonIteration",
+    r"SolverEffort": "SolverSettings",
+    r"LedNode": "KinematicNode",
+    r"PushedBodies": "CoupledBodies",
+    r"RigidParts": "RigidSubsteps",
+    r"hold_back|tame|go_downhill|descend": "line search",
+    r"go_up|go_down": "forward and backward substitution",
+    r"look_again": "redetect_contacts",
+    r"leave_depths|keep_out_of_missed|stay_outside": "project_out_of_...",
+    r"take_impulses|give_impulses": "apply_external_impulses, exchange_impulses",
+    r"node_by_node": "pointwise",
+    r"unbalanced": "residual",
+    r"neighbours?": "neighbor",
+}
+RETIRED_WORD = {re.compile(rf"\b(?:{word})\b"): term for word, term in RETIRED.items()}
+CODE_WITHOUT_RETIRED_WORDS = ("fast_solver", "bridge", "tests/fast_solver", "tests/bridge")
+# File -> why it may keep a retired word.
+MAY_NAME_RETIRED = {
+    "CHANGELOG.md": "says what was renamed",
+    "docs/validation.md": "has a hat that is worn",
+}
+MODULES = ("core", "mesh", "custom_forces", "fast_solver", "bridge", "reference", "characters", "scenes", "playback", "engines",
+           "validation", "apps", "bench", "fuzz", "tests")
+FRAGMENT = re.compile(r"^\s*//+<? Of\b")
 
 FENCE = re.compile(r"^(```|~~~).*?^\1[ \t]*$", re.DOTALL | re.MULTILINE)
 CODE = re.compile(r"`[^`\n]*`")
@@ -55,6 +88,25 @@ def pages_of(root):
     return pages
 
 
+def faults_of_words(root, pages):
+    """Yields 'file:line: message' for retired words in pages and code, and for comments that begin with a fragment."""
+    texts = {page: text for page, text in pages.items() if page not in MAY_NAME_RETIRED}
+    for module in MODULES:
+        for file in sorted((root / module).rglob("*.[hc]pp")):
+            path = file.relative_to(root).as_posix()
+            text = file.read_text(encoding="utf-8")
+            if path.startswith(CODE_WITHOUT_RETIRED_WORDS):
+                texts[path] = text
+            for number, line in enumerate(text.splitlines(), 1):
+                if FRAGMENT.match(line):
+                    yield f"{path}:{number}: the comment begins with a fragment, expected a sentence"
+    for path, text in texts.items():
+        for number, line in enumerate(text.splitlines(), 1):
+            for pattern, term in RETIRED_WORD.items():
+                if match := pattern.search(line):
+                    yield f"{path}:{number}: '{match[0]}' is retired, the term is {term}"
+
+
 def check(root):
     """All faults below root as 'file:line: message', and the number of pages read."""
     pages, faults, links = pages_of(root), [], {}
@@ -73,6 +125,7 @@ def check(root):
         num_lines = len(text.splitlines())
         if num_lines > MAX_LINES and page not in LONG_PAGES:
             faults.append(f"{page}:1: {num_lines} lines, at most {MAX_LINES}")
+    faults += faults_of_words(root, pages)
     faults += [f"{page}: this start page is missing" for page in START_PAGES if page not in pages]
     reached, waiting = set(), [page for page in START_PAGES if page in pages]
     while waiting:
@@ -93,12 +146,16 @@ def self_test():
         "docs/b.md": "# B\n[x](a.md#no-such-heading)\n",
         "docs/c.md": "line\n" * (MAX_LINES + 1),
         "docs/orphan.md": "# Nobody links here\n",
+        "bridge/x.cpp": "int neighbor;\n// A hat on a cloth.\n// Of each node.\n",
+        "mesh/x.cpp": "int hats;  // another module's business\n",
     }
     expected = [
         "docs/a.md:3: link to 'missing.md'",
         "docs/b.md:2: no heading '#no-such-heading'",
         f"docs/c.md:1: {MAX_LINES + 1} lines",
         "docs/orphan.md:1: cannot be reached",
+        "bridge/x.cpp:2: 'hat' is retired, the term is coarse basis function",
+        "bridge/x.cpp:3: the comment begins with a fragment",
     ]
     with tempfile.TemporaryDirectory() as folder:
         root = Path(folder).resolve()

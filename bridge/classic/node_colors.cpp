@@ -10,32 +10,32 @@ namespace {
 
 using Neighbours = std::vector<std::vector<int>>;
 
-void couple(const std::vector<int>& group, Neighbours& neighbours) {
+void couple(const std::vector<int>& group, Neighbours& neighbors) {
   for (const int a : group) {
     for (const int b : group) {
-      if (a != b) neighbours[static_cast<std::size_t>(a)].push_back(b);
+      if (a != b) neighbors[static_cast<std::size_t>(a)].push_back(b);
     }
   }
 }
 
 // Triangles, and pairs of triangles that share an edge.
-void couple_triangles(const Triangles& triangles, Neighbours& neighbours) {
+void couple_triangles(const Triangles& triangles, Neighbours& neighbors) {
   std::map<std::pair<int, int>, std::vector<int>> opposite;
   for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
     for (int k = 0; k < 3; ++k) {
       const int a = triangles(k, t);
       const int b = triangles((k + 1) % 3, t);
       const int c = triangles((k + 2) % 3, t);
-      couple({a, b}, neighbours);
+      couple({a, b}, neighbors);
       std::vector<int>& others = opposite[std::minmax(a, b)];
-      for (const int other : others) couple({other, c}, neighbours);
+      for (const int other : others) couple({other, c}, neighbors);
       others.push_back(c);
     }
   }
 }
 
 // A connection feels the frame of its node, and so the nodes of all triangles around it.
-void couple_connections(const ClothMesh& mesh, Neighbours& neighbours) {
+void couple_connections(const ClothMesh& mesh, Neighbours& neighbors) {
   for (const ConnectionSet& set : mesh.connection_sets) {
     for (Eigen::Index c = 0; c < set.connections.cols(); ++c) {
       const int node = set.connections(0, c);
@@ -44,38 +44,38 @@ void couple_connections(const ClothMesh& mesh, Neighbours& neighbours) {
         if ((mesh.triangles.col(t).array() != node).all()) continue;
         for (int k = 0; k < 3; ++k) group.push_back(mesh.triangles(k, t));
       }
-      couple(group, neighbours);
+      couple(group, neighbors);
     }
   }
 }
 
-Neighbours neighbours_of(const ClothMesh& mesh) {
-  Neighbours neighbours(static_cast<std::size_t>(mesh.num_nodes()));
+Neighbours neighbors_of(const ClothMesh& mesh) {
+  Neighbours neighbors(static_cast<std::size_t>(mesh.num_nodes()));
   for (const EdgeSet& set : mesh.edge_sets) {
     for (Eigen::Index e = 0; e < set.edges.cols(); ++e) {
-      couple({set.edges(0, e), set.edges(1, e)}, neighbours);
+      couple({set.edges(0, e), set.edges(1, e)}, neighbors);
     }
   }
   for (const LineSet& set : mesh.line_sets) {
     for (Eigen::Index l = 0; l < set.triples.cols(); ++l) {
-      couple({set.triples(0, l), set.triples(1, l), set.triples(2, l)}, neighbours);
+      couple({set.triples(0, l), set.triples(1, l), set.triples(2, l)}, neighbors);
     }
   }
-  couple_triangles(mesh.triangles, neighbours);
-  couple_triangles(mesh.crossed_triangles, neighbours);
-  couple_connections(mesh, neighbours);
-  return neighbours;
+  couple_triangles(mesh.triangles, neighbors);
+  couple_triangles(mesh.crossed_triangles, neighbors);
+  couple_connections(mesh, neighbors);
+  return neighbors;
 }
 
 }  // namespace
 
 std::vector<std::vector<int>> node_colors(const ClothMesh& mesh) {
-  const Neighbours neighbours = neighbours_of(mesh);
-  std::vector<int> color_of(neighbours.size(), -1);
+  const Neighbours neighbors = neighbors_of(mesh);
+  std::vector<int> color_of(neighbors.size(), -1);
   std::vector<std::vector<int>> colors;
-  for (std::size_t node = 0; node < neighbours.size(); ++node) {
+  for (std::size_t node = 0; node < neighbors.size(); ++node) {
     std::vector<bool> taken(colors.size() + 1, false);
-    for (const int other : neighbours[node]) {
+    for (const int other : neighbors[node]) {
       const int color = color_of[static_cast<std::size_t>(other)];
       if (color >= 0) taken[static_cast<std::size_t>(color)] = true;
     }

@@ -25,7 +25,7 @@ constexpr std::int64_t kCopyApplicationId = 0x57454650;  // "WEFP" in ASCII
 constexpr std::size_t kMaxChunkFrames = 60;
 constexpr std::size_t kMaxChunkValues = 600'000;
 
-/// Of the largest cloth: below, 31 bits of steps would not reach around it; above, it has no shape left.
+/// Relative to the largest cloth: 31 bits of smaller steps would not reach around it, and larger ones leave it no shape.
 constexpr double kSmallestError = 1e-8;
 constexpr double kLargestError = 0.1;
 

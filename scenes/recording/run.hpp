@@ -13,7 +13,7 @@ struct RunSummary {
   int steps = 0;   ///< taken, the one that blew up included
   int frames = 0;  ///< written, the initial one included
   std::optional<BlowUp> blow_up;
-  /// Of an engine that iterates: the largest error of a step [m] and the steps whose budget ended first.
+  /// An engine that iterates gives the largest error of a step [m] and the number of steps whose budget ended first.
   std::optional<double> largest_error;
   int unfinished_steps = 0;
   double engine_seconds = 0.0;  ///< [s] wall time in Simulator::step alone
