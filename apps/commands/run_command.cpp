@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -112,8 +113,20 @@ void report_stable_step(const scenes::StepReport& step) {
 }
 
 /// Looked at before the run, so that a bad path costs no simulation; a run without --trace has none.
-std::optional<output::OutputFile> begin_trace(const std::string& path) {
+/// @throws InvalidArgument if it would have a name that the recording needs.
+std::optional<output::OutputFile> begin_trace(const std::string& path,
+                                              const scenes::RecordingOutput& recording) {
   if (path.empty()) return std::nullopt;
+  // Empty if the system cannot tell, which OutputFile reports.
+  const auto place = [](const std::filesystem::path& file) {
+    std::error_code ignored;
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file), ignored);
+  };
+  const std::filesystem::path own = place(path);
+  if (!own.empty() && (own == place(recording.path()) || own == place(recording.partial()))) {
+    throw InvalidArgument("--trace " + path +
+                          ": is a name of the recording, expected another name");
+  }
   output::OutputFile file(path, kTraceKind);
   name_trace_thread("main");
   start_trace();
@@ -243,7 +256,7 @@ int run(RunOptions options, const CommandLine& command_line) {
   provenance["precision"] = scenes::to_string(precision);
   provenance["threads"] = options.threads > 0 ? std::to_string(options.threads) : "all";
 
-  const std::optional<output::OutputFile> trace = begin_trace(options.trace);
+  const std::optional<output::OutputFile> trace = begin_trace(options.trace, output);
   const Recorded recorded = record(scene, *engine, options.threads, provenance, output);
   output.publish();
   report_stable_step(recorded.last);

@@ -85,6 +85,11 @@ if command -v python3 >/dev/null; then
 fi
 check "a trace that cannot be written" exits 2 "${short[@]}" -o t.weftrec --trace /no/such/folder/t.json
 check "no recording without it" test ! -e t.weftrec
+for trace in t.weftrec ./t.weftrec t.partial.weftrec; do
+  check "a trace with a name of the recording" exits 2 "${short[@]}" -o t.weftrec --trace $trace
+  check "it says so" grep -q "^weft: --trace $trace: is a name of the recording" err
+  check "nothing is left" test -z "$(find . -name 't.*weftrec*' -o -name 't-2.weftrec')"
+done
 check "another run differs" exits 0 run drape_sphere --duration "0.64 s" -o b.weftrec
 grep "content hash" out >hash_b
 check "another run: another hash" test "$(cat hash_a)" != "$(cat hash_b)"
