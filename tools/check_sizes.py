@@ -2,7 +2,7 @@
 """Checks that files and functions stay small enough to read in one go.
 
 Headers have at most 250 lines, sources and scripts 500, C++ functions 80. The targets that authors aim at are 150,
-300 and 40. Functions are found by their braces, without a parser: good enough for a limit.
+300 and 40. A class has at most 400 lines and 25 functions over all its files. Functions are found by their braces, without a parser: good enough for a limit.
 """
 import re
 import sys
@@ -16,6 +16,19 @@ MAX_FUNCTION_LINES = 80
 
 # File, or file:line text of the function's first line -> the reason why it may be longer.
 EXCEPTIONS = {}
+
+# A class counts over its header and all sources that define its members, so that splitting it over files helps nobody.
+MAX_CLASS_LINES = 400
+MAX_CLASS_FUNCTIONS = 25
+# "module Class" -> how many lines and functions it may have today, and why. These figures may only go down.
+LARGE_CLASSES = {
+    "fast_solver ImplicitSolver": (1400, 67, "Newton, line search, contact states and rigid coupling share the state of a step"),
+    "bridge FastBody": (940, 57, "all stages of an implicit step of one body"),
+    "bridge SoftBodySolver": (810, 54, "everything that a program may call, and Bullet's nine hooks"),
+    "fast_solver CoarseCorrection": (495, 24, "set-up, changes and use of one coarse space"),
+    "fast_solver NetworkForces": (410, 21, "forces and matrices of one network, in two layouts"),
+    "bridge DeformableForces": (335, 26, "Bullet's interface has thirteen functions"),
+}
 
 NOT_CODE = re.compile(
     r'R"(?P<delimiter>[^()\s\\]{0,16})\(.*?\)(?P=delimiter)"'  # raw string
@@ -97,6 +110,45 @@ def check(root, exceptions):
     return faults, num_files
 
 
+CLASS_HEAD = re.compile(r"^(?:class|struct)\s+(\w+)(?:\s+final)?[^;{()]*\{", re.MULTILINE)
+MEMBER_HEAD = re.compile(r"\b([A-Z]\w*)(?:<[\w, ]*>)?::~?\w+\s*\(")
+
+
+def class_sizes(root):
+    """'module Class' -> [lines, functions defined in sources], over all files of each top-level folder."""
+    sizes = {}
+    for file in sorted(root.rglob("*.[hc]pp")):
+        parts = file.relative_to(root).parts
+        if len(parts) < 2 or SKIPPED_FOLDERS.intersection(parts) or parts[0] == "tests" or parts[0].startswith("build-"):
+            continue
+        text = file.read_text(encoding="utf-8")
+        if file.suffix == ".hpp":
+            code = NOT_CODE.sub(blank, text)
+            for match in CLASS_HEAD.finditer(code):
+                end, depth = match.end(), 1
+                while depth and end < len(code):
+                    depth += {"{": 1, "}": -1}.get(code[end], 0)
+                    end += 1
+                sizes.setdefault(f"{parts[0]} {match[1]}", [0, 0])[0] += code.count("\n", match.start(), end) + 1
+            continue
+        lines = text.splitlines()
+        for first, length in function_lengths(text).items():
+            if match := MEMBER_HEAD.search(" ".join(lines[first - 1 : first + 3])):
+                size = sizes.setdefault(f"{parts[0]} {match[1]}", [0, 0])
+                size[0] += length
+                size[1] += 1
+    return sizes
+
+
+def check_classes(root, large_classes):
+    """Classes that are larger than they may be."""
+    for name, (num_lines, num_functions) in sorted(class_sizes(root).items()):
+        most_lines, most_functions, _ = large_classes.get(name, (MAX_CLASS_LINES, MAX_CLASS_FUNCTIONS, ""))
+        if num_lines > most_lines or num_functions > most_functions:
+            yield (f"{name}: {num_lines} lines and {num_functions} functions over all its files, "
+                   f"at most {most_lines} and {most_functions}")
+
+
 def self_test():
     """Long files and functions are found at their first line; long tables, types and namespaces are not functions."""
     body = "  f();\n" * MAX_FUNCTION_LINES
@@ -124,6 +176,16 @@ def self_test():
             assert not mine, f"{path} is clean, but: {mine}"
         else:
             assert len(mine) == 1 and mine[0].startswith(expected), f"expected '{expected}', got {mine}"
+    with tempfile.TemporaryDirectory() as folder:
+        module = Path(folder) / "mesh"
+        module.mkdir()
+        (module / "a.hpp").write_text("class Wide {\n" + "  int f();\n" * 30 + "};\nclass Small {};\n", encoding="utf-8")
+        for part in range(2):
+            body = "".join(f"int Wide::f{part}{i}() {{\n  return 1;\n}}\n" for i in range(15))
+            (module / f"a{part}.cpp").write_text(body + "Small::Small() {}\n", encoding="utf-8")
+        found = list(check_classes(Path(folder), {}))
+        assert found == ["mesh Wide: 122 lines and 30 functions over all its files, at most 400 and 25"], found
+        assert not list(check_classes(Path(folder), {"mesh Wide": (122, 30, "self-test")}))
     print(f"check_sizes: self-test passed, {len(cases)} files")
 
 
@@ -133,6 +195,7 @@ def main():
     if sys.argv[1:]:
         sys.exit("usage: check_sizes.py [--self-test]")
     faults, num_files = check(ROOT, EXCEPTIONS)
+    faults += check_classes(ROOT, LARGE_CLASSES)
     if faults:
         sys.exit("\n".join(faults + [f"check_sizes: {len(faults)} faults in {num_files} files"]))
     print(f"check_sizes: {num_files} files, all within their limits")
