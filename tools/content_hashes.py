@@ -28,7 +28,10 @@ def scenes_of(weft):
 
 
 def result_of(weft, scene, engine, precision, time_step, duration, seconds):
-    """The hash of the run's recording, or why there is none: refused, blew up, or not done in time."""
+    """The hash of the run's recording, or why there is none: not made for the scene, or not done in time.
+
+    Ends the program for any other error, because two tables of errors would be equal.
+    """
     with tempfile.TemporaryDirectory() as folder:
         recording = str(Path(folder) / "run.weftrec")
         command = [weft, "run", scene, "--engine", engine, "--precision", precision, "--output", recording]
@@ -40,10 +43,13 @@ def result_of(weft, scene, engine, precision, time_step, duration, seconds):
             run = subprocess.run(command, capture_output=True, text=True, timeout=seconds)
         except subprocess.TimeoutExpired:
             return f"not done after {seconds} s"
-        match = re.search(r"\b[0-9a-f]{16,32}\b", run.stdout)
-        if run.returncode == 2:
+        is_refused = "is not made for it" in run.stderr or "expected a whole number of" in run.stderr
+        if run.returncode == 2 and is_refused:
             return "refused"
-        return f"{match[0] if match else 'no hash'}{' blew up' if run.returncode else ''}"
+        match = re.search(r"content hash ([0-9a-f]{32})\b", run.stdout)
+        if not match or run.returncode not in (0, 1):
+            sys.exit(f"{' '.join(command)}: no hash, exit status {run.returncode}: {run.stderr.strip()}")
+        return f"{match[1]}{' blew up' if run.returncode else ''}"
 
 
 def main():

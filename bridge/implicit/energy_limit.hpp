@@ -7,7 +7,7 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// What a step did, of a body on which nothing that moves does work (pins, anchors, moving colliders). All 3 x n.
+/// The result of a step of a body on which nothing that moves does work (pins, anchors, moving colliders). All 3 x n.
 struct StepMotion {
   const Matrix3X<btScalar>& masses;            ///< each thrice [kg]; 0 for pinned nodes
   const Matrix3X<btScalar>& starts;            ///< [m]

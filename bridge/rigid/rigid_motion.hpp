@@ -36,7 +36,7 @@ void add_supports(const btRigidBody& body, btDispatcher* dispatcher, btScalar ti
 bool update_loads(const btRigidBody& body, const RigidWay& way, btScalar least,
                   std::vector<Support>& supports);
 
-/// What loaded supports add to the inertia of a body, so that it yields to nothing there [kg, kg m, kg m^2].
+/// The inertia that loaded supports add to a body, so that it does not move there [kg, kg m, kg m^2].
 [[nodiscard]] Eigen::Matrix<btScalar, 6, 6> inertia_of_supports(
     const btRigidBody& body, const std::vector<Support>& supports);
 

@@ -181,7 +181,7 @@ TEST(CoarseCorrection, FindsADisplacementFromItsForces) {
   }
 }
 
-// What is pinned later is not moved, what is let go is, and the matrix is that of the new coarse basis functions.
+// A node that is pinned later does not move, and one that is let go does. The matrix is that of the new coarse basis functions.
 TEST(CoarseCorrection, FollowsPins) {
   const std::vector<int> side = Sheet::side();
   Sheet sheet(0.01F);
