@@ -118,6 +118,7 @@ std::optional<std::string> SoftBodySolver::attach_fast(
   check_topology("soft body solver", body, mesh);
   LawSet set = explicit_laws(mesh, laws);
   auto fast = std::make_unique<FastBody>(mesh, laws, mesh.masses, settings);
+  fast->note_links(body);
   attach(body, std::move(set), mesh.masses.cast<btScalar>());
   find(body)->fast = std::move(fast);
   return std::nullopt;
@@ -199,6 +200,7 @@ void SoftBodySolver::replace_laws(btSoftBody& body, const ClothMesh& mesh,
     return;
   }
   auto fast = std::make_unique<FastBody>(mesh, laws, mesh.masses, old->fast->settings());
+  fast->note_links(body);
   replace_laws(body, std::move(set), mesh.masses.cast<btScalar>());
   find(body)->fast = std::move(fast);
 }

@@ -53,6 +53,10 @@ class ImplicitSolver : TeamLoops {
   void tear(const SpringNetwork& springs, const std::vector<char>& is_changed,
             const VectorX<double>& masses, const std::vector<int>& origins);
 
+  /// Another rest length [m], > 0, of the spring between two nodes. Does nothing without such a spring.
+  void set_rest_length(int first, int second, double rest_length) {
+    forces_.set_rest_length(first, second, rest_length);
+  }
   /// Changes which nodes are free: n flags. The cost depends only on the neighborhood of the nodes that have changed.
   void set_free(const std::vector<bool>& is_free);
 

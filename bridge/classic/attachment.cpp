@@ -79,7 +79,7 @@ void SoftBodySolver::Attachment::predict(btScalar time_step) {
   if (blow_up) return;
   // The program may have done since what attach() and attach_fast() refuse.
   if (fast) {
-    if (auto reason = FastBody::reason_against(*body))
+    if (auto reason = fast->reason_to_stop(*body))
       return stop("it cannot be fast any more: " + *reason);
   }
   if (body->m_cfg.timescale != btScalar(1)) {

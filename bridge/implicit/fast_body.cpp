@@ -44,6 +44,26 @@ std::optional<std::string> FastBody::reason_against(const btSoftBody& body) {
   return std::nullopt;
 }
 
+std::optional<std::string> FastBody::reason_to_stop(const btSoftBody& body) const {
+  if (auto reason = reason_against(body)) return reason;
+  return links_.reason_against(body);
+}
+
+// Rest lengths change forces, and no basis that the solver has made of stiffness.
+void FastBody::follow_links(const btSoftBody& body) {
+  const std::vector<FollowedLinks::Change>& changes = links_.changes(body);
+  if (changes.empty()) return;
+  for (const auto& [first, second, rest_length] : changes) {
+    fast::set_rest_length(first, second, rest_length, network_);
+    fast::set_rest_length(first, second, rest_length, limited_.as_given);
+    if (solver_) solver_->set_rest_length(first, second, rest_length);
+  }
+  force_history_.forget();
+  last_step_ = 0;
+  excess_ = 0;
+  wake();
+}
+
 // What the body knew of the steps before is of other nodes.
 void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>& is_changed,
                     VectorX<double> masses, const std::vector<int>& origins) {
@@ -65,6 +85,7 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
   } else {
     fast::replace_springs(is_changed, springs, network_);
   }
+  links_.forget();
   contacts_.clear();
   colliders_.clear();
   swept_.outdate();

@@ -14,6 +14,7 @@
 #include <weft/bridge/fast_settings.hpp>
 #include <weft/bridge/implicit/bending_forces.hpp>
 #include <weft/bridge/implicit/body_sleep.hpp>
+#include <weft/bridge/implicit/followed_links.hpp>
 #include <weft/bridge/implicit/force_history.hpp>
 #include <weft/bridge/implicit/node_team.hpp>
 #include <weft/bridge/implicit/stiffness_limit.hpp>
@@ -45,6 +46,10 @@ class FastBody : public NodeTeam {
 
   /// Why a body cannot be stepped so; nothing for one that can.
   [[nodiscard]] static std::optional<std::string> reason_against(const btSoftBody& body);
+  /// The same for the body that this one is of, with what has become of its links.
+  [[nodiscard]] std::optional<std::string> reason_to_stop(const btSoftBody& body) const;
+  /// Springs stand in for the links that the body has now.
+  void note_links(const btSoftBody& body) { links_.note(body); }
 
   [[nodiscard]] const FastSettings& settings() const { return settings_; }
   void set_settings(const FastSettings& settings) {
@@ -68,6 +73,7 @@ class FastBody : public NodeTeam {
   void begin_step(const btSoftBody& body) {
     step_error_ = {};
     if (sleep_.begin_step(body)) last_step_ = 0;
+    follow_links(body);
   }
   void meet(const btCollisionObject& object, const btTransform& place) {
     sleep_.meet(object, place);
@@ -154,6 +160,7 @@ class FastBody : public NodeTeam {
   [[nodiscard]] bool take_changed_positions(const btSoftBody& body);
   void prepare_solver(const btSoftBody& body);
   void set_free(const std::vector<bool>& is_free);
+  void follow_links(const btSoftBody& body);
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool may_use_forces(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] Method choose_method(const btSoftBody& body, btScalar time_step);
@@ -194,6 +201,7 @@ class FastBody : public NodeTeam {
   std::vector<int> solver_pins_;  ///< likewise
   std::vector<int> pins_;         ///< of the present step
   BodySleep sleep_;
+  FollowedLinks links_;
   Vector3<btScalar> origin_ = Vector3<btScalar>::Zero();  ///< that places are counted from [m]
   // The present step, 3 x n.
   Matrix3X<btScalar> weights_;           ///< masses, each thrice [kg]; 0 for pins

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace weft::fast {
 namespace {
@@ -112,6 +113,19 @@ void NetworkForces<Scalar>::write(std::size_t place, const Spring& values) {
   spring[2 * block] = values.compressed;
   if (has_damping_) damping_[place] = values.damping;
   if (has_bending_) bending_[place] = values.bending;
+}
+
+template <class Scalar>
+void NetworkForces<Scalar>::set_rest_length(int first, int second, double rest_length) {
+  const std::size_t block = kNodeBlock;
+  for (const auto& [node, other] : {std::pair(first, second), std::pair(second, first)}) {
+    const SlotRange& range = slots_.blocks[at(node / kNodeBlock)];
+    for (int slot = range.begin; slot < range.end; ++slot) {
+      const std::size_t place = at(slot) * block + at(node % kNodeBlock);
+      if (slots_.edges[place] < 0 || slots_.others[place] != other) continue;
+      springs_[place / block * 3 * block + place % block] = static_cast<Scalar>(rest_length);
+    }
+  }
 }
 
 template <class Scalar>

@@ -34,6 +34,9 @@ class NetworkForces {
   /// Returns flags of the blocks of kNodeBlock nodes that were laid out anew.
   std::vector<char> replace(const SpringNetwork& springs, const std::vector<char>& is_changed,
                             int num_nodes);
+  /// Another rest length [m], > 0, of the spring between two nodes, from the next add_forces() on. Does nothing without
+  /// such a spring.
+  void set_rest_length(int first, int second, double rest_length);
   /// Share of the slots that no block uses any more [-].
   [[nodiscard]] double unused_share() const;
 

@@ -1,5 +1,6 @@
 #include <weft/fast_solver/network/spring_network.hpp>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -166,6 +167,23 @@ void replace_springs(const std::vector<char>& is_changed, const SpringNetwork& s
   }
   copy_springs(springs, next, springs.edges.cols() - next, to, result);
   network = std::move(result);
+}
+
+void set_rest_length(int first, int second, double rest_length, SpringNetwork& network) {
+  const std::pair<int, int> nodes = std::minmax(first, second);
+  const auto nodes_of = [&](Eigen::Index e) {
+    return std::pair(network.edges(0, e), network.edges(1, e));
+  };
+  Eigen::Index low = 0;
+  for (Eigen::Index high = network.edges.cols(); low < high;) {
+    const Eigen::Index middle = low + (high - low) / 2;
+    if (nodes_of(middle) < nodes) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  if (low < network.edges.cols() && nodes_of(low) == nodes) network.rest_lengths[low] = rest_length;
 }
 
 }  // namespace weft::fast

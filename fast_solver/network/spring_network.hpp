@@ -45,4 +45,7 @@ struct SpringNetwork {
 void replace_springs(const std::vector<char>& is_changed, const SpringNetwork& springs,
                      SpringNetwork& network);
 
+/// Another rest length [m], > 0, of the spring between two nodes, in either order. Does nothing without such a spring.
+void set_rest_length(int first, int second, double rest_length, SpringNetwork& network);
+
 }  // namespace weft::fast
