@@ -117,10 +117,6 @@ void DeformableForces::removeSoftBody(btSoftBody* body) {
   detach(*body);
 }
 
-bool DeformableForces::has_laws(const btSoftBody& body) const {
-  return find(body) != nullptr;
-}
-
 std::optional<BodyBlowUp> DeformableForces::blow_up(const btSoftBody& body) const {
   const DeformableAttachment* attachment = find(body);
   return attachment ? attachment->blow_up : std::nullopt;

@@ -65,7 +65,7 @@ class DeformableForces : public btDeformableLagrangianForce {
   void attach(btSoftBody& body, forces::LawSet<btScalar> laws, VectorX<btScalar> masses);
   /// Does nothing if no laws are attached.
   void detach(btSoftBody& body);
-  [[nodiscard]] bool has_laws(const btSoftBody& body) const;
+  [[nodiscard]] bool has_laws(const btSoftBody& body) const { return find(body) != nullptr; }
   /// Set once the body has exploded; it does not move any more.
   [[nodiscard]] std::optional<BodyBlowUp> blow_up(const btSoftBody& body) const;
   /// Called once for each body that explodes, by the thread that steps the world: at the end of a step with

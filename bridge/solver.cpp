@@ -11,6 +11,7 @@
 #include <weft/bridge/classic/attachment.hpp>
 #include <weft/bridge/classic/position_limits.hpp>
 #include <weft/bridge/classic/torn_laws.hpp>
+#include <weft/bridge/implicit/suitable_body.hpp>
 #include <weft/core/error.hpp>
 #include <weft/core/trace.hpp>
 #include <weft/mesh/cutting/tear.hpp>
@@ -43,7 +44,7 @@ bool is_among(const btAlignedObjectArray<btSoftBody*>& present, btSoftBody* body
 /// Why implicit springs cannot stand in for what the body has; nothing if they can.
 std::optional<std::string> reason_against_fast(const btSoftBody& body,
                                                const std::vector<forces::LawSpecification>& laws) {
-  if (auto reason = FastBody::reason_against(body)) return reason;
+  if (auto reason = reason_against_implicit(body)) return reason;
   const auto is_tension = [](const forces::LawSpecification& law) { return law.law == "tension"; };
   if (body.m_links.size() > 0 && std::none_of(laws.begin(), laws.end(), is_tension)) {
     return "it has " + std::to_string(body.m_links.size()) +
@@ -118,9 +119,9 @@ std::optional<std::string> SoftBodySolver::attach_fast(
   check_topology("soft body solver", body, mesh);
   LawSet set = explicit_laws(mesh, laws);
   auto fast = std::make_unique<FastBody>(mesh, laws, mesh.masses, settings);
-  fast->note_links(body);
   attach(body, std::move(set), mesh.masses.cast<btScalar>());
   find(body)->fast = std::move(fast);
+  find(body)->links.note(body);
   return std::nullopt;
 }
 
@@ -200,9 +201,9 @@ void SoftBodySolver::replace_laws(btSoftBody& body, const ClothMesh& mesh,
     return;
   }
   auto fast = std::make_unique<FastBody>(mesh, laws, mesh.masses, old->fast->settings());
-  fast->note_links(body);
   replace_laws(body, std::move(set), mesh.masses.cast<btScalar>());
   find(body)->fast = std::move(fast);
+  find(body)->links.note(body);
 }
 
 TornLaws SoftBodySolver::laws_after(const btSoftBody& body, const Tear& tear,
@@ -361,19 +362,11 @@ void SoftBodySolver::set_on_blow_up(std::function<void(btSoftBody&, const BodyBl
 void SoftBodySolver::processCollision(btSoftBody* body, const btCollisionObjectWrapper* object) {
   Attachment* attachment = find(*body);
   if (!attachment) return btDefaultSoftBodySolver::processCollision(body, object);
-  attachment->guard([&] { collide(*attachment, *object); });
-}
-
-void SoftBodySolver::collide(Attachment& one, const btCollisionObjectWrapper& object) {
-  if (one.fast) one.fast->meet(*object.getCollisionObject(), object.getWorldTransform());
-  if (is_still(*one.body)) return;
-  if (one.fast) {
-    one.fast->collide(*one.body, object, attachments_->hulls, time_step_);
-  } else if (one.has_coulomb_contacts() && RigidResponse::knows(*object.getCollisionObject())) {
-    one.rigid_response.collide(*one.body, object, attachments_->hulls, time_step_);
-  } else {
-    btDefaultSoftBodySolver::processCollision(one.body, &object);
-  }
+  attachment->guard([&] {
+    const bool has_stopped = attachment->blow_up || attachment->is_suspended;
+    if (has_stopped || attachment->collide(*object, attachments_->hulls, time_step_)) return;
+    btDefaultSoftBodySolver::processCollision(body, object);
+  });
 }
 
 // Cloth that moves keeps or wakes what it meets. Cloth that is not fast is taken to move.

@@ -216,7 +216,6 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   void solve_group(const std::vector<Attachment*>& group, int num_parts);
   void solve_listed_bodies(btScalar time_step);
   void solve_other_body(btSoftBody& body, Attachment* attachment);
-  void collide(Attachment& one, const btCollisionObjectWrapper& object);
   void tell_of_blow_ups() noexcept;
   [[nodiscard]] bool may_meet_cloth() const;
   void place_listed_bodies(btScalar time_step, bool may_meet);

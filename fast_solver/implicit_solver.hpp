@@ -53,10 +53,8 @@ class ImplicitSolver : TeamLoops {
   void tear(const SpringNetwork& springs, const std::vector<char>& is_changed,
             const VectorX<double>& masses, const std::vector<int>& origins);
 
-  /// Another rest length [m], > 0, of the spring between two nodes. Does nothing without such a spring.
-  void set_rest_length(int first, int second, double rest_length) {
-    forces_.set_rest_length(first, second, rest_length);
-  }
+  /// Another rest length l0 [m], > 0, of the spring between nodes i and j. Does nothing without such a spring.
+  void set_rest_length(int i, int j, double l0) { forces_.set_rest_length(i, j, l0); }
   /// Changes which nodes are free: n flags. The cost depends only on the neighborhood of the nodes that have changed.
   void set_free(const std::vector<bool>& is_free);
 
@@ -102,8 +100,6 @@ class ImplicitSolver : TeamLoops {
   using Floats = NodeArrays<float>;
   using Nodes = NodeArrays<Scalar>;
   using Floats6 = Eigen::Matrix<float, 6, 1>;
-  using Matrix6 = Eigen::Matrix<float, 6, 6>;
-  using Link = BodyLink;
   using Body = LinkedBody<Scalar>;
 
   /// [m] of the last linear system.
@@ -202,7 +198,7 @@ class ImplicitSolver : TeamLoops {
   std::vector<int> next_kinematic_;
   std::vector<int>
       constrained_;  ///< nodes that are not kFree, ascending while linear systems are solved
-  std::vector<Link> links_;
+  std::vector<BodyLink> links_;
   std::vector<Body> bodies_;
   std::vector<int> linked_blocks_;   ///< blocks of nodes that are linked to one body
   VectorX<float> inertia_;           ///< m / h'^2 [N/m]; 0 for pinned nodes; padded with zeros

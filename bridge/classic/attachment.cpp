@@ -1,11 +1,15 @@
 #include <weft/bridge/classic/attachment.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <string>
 #include <utility>
 
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+
 #include <weft/bridge/classic/node_state.hpp>
+#include <weft/bridge/implicit/suitable_body.hpp>
 #include <weft/core/trace.hpp>
 
 namespace weft::bridge {
@@ -74,13 +78,43 @@ void SoftBodySolver::Attachment::sum_laws() {
   }
 }
 
+void SoftBodySolver::Attachment::begin_fast_step() {
+  fast->begin_step(*body);
+  for (const auto& [first, second, rest_length] : links.changes(*body)) {
+    fast->set_rest_length(first, second, rest_length);
+  }
+}
+
+// Bullet tells of each triangle of a concave object near the body, as of a solid.
+bool SoftBodySolver::Attachment::collide(const btCollisionObjectWrapper& object, HullTable& hulls,
+                                         btScalar time_step) {
+  const btCollisionObject& whole = *object.getCollisionObject();
+  if (!fast && !(has_coulomb_contacts() && RigidResponse::knows(whole))) return false;
+  const btCollisionShape* const concave = concave_shape_of(object);
+  if (concave != nullptr) {
+    if (std::find(concave_met.begin(), concave_met.end(), &whole) != concave_met.end()) return true;
+    concave_met.push_back(&whole);
+  }
+  const btCollisionObjectWrapper met(
+      nullptr, concave != nullptr ? concave : object.getCollisionShape(), &whole,
+      concave != nullptr ? whole.getWorldTransform() : object.getWorldTransform(), -1, -1);
+  if (!fast) {
+    rigid_response.collide(*body, met, hulls, time_step);
+    return true;
+  }
+  fast->meet(whole, met.getWorldTransform());
+  if (!fast->is_asleep()) fast->collide(*body, met, hulls, time_step);
+  return true;
+}
+
 void SoftBodySolver::Attachment::predict(btScalar time_step) {
   follow_masses();
   if (blow_up) return;
   // The program may have done since what attach() and attach_fast() refuse.
   if (fast) {
-    if (auto reason = fast->reason_to_stop(*body))
-      return stop("it cannot be fast any more: " + *reason);
+    auto reason = reason_against_implicit(*body);
+    if (!reason) reason = links.reason_against(*body);
+    if (reason) return stop("it cannot be fast any more: " + *reason);
   }
   if (body->m_cfg.timescale != btScalar(1)) {
     return stop("m_cfg.timescale = " + std::to_string(body->m_cfg.timescale) + " [1], expected 1");

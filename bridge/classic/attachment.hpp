@@ -13,6 +13,7 @@
 #include <weft/bridge/classic/body_life.hpp>
 #include <weft/bridge/contact/rigid_response.hpp>
 #include <weft/bridge/implicit/fast_body.hpp>
+#include <weft/bridge/implicit/followed_links.hpp>
 #include <weft/bridge/solver.hpp>
 #include <weft/custom_forces/deferred_forces.hpp>
 
@@ -41,8 +42,10 @@ struct SoftBodySolver::Attachment {
   bool is_moving = false;    // predicted, and the step has not ended yet
   PositionLimits limits;
   std::unique_ptr<FastBody> fast;  // none: Bullet's own constraints
+  FollowedLinks links;             // that springs of a fast body stand in for
   ContactResponse contact_response = ContactResponse::kCoulomb;
   RigidResponse rigid_response;
+  std::vector<const btCollisionObject*> concave_met;  // in the present step
   bool was_in_world = false;
   bool is_suspended = false;
   double time = 0.0;  // [s] of the steps since the body was attached
@@ -71,6 +74,10 @@ struct SoftBodySolver::Attachment {
     }
   }
   [[nodiscard]] bool acts_after_projection(forces::LawTraits::Level level) const;
+  /// What the program has done to a fast body since the last step.
+  void begin_fast_step();
+  /// In a step: what the body's bounds meet. False for what is Bullet's to solve.
+  bool collide(const btCollisionObjectWrapper& object, HullTable& hulls, btScalar time_step);
   /// Forces, and what FastBody does with them.
   void predict(btScalar time_step);
   void add_forces(btScalar time_step);

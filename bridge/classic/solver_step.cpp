@@ -24,8 +24,8 @@ void SoftBodySolver::predictMotion(btScalar time_step) {
   attachments_->hulls.begin_step();
   for (const auto& entry : attachments_->contacts) entry->contact.begin_step();
   for (const auto& attachment : attachments_->list) {
-    if (attachment->fast && attachment->was_in_world)
-      attachment->fast->begin_step(*attachment->body);
+    attachment->concave_met.clear();
+    if (attachment->fast && attachment->was_in_world) attachment->begin_fast_step();
   }
   for_bodies([&](btSoftBody&, Attachment* attachment) {
     if (!attachment) return;

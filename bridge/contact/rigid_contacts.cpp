@@ -12,6 +12,7 @@
 #include <LinearMath/btTransformUtil.h>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
+#include <weft/bridge/contact/concave_surface.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -34,7 +35,7 @@ MotionBox box_of(const btSoftBody& body, std::span<const int> nodes) {
   return {{low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}};
 }
 
-/// Plane through the first surface on the way from one place to another.
+/// Plane through the first surface on the way from one place to another, by Bullet's test of rays, which is true to about a millimetre.
 std::optional<RigidContact> stop_on_the_way(const Collider& collider, const btVector3& from,
                                             const btVector3& to, btScalar margin) {
   btCollisionWorld::ClosestRayResultCallback hit(from, to);
@@ -63,39 +64,117 @@ class ExactCollider {
     for (int k = 0; k < 3; ++k) turn_.row(k) = from_bullet(collider.place.getBasis().getRow(k));
   }
 
-  /// The contact of a node that goes from one place to another. One that is followed is stopped on its way, unless that
-  /// cannot come to the surface: its ends are farther away than it is long.
+  /// The contact of a node that goes from one place to another. One that is followed is stopped where its path first
+  /// meets the surface.
   [[nodiscard]] std::optional<RigidContact> find(const btVector3& from, const btVector3& to,
                                                  bool is_followed) const {
+    const Vector3<double> start = local(from);
+    const Vector3<double> end = local(to);
     const double reach = 2 * margin_;
-    const double length =
-        is_followed ? (from_bullet(to) - from_bullet(from)).norm() * (1 + kRounding) : 0;
-    const SurfaceDistance end = surface_from(to, std::max(reach, length));
-    const auto may_be_on_the_way = [&] {
-      return end.distance < length && surface_from(from, length).distance + end.distance <= length;
-    };
-    if (is_followed && may_be_on_the_way()) {
-      if (auto contact = stop_on_the_way(collider_, from, to, static_cast<btScalar>(margin_))) {
-        return contact;
-      }
+    const double length = is_followed ? (end - start).norm() * (1 + kRounding) : 0;
+    const SurfaceDistance at_end = distance_at(end, std::max(reach, length));
+    if (is_followed && at_end.distance < length) {
+      if (auto contact = first_on_path(start, end, length)) return contact;
     }
-    if (end.distance >= reach) return std::nullopt;
-    RigidContact contact;
-    contact.normal = to_bullet((turn_ * end.out).eval());
-    // With the normal as it is rounded, so that the plane is where it should be for this place.
-    contact.offset = static_cast<btScalar>(from_bullet(contact.normal).dot(from_bullet(to)) -
-                                           end.distance + margin_);
-    return contact;
+    if (at_end.distance >= reach) return std::nullopt;
+    return plane_at(end, at_end);
   }
 
  private:
-  static constexpr double kRounding = 1e-6;  ///< of ways in single precision
-  [[nodiscard]] SurfaceDistance surface_from(const btVector3& place, double reach) const {
-    const Vector3<double> local = turn_.transpose() * (from_bullet(place) - origin_);
-    return surface_distance(*collider_.shape, collider_.facets, local, reach).value();
+  static constexpr double kRounding = 1e-6;  ///< of paths in single precision
+  static constexpr double kTouch =
+      1e-3;                              ///< a node this near touches, as a share of the margin [-]
+  static constexpr int kMostSteps = 32;  ///< of Newton's method; three to five are usual
+
+  // The distance from a convex solid is a convex function along a straight path: Newton's method comes to the first meeting
+  // from before it and never passes it. A path that begins inside has none.
+  [[nodiscard]] std::optional<RigidContact> first_on_path(const Vector3<double>& start,
+                                                          const Vector3<double>& end,
+                                                          double length) const {
+    const Vector3<double> path = end - start;
+    double share = 0;
+    for (int step = 0; step < kMostSteps; ++step) {
+      const Vector3<double> place = start + share * path;
+      const SurfaceDistance here = distance_at(place, length);
+      if (here.distance >= length || (step == 0 && here.distance <= 0)) return std::nullopt;
+      if (here.distance <= kTouch * margin_) return plane_at(place, here);
+      const double slope = here.out.dot(path);
+      if (!(slope < 0)) return std::nullopt;
+      share -= here.distance / slope;
+      if (!(share <= 1)) return std::nullopt;
+    }
+    return plane_at(start + share * path, distance_at(start + share * path, length));
+  }
+
+  [[nodiscard]] RigidContact plane_at(const Vector3<double>& place,
+                                      const SurfaceDistance& surface) const {
+    RigidContact contact;
+    contact.normal = to_bullet((turn_ * surface.out).eval());
+    // With the normal as it is rounded, so that the plane is where it should be for this place.
+    contact.offset = static_cast<btScalar>(
+        from_bullet(contact.normal).dot(turn_ * place + origin_) - surface.distance + margin_);
+    return contact;
+  }
+  [[nodiscard]] Vector3<double> local(const btVector3& place) const {
+    return turn_.transpose() * (from_bullet(place) - origin_);
+  }
+  [[nodiscard]] SurfaceDistance distance_at(const Vector3<double>& place, double reach) const {
+    return surface_distance(*collider_.shape, collider_.facets, place, reach).value();
   }
 
   const Collider& collider_;
+  double margin_;
+  Vector3<double> origin_;
+  Matrix3<double> turn_;
+};
+
+/// A collider of the kind that ConcaveSurface knows.
+class ConcaveCollider {
+ public:
+  ConcaveCollider(const Collider& collider, btScalar margin)
+      : surface_(*collider.shape),
+        place_(collider.place),
+        margin_(static_cast<double>(margin)),
+        origin_(from_bullet(collider.place.getOrigin())) {
+    for (int k = 0; k < 3; ++k) turn_.row(k) = from_bullet(collider.place.getBasis().getRow(k));
+  }
+
+  /// Triangles that nodes may meet whose paths, as the collider sees them, are in a box.
+  void gather(const MotionBox& box, std::vector<ConcaveSurface::Triangle>& triangles) const {
+    const btVector3 low(box.low[0], box.low[1], box.low[2]);
+    const btVector3 high(box.high[0], box.high[1], box.high[2]);
+    const btTransform back = place_.inverse();
+    btVector3 local_low;
+    btVector3 local_high;
+    btTransformAabb(low, high, 0, back, local_low, local_high);
+    surface_.gather(local_low, local_high, triangles);
+  }
+
+  /// The contacts of a node that goes from one place to another, among those triangles.
+  void find(const btVector3& from, const btVector3& to,
+            std::span<const ConcaveSurface::Triangle> triangles,
+            std::vector<ConcaveSurface::Plane>& planes, std::vector<RigidContact>& found) const {
+    planes.clear();
+    const Vector3<double> end = local(to);
+    surface_.add_planes(local(from), end, triangles, 2 * margin_, planes);
+    for (const ConcaveSurface::Plane& plane : planes) {
+      RigidContact contact;
+      contact.normal = to_bullet((turn_ * plane.normal).eval());
+      const double distance = plane.normal.dot(end) - plane.offset;
+      contact.offset = static_cast<btScalar>(from_bullet(contact.normal).dot(from_bullet(to)) -
+                                             distance + margin_);
+      contact.triangle = plane.id;
+      found.push_back(contact);
+    }
+  }
+
+ private:
+  [[nodiscard]] Vector3<double> local(const btVector3& place) const {
+    return turn_.transpose() * (from_bullet(place) - origin_);
+  }
+
+  ConcaveSurface surface_;
+  btTransform place_;
   double margin_;
   Vector3<double> origin_;
   Matrix3<double> turn_;
@@ -117,6 +196,49 @@ std::optional<RigidContact> find_in_field(const btSoftBody& body, const Collider
   contact.offset = -found.m_offset - margin;  // Bullet's plane is where it looked, at 2 margins
   return contact;
 }
+
+/// The contacts of a body's nodes with a collider, by the kind of its shape.
+class ContactFinder {
+ public:
+  /// What the nodes of a group have around them, and memory to work with.
+  struct Nearby {
+    std::vector<ConcaveSurface::Triangle> triangles;
+    std::vector<ConcaveSurface::Plane> planes;
+  };
+
+  ContactFinder(const btSoftBody& body, const Collider& collider, btScalar margin)
+      : body_(body), collider_(collider), margin_(margin) {
+    if (ConcaveSurface::has(*collider.shape)) {
+      concave_.emplace(collider, margin);
+    } else if (!needs_distance_field(*collider.shape, collider.facets)) {
+      exact_.emplace(collider, margin);
+    }
+  }
+
+  /// Before the nodes of a group whose paths, as the collider sees them, are in a box.
+  void gather(const MotionBox& box, Nearby& nearby) const {
+    nearby.triangles.clear();
+    if (!concave_) return;
+    concave_->gather(box.grown(2 * margin_ + collider_.shape->getMargin()), nearby.triangles);
+  }
+
+  /// Appends those of a node that goes from one place to another, where they are.
+  void find(const btVector3& from, const btVector3& to, Nearby& nearby,
+            std::vector<RigidContact>& found) const {
+    if (concave_) return concave_->find(from, to, nearby.triangles, nearby.planes, found);
+    const bool is_followed = (to - from).length2() > margin_ * margin_;
+    const auto contact = exact_ ? exact_->find(from, to, is_followed)
+                                : find_in_field(body_, collider_, from, to, margin_, is_followed);
+    if (contact) found.push_back(*contact);
+  }
+
+ private:
+  const btSoftBody& body_;
+  const Collider& collider_;
+  btScalar margin_;
+  std::optional<ConcaveCollider> concave_;
+  std::optional<ExactCollider> exact_;
+};
 
 /// [m] No node among those of a box moves farther with the body in a step.
 btScalar largest_motion(const btRigidBody& rigid, const MotionBox& nodes, btScalar time_step) {
@@ -159,6 +281,16 @@ Collider make_collider(const btCollisionObjectWrapper& object, const HullFacets*
     collider.motion = end * collider.object_place.inverse();
   }
   return collider;
+}
+
+const btCollisionShape* concave_shape_of(const btCollisionObjectWrapper& object) {
+  const btCollisionShape* const shape = object.getCollisionObject()->getCollisionShape();
+  return shape != nullptr && ConcaveSurface::has(*shape) ? shape : nullptr;
+}
+
+bool is_detected_alone(const Collider& collider) {
+  if (ConcaveSurface::has(*collider.shape)) return ConcaveSurface(*collider.shape).is_thread_safe();
+  return !needs_distance_field(*collider.shape, collider.facets);
 }
 
 btRigidBody* movable(const btCollisionObject* object) {
@@ -206,16 +338,18 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& ways, const Collider
   btVector3 low;
   btVector3 high;
   collider.shape->getAabb(collider.place, low, high);
-  const MotionBox box = box_of(low, high).grown(2 * margin);
-  MotionBox reached = box;
-  if (dynamic != nullptr) reached = box.grown(largest_motion(back, ways.all()));
-  if (led != nullptr) reached = box.grown(largest_motion(*led, ways.all(), time_step));
+  // Bounds of a mesh of triangles are without its margin.
+  const btScalar own = ConcaveSurface::has(*collider.shape) ? collider.shape->getMargin() : 0;
+  const MotionBox box = box_of(low, high).grown(2 * margin + own);
+  btScalar farthest = 0;  // that an object moves with respect to a node [m]
+  if (dynamic != nullptr) farthest = largest_motion(back, ways.all());
+  if (led != nullptr) farthest = largest_motion(*led, ways.all(), time_step);
+  const MotionBox reached = box.grown(farthest);
   if (!meet(reached, ways.all())) return;
   const bool looks_at_pinned =
       pinned == PinnedNodes::kWithDynamicObjects && !collider.object->isStaticOrKinematicObject();
-  const bool needs_field = needs_distance_field(*collider.shape, collider.facets);
-  const ExactCollider exact(collider, margin);
-  const auto look_at = [&](int i, std::vector<RigidContact>& found) {
+  const ContactFinder finder(body, collider, margin);
+  const auto look_at = [&](int i, ContactFinder::Nearby& nearby, std::vector<RigidContact>& found) {
     const btSoftBody::Node& node = body.m_nodes[i];
     if ((node.m_im <= 0 && !looks_at_pinned) || node.m_battach != 0) return;
     btVector3 motion(0, 0, 0);
@@ -229,32 +363,33 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& ways, const Collider
     least.setMin(to);
     most.setMax(to);
     if (!meet(box_of(least, most), box)) return;
-    const bool is_fast = (to - from).length2() > margin * margin;
-    auto contact = needs_field ? find_in_field(body, collider, from, to, margin, is_fast)
-                               : exact.find(from, to, is_fast);
-    if (!contact) return;
-    contact->node = i;
-    contact->motion = motion;
-    contact->object = collider.object;
-    contact->collider = collider.number;
-    if (dynamic != nullptr) {
-      contact->met = to;
-      contact->met_by_object = collider.object_place.invXform(to);
-      contact->normal_by_object = contact->normal * collider.object_place.getBasis();
-      contact->gap = btDot(contact->normal, to) - contact->offset;
-      follow_object(*contact, collider.motion * collider.object_place);
+    const std::size_t num_before = found.size();
+    finder.find(from, to, nearby, found);
+    for (std::size_t c = num_before; c < found.size(); ++c) {
+      RigidContact& contact = found[c];
+      contact.node = i;
+      contact.motion = motion;
+      contact.object = collider.object;
+      contact.collider = collider.number;
+      if (dynamic == nullptr) continue;
+      contact.met = to;
+      contact.met_by_object = collider.object_place.invXform(to);
+      contact.normal_by_object = contact.normal * collider.object_place.getBasis();
+      contact.gap = btDot(contact.normal, to) - contact.offset;
+      follow_object(contact, collider.motion * collider.object_place);
     }
-    found.push_back(*contact);
   };
   const auto look_at_groups = [&](std::size_t begin, std::size_t end,
                                   std::vector<RigidContact>& found) {
+    ContactFinder::Nearby nearby;
     for (std::size_t g = begin; g < end; ++g) {
       if (!meet(ways.boxes()[g], reached)) continue;
-      for (const int i : ways.group(g)) look_at(i, found);
+      finder.gather(ways.boxes()[g].grown(farthest), nearby);
+      for (const int i : ways.group(g)) look_at(i, nearby, found);
     }
   };
   // Bullet's field is made as it is asked.
-  ways.collect(look_at_groups, needs_field ? nullptr : team, contacts);
+  ways.collect(look_at_groups, is_detected_alone(collider) ? team : nullptr, contacts);
 }
 
 void follow_object(RigidContact& contact, const btTransform& object_place) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,8 @@ struct RigidContact {
   btScalar offset = 0;        ///< [m]
   btVector3 motion{0, 0, 0};  ///< of the surface during the step [m]
   const btCollisionObject* object = nullptr;
-  int collider = 0;  ///< Collider::number
+  int collider = 0;               ///< Collider::number
+  std::array<int, 2> triangle{};  ///< of a concave collider: Bullet's part and index
   // A dynamic object carries the plane with it: the node's place as seen from the object, in the world where the
   // step began, and as the object has it; the normal as the object has it.
   btVector3 met{0, 0, 0};
@@ -49,6 +51,13 @@ struct Collider {
 /// A collider of the present step, before Bullet has moved it: dynamic ones are expected to go on with their velocity.
 [[nodiscard]] Collider make_collider(const btCollisionObjectWrapper& object,
                                      const HullFacets* facets, int number, btScalar time_step);
+
+/// A concave object (ConcaveSurface) is met as a whole, not as the solids that Bullet makes of its triangles: the object
+/// with its own shape if it is one; nullptr otherwise.
+[[nodiscard]] const btCollisionShape* concave_shape_of(const btCollisionObjectWrapper& object);
+
+/// Whether add_rigid_contacts() touches nothing that another body may use at the same time.
+[[nodiscard]] bool is_detected_alone(const Collider& collider);
 
 /// A body's nodes by where their ways lead, from m_q to m_x.
 class SweptNodes {
@@ -104,7 +113,7 @@ enum class PinnedNodes {
 /// solveConstraints of a step of time_step [s]. ways: of the body as it is.
 ///
 /// Nodes are looked up at the predicted place, as the collider sees it, up to twice the collision margin: exactly (surface_distance()), or in
-/// Bullet's distance field of the shape, as Bullet does. A node that travels farther than the margin is followed along
+/// Bullet's distance field of the shape, as Bullet does; at a concave one, each triangle around gives a contact. A node that travels farther than the margin is followed along
 /// its way, relative to the object, and stopped at the surface that it meets first: however thin the
 /// object, it is not shot through. Anchored nodes are left out. By a team, in the same order for any.
 void add_rigid_contacts(const btSoftBody& body, SweptNodes& ways, const Collider& collider,

@@ -37,30 +37,11 @@ FastBody::FastBody(const ClothMesh& mesh, const std::vector<forces::LawSpecifica
   set_num_nodes(masses_.size());
 }
 
-std::optional<std::string> FastBody::reason_against(const btSoftBody& body) {
-  if (body.m_clusters.size() > 0) return "it has clusters";
-  if (body.m_pose.m_bframe && body.m_cfg.kMT > 0) return "it is matched to a pose";
-  if (body.m_cfg.timescale != btScalar(1)) return "its m_cfg.timescale is not 1";
-  return std::nullopt;
-}
-
-std::optional<std::string> FastBody::reason_to_stop(const btSoftBody& body) const {
-  if (auto reason = reason_against(body)) return reason;
-  return links_.reason_against(body);
-}
-
-// Rest lengths change forces, and no basis that the solver has made of stiffness.
-void FastBody::follow_links(const btSoftBody& body) {
-  const std::vector<FollowedLinks::Change>& changes = links_.changes(body);
-  if (changes.empty()) return;
-  for (const auto& [first, second, rest_length] : changes) {
-    fast::set_rest_length(first, second, rest_length, network_);
-    fast::set_rest_length(first, second, rest_length, limited_.as_given);
-    if (solver_) solver_->set_rest_length(first, second, rest_length);
-  }
-  force_history_.forget();
-  last_step_ = 0;
-  excess_ = 0;
+// A rest length changes forces, and no basis that the solver has made of stiffness.
+void FastBody::set_rest_length(int first, int second, double rest_length) {
+  fast::set_rest_length(first, second, rest_length, network_);
+  fast::set_rest_length(first, second, rest_length, limited_.as_given);
+  if (solver_) solver_->set_rest_length(first, second, rest_length);
   wake();
 }
 
@@ -85,7 +66,6 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
   } else {
     fast::replace_springs(is_changed, springs, network_);
   }
-  links_.forget();
   contacts_.clear();
   colliders_.clear();
   swept_.outdate();
@@ -379,9 +359,7 @@ void FastBody::redetect_contacts(btSoftBody& body, btScalar time_step) {
 }
 
 bool FastBody::detects_alone() const {
-  return std::none_of(colliders_.begin(), colliders_.end(), [](const Collider& collider) {
-    return needs_distance_field(*collider.shape, collider.facets);
-  });
+  return std::all_of(colliders_.begin(), colliders_.end(), is_detected_alone);
 }
 
 void FastBody::solve_again(btSoftBody& body, btScalar time_step,

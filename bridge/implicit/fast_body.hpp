@@ -14,7 +14,6 @@
 #include <weft/bridge/fast_settings.hpp>
 #include <weft/bridge/implicit/bending_forces.hpp>
 #include <weft/bridge/implicit/body_sleep.hpp>
-#include <weft/bridge/implicit/followed_links.hpp>
 #include <weft/bridge/implicit/force_history.hpp>
 #include <weft/bridge/implicit/node_team.hpp>
 #include <weft/bridge/implicit/stiffness_limit.hpp>
@@ -44,13 +43,6 @@ class FastBody : public NodeTeam {
   FastBody(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
            VectorX<double> masses, const FastSettings& settings);
 
-  /// Why a body cannot be stepped so; nothing for one that can.
-  [[nodiscard]] static std::optional<std::string> reason_against(const btSoftBody& body);
-  /// The same for the body that this one is of, with what has become of its links.
-  [[nodiscard]] std::optional<std::string> reason_to_stop(const btSoftBody& body) const;
-  /// Springs stand in for the links that the body has now.
-  void note_links(const btSoftBody& body) { links_.note(body); }
-
   [[nodiscard]] const FastSettings& settings() const { return settings_; }
   void set_settings(const FastSettings& settings) {
     settings_ = settings;
@@ -62,6 +54,8 @@ class FastBody : public NodeTeam {
   void tear(const fast::SpringNetwork& springs, const std::vector<char>& is_changed,
             VectorX<double> masses, const std::vector<int>& origins);
 
+  /// Another rest length [m], > 0, of the spring between two nodes; does nothing without such a spring.
+  void set_rest_length(int first, int second, double rest_length);
   /// Laws of the body; those of bending follow the places within a step. To be called before each step.
   void set_laws(const forces::LawSet<btScalar>& laws, const VectorX<btScalar>& masses) {
     bending_.set_laws(laws, masses);
@@ -73,7 +67,6 @@ class FastBody : public NodeTeam {
   void begin_step(const btSoftBody& body) {
     step_error_ = {};
     if (sleep_.begin_step(body)) last_step_ = 0;
-    follow_links(body);
   }
   void meet(const btCollisionObject& object, const btTransform& place) {
     sleep_.meet(object, place);
@@ -160,7 +153,6 @@ class FastBody : public NodeTeam {
   [[nodiscard]] bool take_changed_positions(const btSoftBody& body);
   void prepare_solver(const btSoftBody& body);
   void set_free(const std::vector<bool>& is_free);
-  void follow_links(const btSoftBody& body);
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool may_use_forces(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] Method choose_method(const btSoftBody& body, btScalar time_step);
@@ -169,7 +161,8 @@ class FastBody : public NodeTeam {
   void keep_forces(btScalar time_step);
   [[nodiscard]] bool are_places_kept();
   void list_known(const btSoftBody& body);
-  [[nodiscard]] RigidContact* known_contact(const RigidContact& found);
+  [[nodiscard]] RigidContact* known_contact(const RigidContact& found, const btVector3& place,
+                                            btScalar margin);
   void follow_colliders(bool to_solution);
   [[nodiscard]] btTransform solved_place(const btRigidBody& rigid) const;
   void find_contacts(const btSoftBody& body, const Collider& collider, btScalar time_step,
@@ -201,7 +194,6 @@ class FastBody : public NodeTeam {
   std::vector<int> solver_pins_;  ///< likewise
   std::vector<int> pins_;         ///< of the present step
   BodySleep sleep_;
-  FollowedLinks links_;
   Vector3<btScalar> origin_ = Vector3<btScalar>::Zero();  ///< that places are counted from [m]
   // The present step, 3 x n.
   Matrix3X<btScalar> weights_;           ///< masses, each thrice [kg]; 0 for pins

@@ -17,6 +17,9 @@ void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& place) 
 constexpr btScalar kDepthShare = btScalar(0.5);
 /// By how much a plane may be wrong where the node has come to, as a share of the margin [-].
 constexpr btScalar kPlaneShare = btScalar(0.02);
+/// Planes whose normals have this cosine at least are alike: 8 degrees.
+constexpr btScalar kAlike = btScalar(0.99);
+
 }  // namespace
 
 void FastBody::find_contacts(const btSoftBody& body, const Collider& collider, btScalar time_step,
@@ -48,12 +51,20 @@ void FastBody::follow_colliders(bool to_solution) {
   }
 }
 
-// The contact that is known of a node and a collider, after list_known().
-RigidContact* FastBody::known_contact(const RigidContact& found) {
+// The contact that is known of a node and a collider, after list_known(). Triangles of a concave one that make one plane where the
+// node is are one contact.
+RigidContact* FastBody::known_contact(const RigidContact& found, const btVector3& place,
+                                      btScalar margin) {
+  const btScalar gap = btDot(found.normal, place) - found.offset;
   for (int c = last_contact_[static_cast<std::size_t>(found.node)]; c >= 0;
        c = contact_before_[static_cast<std::size_t>(c)]) {
     RigidContact& known = contacts_[static_cast<std::size_t>(c)];
-    if (known.collider == found.collider) return &known;
+    if (known.collider != found.collider) continue;
+    if (known.triangle == found.triangle) return &known;
+    const btScalar known_gap = btDot(known.normal, place) - known.offset;
+    const bool is_same_plane = std::abs(gap - known_gap) <= kPlaneShare * margin &&
+                               btDot(found.normal, known.normal) > kAlike;
+    if (is_same_plane) return &known;
   }
   return nullptr;
 }
@@ -87,7 +98,7 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
     const btScalar gap = btDot(found.normal, place) - found.offset;
     const btRigidBody* const rigid = movable(found.object);
     if (gap < -kDepthShare * margin && rigid == nullptr) deep_.push_back(found);
-    RigidContact* const known = known_contact(found);
+    RigidContact* const known = known_contact(found, place, margin);
     if (known != nullptr && rigid != nullptr) {
       RigidContact solved = *known;
       follow_object(solved, solved_place(*rigid));

@@ -64,20 +64,20 @@ Vector3<Scalar> ImplicitSolver<Scalar>::position_of(const KinematicNode<Scalar>&
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::add_motions(Floats6 Body::*motion, Floats& displacements) const {
-  for (const Link& link : links_) {
+  for (const BodyLink& link : links_) {
     displacements.row(link.node) += link.motion_with(bodies_[at(link.body)].*motion).transpose();
   }
 }
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::gather(const Floats& forces, Floats6 Body::*sum) {
-  for (const Link& link : links_)
+  for (const BodyLink& link : links_)
     link.add_force(at_node(forces, link.node), bodies_[at(link.body)].*sum);
 }
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::gather_of(int body, const Floats& forces, Floats6& sum) const {
-  for (const Link& link : links_) {
+  for (const BodyLink& link : links_) {
     if (link.body == body) link.add_force(at_node(forces, link.node), sum);
   }
 }
@@ -86,7 +86,7 @@ void ImplicitSolver<Scalar>::gather_of(int body, const Floats& forces, Floats6& 
 template <class Scalar>
 void ImplicitSolver<Scalar>::release_bodies() {
   for (Body& body : bodies_) body.is_linked = false;
-  for (const Link& link : links_) bodies_[at(link.body)].is_linked = true;
+  for (const BodyLink& link : links_) bodies_[at(link.body)].is_linked = true;
   for (Body& body : bodies_) {
     if (!body.is_linked) body.motion.setZero();
   }
@@ -102,9 +102,9 @@ void ImplicitSolver<Scalar>::factorize_bodies() {
   for (Body& other : bodies_) other.correction.setZero();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     Body& body = bodies_[b];
-    Matrix6 stiffness = body.inertia;
+    typename Body::Matrix6 stiffness = body.inertia;
     linked_blocks_.clear();
-    for (const Link& link : links_) {
+    for (const BodyLink& link : links_) {
       if (link.body == static_cast<int>(b)) linked_blocks_.push_back(link.node / kNodeBlock);
     }
     std::sort(linked_blocks_.begin(), linked_blocks_.end());
@@ -117,12 +117,12 @@ void ImplicitSolver<Scalar>::factorize_bodies() {
       body.correction_product = body.inertia.col(k);
       gather_of(static_cast<int>(b), correction_product_, body.correction_product);
       stiffness.col(k) = body.correction_product;
-      for (const Link& link : links_) correction.row(link.node).setZero();
+      for (const BodyLink& link : links_) correction.row(link.node).setZero();
     }
     body.correction.setZero();
     body.stiffness.compute((stiffness + stiffness.transpose()) / 2);
     if (body.stiffness.info() != Eigen::Success) {
-      body.stiffness.compute(Matrix6(stiffness.diagonal().asDiagonal()));
+      body.stiffness.compute(typename Body::Matrix6(stiffness.diagonal().asDiagonal()));
     }
   }
 }
@@ -131,7 +131,7 @@ void ImplicitSolver<Scalar>::factorize_bodies() {
 template <class Scalar>
 void ImplicitSolver<Scalar>::find_body_residuals(Floats6 Body::*result) {
   for (Body& body : bodies_) body.*result = -(body.inertia * body.motion.template cast<float>());
-  for (const Link& link : links_) {
+  for (const BodyLink& link : links_) {
     const Vector3<Scalar> normal = link.normal.template cast<Scalar>();
     Vector3<Scalar> force = at_node(residual_forces_, link.node);
     if (!normal.isZero(0)) {

@@ -56,6 +56,8 @@ rlim_t address_space() {
 
 [[noreturn]] void run_child(int file, const std::function<std::string()>& work,
                             const IsolationBudget& budget) {
+  // A crash ends the child and is the parent's to report: handlers of the program (crash reporters) are not for it.
+  for (const int fatal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(fatal, SIG_DFL);
   limit(RLIMIT_CPU, budget.seconds);
   limit(RLIMIT_CORE, 0);
   if (!has_address_sanitizer()) limit(RLIMIT_AS, address_space() + budget.bytes);
