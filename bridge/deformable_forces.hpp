@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/deformable/deformable_forces_test.cpp, tests/bridge/deformable/deformable_faults_test.cpp.
+
 #include <functional>
 #include <memory>
 #include <optional>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/deformable/deformable_contact_test.cpp, tests/bridge/deformable/deformable_faults_test.cpp.
+
 #include <weft/bridge/deformable/bullet_deformable.hpp>
 
 #include <weft/bridge/deformable_forces.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/implicit/fast_body_test.cpp, tests/bridge/solver_checks_test.cpp.
+
 #include <weft/fast_solver/solver_settings.hpp>
 
 namespace weft::bridge {

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/solver_checks_test.cpp, tests/bridge/contact/rigid_response_test.cpp.
+
 #include <memory>
 
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>

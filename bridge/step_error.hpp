@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/implicit/step_error_test.cpp.
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

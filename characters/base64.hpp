@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/characters/gltf_faults_test.cpp, tests/characters/skinning_test.cpp.
+
 #include <cstddef>
 #include <optional>
 #include <span>

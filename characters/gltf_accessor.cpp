@@ -1,3 +1,5 @@
+// Tested by tests/characters/gltf_faults_test.cpp, tests/characters/skinning_test.cpp.
+
 #include <algorithm>
 #include <array>
 #include <bit>

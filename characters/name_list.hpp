@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/characters/skinning_test.cpp.
+
 #include <string>
 #include <vector>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/install/CMakeLists.txt.
+
 // Eigen chooses the alignment of its matrices, and with it how it takes and gives back memory, from the
 // compiler's flags: -mavx, -march=native or -fsanitize=address change both. Matrices that a program made would
 // then be freed by the library, or the other way round, in another way than they were taken. Here the choice

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/core/input_file_test.cpp, tests/contract/input_contract_test.cpp.
+
 #include <stdexcept>
 #include <string>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/custom_forces/trace_test.cpp.
+
 #include <atomic>
 #include <chrono>
 #include <iosfwd>

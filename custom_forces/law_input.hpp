@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/contract/input_contract_test.cpp.
+
 #include <string_view>
 #include <vector>
 

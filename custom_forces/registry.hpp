@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/contract/input_contract_test.cpp, tests/contract/law_contract_test.cpp.
+
 #include <memory>
 #include <span>
 #include <string_view>

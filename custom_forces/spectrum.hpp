@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/statics/static_solver_test.cpp, tests/reference/damping_test.cpp.
+
 #include <vector>
 
 #include <weft/custom_forces/law_set.hpp>

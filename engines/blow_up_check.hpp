@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/engines/blow_up_engines_test.cpp.
+
 #include <limits>
 #include <optional>
 #include <string>

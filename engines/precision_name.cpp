@@ -1,3 +1,5 @@
+// Tested by tests/apps/command_line_test.sh.
+
 #include <weft/engines/engine_table.hpp>
 
 namespace weft::scenes {

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/fast_solver/implicit_solver_test.cpp.
+
 #include <vector>
 
 #include <weft/core/types.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/implicit/step_error_test.cpp.
+
 namespace weft::fast {
 
 /// How accurately a step was solved. Each Newton iteration minimizes a quadratic model of the incremental potential

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/fast_solver/implicit_solver_test.cpp.
+
 namespace weft::fast {
 
 /// Iteration limits and tolerance of one implicit step.

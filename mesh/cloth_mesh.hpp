@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/mesh/cloth_grid_test.cpp, tests/mesh/cutting/tear_test.cpp.
+
 #include <string>
 #include <string_view>
 #include <vector>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/custom_forces/body_sources_test.cpp, tests/mesh/hinges_test.cpp.
+
 #include <optional>
 
 #include <weft/core/eigen_alignment.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/fast_solver/torn_network_test.cpp.
+
 #include <vector>
 
 #include <weft/mesh/cloth_mesh.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/custom_forces/body_sources_test.cpp.
+
 #include <weft/mesh/cloth_mesh.hpp>
 
 namespace weft {

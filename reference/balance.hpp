@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/solver_test.cpp, tests/reference/damping_test.cpp.
+
 #include <weft/reference/system.hpp>
 
 namespace weft::reference {

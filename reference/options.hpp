@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/integrators_test.cpp, tests/reference/step_guard_test.cpp.
+
 namespace weft::reference {
 
 /// How one step advances positions and velocities (integrators/integrator.hpp).

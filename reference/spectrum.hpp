@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/damping_test.cpp.
+
 #include <weft/custom_forces/spectrum.hpp>
 #include <weft/reference/system.hpp>
 

@@ -1,4 +1,5 @@
 // What leads a system from outside: everything else of the solver is in solver.cpp.
+// Tested by tests/reference/self_contact_test.cpp, tests/engines/attach_test.cpp.
 #include <string>
 
 #include <Eigen/Cholesky>

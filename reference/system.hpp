@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/solver_test.cpp.
+
 #include <memory>
 #include <optional>
 #include <string>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/format/scene_file_test.cpp, tests/scenes/catalog/tear_test.cpp.
+
 #include <vector>
 
 #include <weft/core/types.hpp>

@@ -1,3 +1,5 @@
+// Tested by tests/scenes/format/scene_file_test.cpp, tests/engines/bullet/bullet_shapes_test.cpp.
+
 #include <algorithm>
 #include <set>
 #include <utility>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/format/scene_file_test.cpp.
+
 namespace weft::scenes {
 
 /// How the reference solver steps (reference/README.md), in the order of its own list.

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/engines/bullet/bullet_shapes_test.cpp, tests/validation/metrics/distance/shape_distance_test.cpp.
+
 #include <weft/scenes/shapes.hpp>
 
 namespace weft::scenes {

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/format/scene_file_test.cpp, tests/engines/bullet/bullet_shapes_test.cpp.
+
 #include <array>
 #include <variant>
 #include <vector>

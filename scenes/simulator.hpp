@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/engines/body_engines_test.cpp, tests/scenes/recording/run_test.cpp.
+
 #include <memory>
 #include <optional>
 #include <string>

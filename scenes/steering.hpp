@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/controllers_test.cpp, tests/scenes/controllers/detail_test.cpp.
+
 #include <memory>
 #include <optional>
 #include <vector>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/catalog/tear_test.cpp.
+
 #include <memory>
 #include <optional>
 #include <vector>

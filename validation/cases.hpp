@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/cases/scenes/scene_gates_test.cpp, tests/validation/cases/support/parameters_test.cpp.
+
 #include <span>
 
 #include <weft/validation/cases/support/case.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/apps/command_line_test.sh, tests/validation/cases/support/parameters_test.cpp.
+
 #include <filesystem>
 #include <functional>
 #include <string>

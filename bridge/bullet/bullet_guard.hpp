@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/solver_test.cpp.
+
 #include <cstddef>
 
 #include <BulletSoftBody/btSoftBody.h>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/contact/rigid_response_test.cpp.
+
 #include <LinearMath/btVector3.h>
 
 #include <weft/bridge/bullet/precision.hpp>

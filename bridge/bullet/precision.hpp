@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/install/one_precision.cmake.
+
 #include <LinearMath/btScalar.h>
 
 // The bridge is built once for each precision of Bullet. Everything in it lives in an inline

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/solver_checks_test.cpp, tests/bridge/classic/body_life_test.cpp.
+
 #include <exception>
 #include <functional>
 #include <memory>

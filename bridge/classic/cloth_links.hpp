@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/cloth_body_test.cpp.
+
 #include <weft/bridge/cloth_body.hpp>
 
 namespace weft::bridge {

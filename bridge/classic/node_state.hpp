@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/classic/damping_place_test.cpp, tests/bridge/implicit/fast_body_test.cpp.
+
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/bullet/precision.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/classic/node_normals_test.cpp, tests/bridge/implicit/outside_changes_test.cpp.
+
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/bullet/precision.hpp>

@@ -1,4 +1,5 @@
 // What a solver does in each step.
+// Tested by tests/bridge/solver_test.cpp, tests/bridge/solver_checks_test.cpp.
 #include <weft/bridge/solver.hpp>
 
 #include <algorithm>

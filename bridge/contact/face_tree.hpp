@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/contact/cloth_contact_test.cpp.
+
 #include <array>
 #include <span>
 #include <vector>

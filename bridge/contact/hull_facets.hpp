@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/contact/surface_distance_test.cpp.
+
 #include <memory>
 #include <unordered_map>
 #include <vector>

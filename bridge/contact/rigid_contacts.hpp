@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/contact/rigid_response_test.cpp, tests/bridge/implicit/fast_body_test.cpp.
+
 #include <algorithm>
 #include <array>
 #include <span>

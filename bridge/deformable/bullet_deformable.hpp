@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/deformable/deformable_faults_test.cpp.
+
 // Bullet's deformable world. Bullet fills arrays with vectors that its constructors leave as they
 // are; every file that includes it would be warned of that by GCC.
 #if defined(__GNUC__) && !defined(__clang__)

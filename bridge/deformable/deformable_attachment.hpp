@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/deformable/deformable_forces_test.cpp.
+
 #include <exception>
 #include <memory>
 #include <optional>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/tearing_test.cpp, tests/bridge/implicit/explosion_test.cpp.
+
 #include <vector>
 
 #include <weft/bridge/bullet/precision.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/implicit/fast_body_test.cpp, tests/bridge/implicit/outside_changes_test.cpp.
+
 #include <vector>
 
 #include <BulletSoftBody/btSoftBody.h>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/implicit/fast_body_test.cpp, tests/bridge/implicit/explosion_test.cpp.
+
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/core/types.hpp>
 #include <weft/fast_solver/threads/worker_team.hpp>

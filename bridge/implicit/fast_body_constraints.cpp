@@ -1,4 +1,5 @@
 // What touches or leads a fast body, as its solver sees it, and what that gets from it.
+// Tested by tests/bridge/implicit/fast_body_anchor_test.cpp, tests/bridge/implicit/fast_body_impact_test.cpp.
 #include <algorithm>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>

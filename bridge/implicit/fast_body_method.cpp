@@ -1,4 +1,5 @@
 // The methods that integrate a step: implicit Euler, BDF2 and that of ForceHistory, and the energy that is left to a step.
+// Tested by tests/bridge/implicit/fast_body_test.cpp, tests/bridge/implicit/stiffness_limit_test.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>

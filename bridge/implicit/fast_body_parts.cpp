@@ -1,4 +1,5 @@
 // A step in parts: where a dynamic body comes so far in one that its surface has turned away from the nodes that it met.
+// Tested by tests/bridge/implicit/fast_body_impact_test.cpp.
 #include <algorithm>
 #include <cmath>
 

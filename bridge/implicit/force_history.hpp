@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/implicit/fast_body_impact_test.cpp, tests/bridge/implicit/fast_body_anchor_test.cpp.
+
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/core/types.hpp>
 

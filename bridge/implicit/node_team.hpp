@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/implicit/fast_body_threads_test.cpp.
+
 #include <algorithm>
 #include <optional>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/implicit/fast_body_impact_test.cpp, tests/bridge/implicit/anchored_box_test.cpp.
+
 #include <span>
 #include <utility>
 #include <vector>

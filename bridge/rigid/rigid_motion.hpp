@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/implicit/fast_body_anchor_test.cpp.
+
 #include <vector>
 
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/implicit/fast_body_impact_test.cpp.
+
 #include <vector>
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/custom_forces/assembly/edge_assembly_test.cpp.
+
 #include <cstddef>
 #include <type_traits>
 #include <utility>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/custom_forces/law_set_test.cpp, tests/contract/law_contract_test.cpp.
+
 #include <algorithm>
 #include <array>
 #include <cstddef>

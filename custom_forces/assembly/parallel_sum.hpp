@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/custom_forces/assembly/edge_assembly_test.cpp, tests/custom_forces/assembly/element_assembly_test.cpp.
+
 #include <string>
 
 #include <tbb/blocked_range.h>

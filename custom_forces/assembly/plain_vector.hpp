@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/custom_forces/assembly/edge_assembly_test.cpp.
+
 namespace weft::forces {
 
 /// Three numbers and nothing else, for the force of an element inside of vectorised loops. Eigen's

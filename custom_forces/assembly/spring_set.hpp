@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/custom_forces/laws/elastic/tension_test.cpp.
+
 #include <cmath>
 
 #include <weft/custom_forces/assembly/edge_assembly.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/engines/bullet/bullet_shapes_test.cpp, tests/scenes/catalog/tear_test.cpp.
+
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/engines/bullet/bullet_shapes_test.cpp, tests/validation/contact_table/contact_table_test.cpp.
+
 #include <memory>
 
 #include <btBulletDynamicsCommon.h>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/engines/blow_up_engines_test.cpp, tests/engines/body_engines_test.cpp.
+
 #include <memory>
 
 #include <weft/scenes/simulator.hpp>

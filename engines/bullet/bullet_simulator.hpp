@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/engines/blow_up_engines_test.cpp, tests/engines/bullet/bullet_shapes_test.cpp.
+
 #include <memory>
 #include <string>
 

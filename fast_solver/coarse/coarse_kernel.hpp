@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/fast_solver/coarse/coarse_correction_test.cpp, tests/fast_solver/coarse/dissected_cholesky_test.cpp.
+
 namespace weft::fast {
 
 /// Numbers of a symmetric 3 x 3 block: xx, yy, zz, xy, yz, zx and two that are not used.

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/fast_solver/coarse/coarse_correction_test.cpp.
+
 #include <algorithm>
 #include <cstddef>
 #include <vector>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/fast_solver/coarse/coarse_correction_test.cpp, tests/fast_solver/implicit_solver_test.cpp.
+
 #include <vector>
 
 #include <weft/fast_solver/network/sparse_matrix.hpp>

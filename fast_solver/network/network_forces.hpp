@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/fast_solver/network/spring_network_test.cpp, tests/fast_solver/network/edge_slots_test.cpp.
+
 #include <cstdint>
 #include <vector>
 

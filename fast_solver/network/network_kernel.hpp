@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/fast_solver/network/spring_network_test.cpp, tests/fast_solver/implicit_solver_test.cpp.
+
 namespace weft::fast {
 
 /// Nodes begin ... end - 1, both multiples of kNodeBlock.

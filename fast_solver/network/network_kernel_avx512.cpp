@@ -1,4 +1,5 @@
 // Compiled for AVX-512 (CMakeLists.txt), called only on processors that have it.
+// Tested by tests/fast_solver/network/spring_network_test.cpp, tests/fast_solver/implicit_solver_test.cpp.
 #include <immintrin.h>
 
 #include <weft/fast_solver/coarse/coarse_kernel.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/fast_solver/coarse/dissected_cholesky_test.cpp, tests/fast_solver/network/rest_stiffness_test.cpp.
+
 #include <cstddef>
 #include <vector>
 

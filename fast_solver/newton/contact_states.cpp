@@ -1,4 +1,5 @@
 // Contact states (free, sliding, sticking) and kinematic nodes during a solve (Baraff and Witkin 1998).
+// Tested by tests/fast_solver/implicit_solver_test.cpp.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/fast_solver/implicit_solver_test.cpp.
+
 #include <array>
 #include <cstddef>
 

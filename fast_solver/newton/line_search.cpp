@@ -1,4 +1,5 @@
 // Line search and fallbacks, which keep a step from gaining energy or momentum even if it has not converged.
+// Tested by tests/fast_solver/implicit_solver_test.cpp.
 #include <algorithm>
 
 #include <weft/fast_solver/implicit_solver.hpp>

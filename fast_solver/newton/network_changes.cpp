@@ -1,4 +1,5 @@
 // Changes of the network between steps: pins, kinematic nodes and tears.
+// Tested by tests/fast_solver/implicit_solver_test.cpp, tests/fast_solver/torn_network_test.cpp.
 #include <algorithm>
 #include <iterator>
 #include <numeric>

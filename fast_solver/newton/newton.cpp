@@ -1,4 +1,5 @@
 // Newton's method on the energy that an implicit step minimizes (Gast et al. 2015), with a line search on it.
+// Tested by tests/fast_solver/implicit_solver_test.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>

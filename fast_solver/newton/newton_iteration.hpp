@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/fast_solver/implicit_solver_test.cpp.
+
 namespace weft::fast {
 
 /// The energies that a linear solve gains, each twice the decrease of the quadratic model [J]: that of all iterations, and that

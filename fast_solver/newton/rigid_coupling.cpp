@@ -1,4 +1,5 @@
 // Two-way coupled rigid bodies: six unknowns each, which are solved for together with the nodes.
+// Tested by tests/fast_solver/implicit_solver_test.cpp.
 #include <algorithm>
 
 #include <weft/fast_solver/implicit_solver.hpp>

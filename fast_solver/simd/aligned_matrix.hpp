@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/fast_solver/network/spring_network_test.cpp.
+
 #include <cstddef>
 #include <new>
 #include <utility>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/mesh/cutting/tear_test.cpp.
+
 #include <string>
 #include <vector>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/playback/export/player_page_test.cpp.
+
 #include <string_view>
 
 namespace weft::scenes {

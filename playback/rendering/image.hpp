@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/playback/rendering/paint/png_test.cpp, tests/playback/rendering/paint/jpeg_test.cpp.
+
 #include <filesystem>
 #include <string>
 

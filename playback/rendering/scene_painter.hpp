@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/playback/rendering/renderer_test.cpp, tests/playback/rendering/appearance_render_test.cpp.
+
 #include <memory>
 #include <vector>
 

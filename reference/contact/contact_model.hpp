@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/contact_test.cpp.
+
 #include <cstdint>
 #include <memory>
 #include <optional>

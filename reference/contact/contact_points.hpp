@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/contact_test.cpp, tests/reference/face_contact_test.cpp.
+
 #include <vector>
 
 #include <weft/reference/contact/contact_model.hpp>

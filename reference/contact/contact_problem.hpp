@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/contact_test.cpp.
+
 #include <array>
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/contact_test.cpp, tests/reference/friction_test.cpp.
+
 #include <weft/reference/contact/contact_model.hpp>
 #include <weft/reference/contact/touches.hpp>
 

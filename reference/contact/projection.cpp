@@ -1,3 +1,5 @@
+// Tested by tests/reference/contact_test.cpp.
+
 #include <weft/reference/contact/contact_stages.hpp>
 
 namespace weft::reference {

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/work_budget_test.cpp.
+
 #include <algorithm>
 #include <cstdint>
 #include <string>

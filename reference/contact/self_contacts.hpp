@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/self_contact_test.cpp.
+
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/implicit_integrators_test.cpp.
+
 #include <memory>
 
 #include <weft/reference/integrators/integrator.hpp>

@@ -1,3 +1,5 @@
+// Tested by tests/reference/integrators_test.cpp.
+
 #include <algorithm>
 #include <array>
 #include <cmath>

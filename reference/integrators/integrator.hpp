@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/integrators_test.cpp, tests/reference/implicit_integrators_test.cpp.
+
 #include <memory>
 
 #include <weft/reference/options.hpp>

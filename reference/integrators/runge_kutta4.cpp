@@ -1,3 +1,5 @@
+// Tested by tests/reference/integrators_test.cpp.
+
 #include <weft/reference/integrators/integrator.hpp>
 
 namespace weft::reference {

@@ -1,3 +1,5 @@
+// Tested by tests/reference/implicit_integrators_test.cpp.
+
 #include <numbers>
 
 #include <weft/reference/implicit/stage_solver.hpp>

@@ -1,3 +1,5 @@
+// Tested by tests/reference/integrators_test.cpp.
+
 #include <cmath>
 
 #include <weft/reference/integrators/integrator.hpp>

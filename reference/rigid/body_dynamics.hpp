@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/integrators_test.cpp, tests/reference/prescribed_motion_test.cpp.
+
 #include <optional>
 
 #include <weft/reference/system.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/rigid/free_rotation_test.cpp, tests/reference/moving_collider_test.cpp.
+
 #include <weft/reference/options.hpp>
 #include <weft/reference/system.hpp>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/statics/static_solver_test.cpp.
+
 #include <functional>
 #include <utility>
 #include <vector>

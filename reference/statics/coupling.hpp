@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/statics/static_solver_test.cpp, tests/reference/implicit_integrators_test.cpp.
+
 #include <vector>
 
 #include <weft/core/types.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/catalog/caped_figure_test.cpp, tests/scenes/catalog/public_character_test.cpp.
+
 #include <cstddef>
 #include <vector>
 

@@ -1,3 +1,5 @@
+// Tested by tests/scenes/characters_test.cpp.
+
 #include <algorithm>
 #include <array>
 #include <cmath>

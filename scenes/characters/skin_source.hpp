@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/characters_test.cpp.
+
 #include <cstddef>
 #include <memory>
 #include <optional>

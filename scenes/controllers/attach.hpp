@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/engines/attach_test.cpp.
+
 #include <cstddef>
 #include <vector>
 

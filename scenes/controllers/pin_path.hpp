@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/controllers_test.cpp, tests/engines/attach_test.cpp.
+
 #include <cstddef>
 #include <optional>
 #include <vector>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/controllers_test.cpp.
+
 #include <cstddef>
 
 #include <weft/scenes/scene.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/format/scene_file_test.cpp.
+
 #include <string>
 #include <string_view>
 

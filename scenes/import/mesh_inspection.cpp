@@ -1,3 +1,5 @@
+// Tested by tests/scenes/import/import_test.cpp.
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/import/import_test.cpp.
+
 #include <optional>
 #include <string>
 #include <vector>

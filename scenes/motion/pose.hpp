@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/engines/attach_test.cpp.
+
 #include <Eigen/Geometry>
 
 #include <weft/core/types.hpp>

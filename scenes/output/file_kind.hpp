@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/output/output_file_test.cpp, tests/scenes/output/output_folder_test.cpp.
+
 #include <filesystem>
 #include <string_view>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/recording/damage_test.cpp, tests/scenes/recording/crash_test.cpp.
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/recording/format_document_test.cpp, tests/scenes/recording/damage_test.cpp.
+
 #include <cstdint>
 #include <map>
 #include <optional>

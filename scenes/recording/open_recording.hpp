@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/recording/damage_test.cpp.
+
 #include <filesystem>
 
 #include <weft/scenes/recording/codec/topologies.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/recording/round_trip_test.cpp.
+
 #include <cstddef>
 #include <filesystem>
 #include <map>

@@ -1,3 +1,5 @@
+// Tested by tests/scenes/recording/round_trip_test.cpp, tests/scenes/recording/damage_test.cpp.
+
 #include <algorithm>
 #include <charconv>
 #include <optional>

@@ -1,3 +1,5 @@
+// Tested by tests/scenes/recording/round_trip_test.cpp, tests/scenes/recording/recording_output_test.cpp.
+
 #include <cerrno>
 #include <chrono>
 #include <cmath>

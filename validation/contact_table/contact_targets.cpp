@@ -1,3 +1,5 @@
+// Tested by tests/validation/contact_table/contact_table_test.cpp.
+
 #include <cmath>
 #include <numbers>
 #include <utility>

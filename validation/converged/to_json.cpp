@@ -1,3 +1,5 @@
+// Tested by tests/validation/converged/converged_reference_test.cpp.
+
 #include <algorithm>
 #include <cmath>
 #include <string_view>

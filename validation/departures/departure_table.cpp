@@ -1,4 +1,5 @@
 // What is known to fail, by cause. tools/state_departures.py prints the rows of a report; causes are written by hand.
+// Tested by tests/validation/stated_departures_test.cpp.
 #include <weft/validation/departures/stated_departures.hpp>
 
 namespace weft::validation {

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/stated_departures_test.cpp.
+
 #include <span>
 #include <string_view>
 #include <vector>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/metrics/drape_test.cpp.
+
 #include <optional>
 
 #include <weft/core/types.hpp>

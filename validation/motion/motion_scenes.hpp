@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/motion/motion_figures_test.cpp, tests/validation/motion/swing_test.cpp.
+
 #include <string>
 #include <vector>
 

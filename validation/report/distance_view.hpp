@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/report/formats/quantized_test.cpp, tests/validation/report/json_test.cpp.
+
 #include <array>
 #include <string>
 #include <vector>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/report/html_test.cpp.
+
 #include <string_view>
 
 namespace weft::validation {

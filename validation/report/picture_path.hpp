@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/report/write_test.cpp.
+
 #include <cstddef>
 #include <string>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/report/text_test.cpp.
+
 #include <string>
 
 #include <weft/validation/report/report.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/report/report_test.cpp.
+
 #include <optional>
 #include <string_view>
 

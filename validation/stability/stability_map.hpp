@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/apps/CMakeLists.txt.
+
 #include <string>
 #include <vector>
 

@@ -1,4 +1,5 @@
 // Flat cloths on a plane with Coulomb friction: one slides down a slope, one is thrown along the ground and stops.
+// Tested by tests/validation/theory_test.cpp.
 #include <cmath>
 #include <numbers>
 

@@ -1,5 +1,6 @@
 // Bodies that move as a theory says: oscillators, pendulums, strings, a membrane, a strip, a cloth in free flight. What a step
 // may do to a period and to an energy follows from the order of the method.
+// Tested by tests/validation/theory_test.cpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>

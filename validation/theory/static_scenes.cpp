@@ -1,5 +1,6 @@
 // Bodies at rest of which a theory knows the shape: a chain, a catenary, a balloon. No engine and no step has a say in an
 // equilibrium.
+// Tested by tests/validation/theory_test.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/theory_test.cpp, tests/apps/command_line_test.sh.
+
 #include <weft/validation/cases/support/case.hpp>
 #include <weft/validation/theory/theory_scene.hpp>
 

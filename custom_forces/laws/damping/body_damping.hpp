@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/custom_forces/laws/damping/rotation_damping_test.cpp, tests/contract/law_contract_test.cpp.
+
 #include <cmath>
 #include <vector>
 

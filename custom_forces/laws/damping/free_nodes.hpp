@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/custom_forces/laws/damping/rotation_damping_test.cpp, tests/custom_forces/laws/damping/acceleration_damping_test.cpp.
+
 #include <vector>
 
 #include <weft/mesh/cloth_mesh.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/custom_forces/laws/elastic/torsion_test.cpp, tests/custom_forces/laws/elastic/nonlocal_torsion_test.cpp.
+
 #include <cmath>
 
 namespace weft::forces {

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/playback/rendering/renderer_test.cpp.
+
 #include <weft/playback/rendering/meshes/surface_mesh.hpp>
 #include <weft/scenes/scene.hpp>
 

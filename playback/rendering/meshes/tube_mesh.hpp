@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/playback/rendering/meshes/shape_mesh_test.cpp.
+
 #include <weft/playback/rendering/meshes/surface_mesh.hpp>
 
 namespace weft::scenes {

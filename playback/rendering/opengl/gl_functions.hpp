@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/playback/rendering/opengl/offscreen_context_test.cpp.
+
 #include <GL/glcorearb.h>
 
 #include <weft/playback/rendering/opengl/offscreen_context.hpp>

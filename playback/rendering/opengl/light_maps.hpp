@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/playback/rendering/renderer_test.cpp.
+
 #include <functional>
 #include <vector>
 

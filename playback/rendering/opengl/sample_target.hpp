@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/playback/rendering/renderer_test.cpp.
+
 #include <weft/playback/rendering/image.hpp>
 #include <weft/playback/rendering/opengl/shader_program.hpp>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/playback/rendering/appearance_render_test.cpp.
+
 #include <vector>
 
 #include <weft/playback/rendering/opengl/shader_program.hpp>

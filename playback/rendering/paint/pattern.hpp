@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/playback/rendering/appearance_render_test.cpp.
+
 #include <weft/playback/rendering/image.hpp>
 #include <weft/scenes/appearance/appearance.hpp>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/playback/rendering/montage_test.cpp.
+
 #include <string_view>
 
 #include <weft/playback/rendering/image.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/self_contact_test.cpp.
+
 #include <cstdint>
 #include <optional>
 

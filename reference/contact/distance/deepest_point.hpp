@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/face_contact_test.cpp.
+
 #include <weft/reference/contact/distance/signed_distance.hpp>
 
 namespace weft::reference {

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/shapes_test.cpp.
+
 #include <array>
 #include <vector>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/reference/shapes_test.cpp, tests/reference/contact_test.cpp.
+
 #include <weft/reference/rigid/rigid_motion.hpp>
 #include <weft/reference/system.hpp>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/appearance/appearance_test.cpp.
+
 #include <array>
 #include <string_view>
 

@@ -1,3 +1,5 @@
+// Tested by tests/scenes/format/scene_file_test.cpp, tests/scenes/body_sources_test.cpp.
+
 #include <array>
 #include <cmath>
 #include <utility>

@@ -1,4 +1,5 @@
 // Nodes that a picture marks, for pins and regions.
+// Tested by tests/scenes/appearance/appearance_test.cpp.
 #include <algorithm>
 #include <cmath>
 

@@ -1,3 +1,5 @@
+// Tested by tests/scenes/body_sources_test.cpp.
+
 #include <array>
 #include <utility>
 

@@ -1,3 +1,5 @@
+// Tested by tests/scenes/format/scene_file_test.cpp.
+
 #include <array>
 
 #include <weft/core/error.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/format/scene_file_test.cpp.
+
 #include <weft/scenes/format/scene_file.hpp>
 #include <weft/scenes/format/toml_reader.hpp>
 #include <weft/scenes/scene.hpp>

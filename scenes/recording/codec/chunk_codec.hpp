@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/recording/round_trip_test.cpp, tests/scenes/recording/damage_test.cpp.
+
 #include <cstddef>
 #include <span>
 #include <string_view>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/recording/round_trip_test.cpp, tests/scenes/recording/content_hash_test.cpp.
+
 #include <concepts>
 #include <cstddef>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/recording/content_hash_test.cpp.
+
 #include <bit>
 #include <concepts>
 #include <cstddef>

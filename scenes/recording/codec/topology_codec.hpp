@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/scenes/catalog/tear_test.cpp.
+
 #include <cstddef>
 #include <span>
 #include <string>

@@ -1,4 +1,5 @@
 // A cloth on ten bodies, in three resolutions, in every engine, beside the reference.
+// Tested by tests/apps/CMakeLists.txt.
 #include <algorithm>
 #include <cmath>
 #include <limits>

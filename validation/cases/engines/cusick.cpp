@@ -1,5 +1,6 @@
 // The drape test after Cusick: a disc of cloth of 30 cm on a disc of 18 cm, from above. Folds may form in more than one
 // way, so each cloth falls eight times from slightly uneven starts.
+// Tested by tests/apps/CMakeLists.txt.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,5 @@
 // The same scene, the same program: the same bits, run again and on any number of threads.
+// Tested by tests/apps/CMakeLists.txt.
 #include <array>
 #include <set>
 

@@ -1,5 +1,6 @@
 // One heavy strip in every engine that carries Weft's laws: at rest they must agree with each other,
 // for no engine has a say in an equilibrium.
+// Tested by tests/apps/CMakeLists.txt.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,6 @@
 // The negative control: explicit Euler blows up on the classic scene, and the report says where and
 // when.
+// Tested by tests/apps/CMakeLists.txt.
 #include <cmath>
 
 #include <fmt/format.h>

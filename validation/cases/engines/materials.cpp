@@ -1,4 +1,5 @@
 // The four materials of de Joya 2011 on their spheres, and what weak damping leaves of their rest.
+// Tested by tests/apps/CMakeLists.txt.
 #include <algorithm>
 #include <array>
 #include <cmath>

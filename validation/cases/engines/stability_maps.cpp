@@ -1,4 +1,5 @@
 // The largest stable step of three cloths, predicted and tried.
+// Tested by tests/apps/CMakeLists.txt.
 #include <utility>
 
 #include <fmt/format.h>

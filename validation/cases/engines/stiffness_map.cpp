@@ -1,5 +1,6 @@
 // How stiff a rope really is, over steps, iterations and numbers of springs: the law of one of Bullet's links and what
 // becomes of it in a chain, beside the engines whose stiffness depends on none of them.
+// Tested by tests/apps/CMakeLists.txt.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,5 @@
 // What a program that shares no line with Weft and Bullet says about the same cloth.
+// Tested by tests/apps/CMakeLists.txt.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,3 +1,5 @@
+// Tested by tests/validation/cases/engines/work_precision_test.cpp.
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

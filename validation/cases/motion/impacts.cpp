@@ -1,4 +1,5 @@
 // Falls, impacts and loads: what must come out is known from explicit integration in short steps, or from theory.
+// Tested by tests/apps/CMakeLists.txt.
 #include <cmath>
 
 #include <fmt/format.h>

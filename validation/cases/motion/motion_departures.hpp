@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/apps/CMakeLists.txt.
+
 #include <span>
 
 #include <weft/validation/cases/support/stated_departure.hpp>

@@ -1,4 +1,5 @@
 // At rest nothing is left over: forces of the laws balance on every node that nothing holds, at any step, and the shape is one.
+// Tested by tests/apps/CMakeLists.txt.
 #include <cmath>
 #include <limits>
 

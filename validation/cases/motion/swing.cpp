@@ -1,4 +1,5 @@
 // A sheet swings from two corners. How fast it does so hardly depends on its stiffness: a solver that stops stiff cloth is seen here.
+// Tested by tests/apps/CMakeLists.txt.
 #include <array>
 #include <cmath>
 #include <optional>

@@ -1,3 +1,5 @@
+// Tested by tests/apps/CMakeLists.txt.
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/cases/engines/work_precision_test.cpp, tests/apps/command_line_test.sh.
+
 #include <optional>
 #include <string>
 #include <vector>

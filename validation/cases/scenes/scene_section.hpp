@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/apps/CMakeLists.txt.
+
 #include <vector>
 
 #include <weft/validation/cases/scenes/scene_metrics.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/apps/CMakeLists.txt.
+
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/theory_test.cpp, tests/validation/cases/support/parameters_test.cpp.
+
 #include <map>
 #include <optional>
 #include <span>

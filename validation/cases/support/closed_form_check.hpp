@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/theory_test.cpp.
+
 #include <string>
 
 #include <weft/validation/cases/support/case.hpp>

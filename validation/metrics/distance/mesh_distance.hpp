@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/metrics/distance/shape_distance_test.cpp.
+
 #include <vector>
 
 #include <weft/scenes/shapes.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/metrics/distance/surface_distance_test.cpp.
+
 #include <weft/core/types.hpp>
 
 namespace weft::validation {

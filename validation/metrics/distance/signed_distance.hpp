@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/metrics/distance/penetration_test.cpp.
+
 #include <Eigen/Geometry>
 
 #include <weft/scenes/scene.hpp>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/metrics/distance/surface_distance_test.cpp.
+
 #include <vector>
 
 #include <Eigen/Geometry>

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/metrics/series/time_series_test.cpp.
+
 #include <optional>
 #include <span>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/report/json_test.cpp.
+
 #include <nlohmann/json.hpp>
 #include <string>
 

@@ -1,3 +1,5 @@
+// Tested by tests/validation/report/html_test.cpp.
+
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>

@@ -1,3 +1,5 @@
+// Tested by tests/validation/report/json_test.cpp.
+
 #include <nlohmann/json.hpp>
 
 #include <weft/validation/report/formats/base64.hpp>

@@ -1,3 +1,5 @@
+// Tested by tests/validation/report/text_test.cpp.
+
 #include <fmt/format.h>
 
 #include <algorithm>

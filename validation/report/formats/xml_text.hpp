@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/report/junit_test.cpp.
+
 #include <string>
 #include <string_view>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/theory_test.cpp, tests/validation/cases/support/parameters_test.cpp.
+
 #include <weft/mesh/cloth_mesh.hpp>
 #include <weft/reference/statics/static_solver.hpp>
 

@@ -1,4 +1,5 @@
 // Two instabilities of a heavy strip: upright it falls over, on edge it tips sideways.
+// Tested by tests/validation/theory_test.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,6 @@
 // A heavy strip bends under its own weight (Romero et al. 2021, test 1): tip drop over tip reach
 // against the elastica, over three decades of Gamma, on a grid at three angles.
+// Tested by tests/validation/theory_test.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>

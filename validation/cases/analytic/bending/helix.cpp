@@ -1,4 +1,5 @@
 // Rods with three-point torsion: a helix under Love's force and couple, and a straight rod that is bent to a ring.
+// Tested by tests/validation/theory_test.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,6 @@
 // Ties to far nodes: a flap folded over to its mirror image finds its way back, and a sheet whose
 // centre is tied to all other nodes holds it up.
+// Tested by tests/apps/CMakeLists.txt.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

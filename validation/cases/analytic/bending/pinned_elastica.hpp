@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/cases/analytic/bending/elastica_test.cpp.
+
 namespace weft::validation {
 
 /// A weightless strip, clamped at one end and pinned at the other, that is pressed together along its clamp's

@@ -1,5 +1,6 @@
 // What hinges make of a curved sheet: its energy per area is that of an isotropic plate, for every
 // kind of curvature in every direction, and a uniformly curved sheet has no reason to give way.
+// Tested by tests/apps/CMakeLists.txt.
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,5 @@
 // A strip with a weight at its tip bends as the elastica, and what a bending test makes of a heavy one.
+// Tested by tests/validation/theory_test.cpp.
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,6 @@
 // A chain with three-point torsion bends as a chain of hinges: the tip of a cantilever of N segments
 // drops by F a^2 N (N + 1) (2 N + 1) / (6 kappa) under a small force F.
+// Tested by tests/validation/theory_test.cpp.
 #include <cmath>
 
 #include <weft/custom_forces/registry.hpp>

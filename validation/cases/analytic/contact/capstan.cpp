@@ -1,4 +1,5 @@
 // A chain over a round body holds back more than pulls it, by the friction of every turn: the capstan.
+// Tested by tests/validation/cases/support/parameters_test.cpp, tests/apps/CMakeLists.txt.
 #include <array>
 #include <cmath>
 #include <numbers>

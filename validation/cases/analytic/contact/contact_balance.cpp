@@ -1,4 +1,5 @@
 // A cloth falls freely, is carried by what it lies on, and does not pass through it however fast it comes.
+// Tested by tests/apps/CMakeLists.txt.
 #include <algorithm>
 #include <array>
 #include <cmath>

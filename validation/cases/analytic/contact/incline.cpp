@@ -1,5 +1,6 @@
 // Cloths on a slope: which stick and which slide over a grid of frictions and angles, how fast those slide, and
 // whether those that stick stay.
+// Tested by tests/apps/CMakeLists.txt.
 #include <algorithm>
 #include <cmath>
 #include <limits>

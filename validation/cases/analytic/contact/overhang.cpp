@@ -1,4 +1,5 @@
 // A chain that hangs over the edge of a table: how much of it may, before all of it goes.
+// Tested by tests/validation/cases/support/parameters_test.cpp.
 #include <array>
 #include <cmath>
 #include <numbers>

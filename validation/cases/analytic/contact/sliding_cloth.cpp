@@ -1,4 +1,5 @@
 // A flat cloth thrown along the ground: Coulomb friction stops it after v^2 / (2 mu g).
+// Tested by tests/apps/CMakeLists.txt.
 #include <cmath>
 #include <utility>
 

@@ -1,4 +1,5 @@
 // A strip is pressed on a plane with its tip: friction holds the tip until the strip's own statics ask for more.
+// Tested by tests/apps/CMakeLists.txt.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,6 @@
 // The added inertia: periods and stable steps grow by sqrt(1 + beta), free fall and the static shape
 // stay.
+// Tested by tests/apps/CMakeLists.txt.
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -1,5 +1,6 @@
 // A hung cloth with the three damping laws, in the reference and in Bullet's world: the laws act at
 // another place of another program's step, and the equations are the same.
+// Tested by tests/apps/CMakeLists.txt.
 #include <algorithm>
 #include <cmath>
 #include <utility>

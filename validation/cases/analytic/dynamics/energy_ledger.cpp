@@ -1,4 +1,5 @@
 // Where the energy of a swinging cloth goes, and the momentum of a free one.
+// Tested by tests/apps/CMakeLists.txt.
 #include <algorithm>
 #include <cmath>
 

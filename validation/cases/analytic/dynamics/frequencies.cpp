@@ -1,5 +1,6 @@
 // Small vibrations of chains, strings, membranes and strips: against the formula of the discrete body, which is
 // exact, and against the continuum with nodes enough.
+// Tested by tests/validation/theory_test.cpp.
 #include <array>
 #include <cmath>
 #include <numbers>

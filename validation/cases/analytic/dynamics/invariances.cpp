@@ -1,4 +1,5 @@
 // What must not matter: who watches, which way is north, in what units, in which order, left or right.
+// Tested by tests/apps/CMakeLists.txt.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,6 @@
 // A ball flies into a free cloth, without gravity and without drag: the momentum of both together
 // must not change.
+// Tested by tests/apps/CMakeLists.txt.
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,6 @@
 // A swinging, stretching spring pendulum: does the error fall with the step as each integrator
 // promises?
+// Tested by tests/apps/CMakeLists.txt.
 #include <array>
 #include <cmath>
 

@@ -1,5 +1,6 @@
 // A mass on a spring with both dampers, against the exact solution of each integrator's own
 // recurrence.
+// Tested by tests/apps/command_line_test.sh, tests/apps/CMakeLists.txt.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,6 @@
 // The angular momentum of a body without symmetry decays at the stated rate, in magnitude and
 // direction, and its linear momentum does not; what is internal leaves a rigid spin alone.
+// Tested by tests/apps/CMakeLists.txt.
 #include <cmath>
 #include <functional>
 #include <memory>

@@ -1,4 +1,5 @@
 // Two masses on a damped spring spin for ever: internal damping must not feel a rigid rotation.
+// Tested by tests/apps/CMakeLists.txt.
 #include <cmath>
 #include <complex>
 #include <numbers>

@@ -1,4 +1,5 @@
 // A pendulum on a spring against its trajectory, and a stiff one against the period of a rigid pendulum.
+// Tested by tests/apps/CMakeLists.txt.
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,5 @@
 // A balloon of springs: its pressure curve, and the pressure above which it has no equilibrium.
+// Tested by tests/validation/theory_test.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,5 @@
 // Masses on springs, one below the other: the tip drops by m g N (N + 1) / (2 k), for every N.
+// Tested by tests/validation/theory_test.cpp, tests/validation/cases/support/parameters_test.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>

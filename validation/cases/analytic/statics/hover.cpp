@@ -1,4 +1,5 @@
 // A sheet falls through still air at sqrt(2 m g / (rho C_n A)), and hovers in a wind of that speed.
+// Tested by tests/apps/CMakeLists.txt.
 #include <cmath>
 
 #include <weft/custom_forces/registry.hpp>

@@ -1,4 +1,5 @@
 // What sheet a lattice of springs is: its moduli in every direction, as patches that are stretched at their rim.
+// Tested by tests/validation/cases/support/parameters_test.cpp.
 #include <algorithm>
 #include <array>
 #include <cmath>

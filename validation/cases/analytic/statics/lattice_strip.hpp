@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/validation/cases/analytic/bending/elastica_test.cpp.
+
 #include <weft/mesh/cloth_mesh.hpp>
 
 namespace weft::validation {
