@@ -106,7 +106,7 @@ void SoftBodySolver::solve_fast_bodies() {
   if (single) single->fast->hold_threads(threads);  // to call for them takes longer than most loops
   in_parallel(bodies, [](Attachment& one) { one.fast->prepare(*one.body); });
   detect_contacts(time_step_);
-  solve_in_parts();
+  solve_in_substeps();
   if (bodies.empty()) return;
   solve_listed_bodies(time_step_);
   const bool may_meet = may_meet_cloth();
@@ -127,21 +127,22 @@ void SoftBodySolver::detect_contacts(btScalar time_step) {
   });
 }
 
-// Bodies that touch or hang on the same dynamic bodies take the same parts. What takes its step in parts leaves the list.
-void SoftBodySolver::solve_in_parts() {
+// Bodies that touch or hang on the same dynamic bodies have the same substeps. A body with substeps leaves the list.
+void SoftBodySolver::solve_in_substeps() {
   std::vector<Attachment*>& bodies = attachments_->stepped;
   if (may_meet_cloth()) return;
-  const auto wants_parts = [this](const Attachment* one) {
-    return one->fast->num_parts(*one->body, time_step_) > 1;
+  const auto wants_substeps = [this](const Attachment* one) {
+    return one->fast->num_substeps(*one->body, time_step_) > 1;
   };
   while (true) {
-    const auto first = std::find_if(bodies.begin(), bodies.end(), wants_parts);
+    const auto first = std::find_if(bodies.begin(), bodies.end(), wants_substeps);
     if (first == bodies.end()) return;
     std::vector<Attachment*> group{*first};
     std::vector<btRigidBody*> reached;
-    int num_parts = 1;
+    int num_substeps = 1;
     for (std::size_t g = 0; g < group.size(); ++g) {
-      num_parts = std::max(num_parts, group[g]->fast->num_parts(*group[g]->body, time_step_));
+      num_substeps =
+          std::max(num_substeps, group[g]->fast->num_substeps(*group[g]->body, time_step_));
       group[g]->fast->list_dynamic(*group[g]->body, reached);
       for (Attachment* other : bodies) {
         if (std::find(group.begin(), group.end(), other) != group.end()) continue;
@@ -157,32 +158,32 @@ void SoftBodySolver::solve_in_parts() {
     for (Attachment* one : bodies) {
       if (std::find(group.begin(), group.end(), one) == group.end()) rest.push_back(one);
     }
-    solve_group(group, num_parts);
+    solve_group(group, num_substeps);
     bodies = rest;
   }
 }
 
-void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_parts) {
+void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_substeps) {
   const TraceScope trace("step in parts");
-  const btScalar part_step = time_step_ / static_cast<btScalar>(num_parts);
+  const btScalar substep_time = time_step_ / static_cast<btScalar>(num_substeps);
   std::vector<btRigidBody*> dynamic;
   for (const Attachment* one : group) one->fast->list_dynamic(*one->body, dynamic);
-  RigidSubsteps rigid(dynamic, time_step_, num_parts);
+  RigidSubsteps rigid(dynamic, time_step_, num_substeps);
   std::vector<Attachment*>& bodies = attachments_->stepped;
   bodies = group;
-  in_parallel(bodies, [&](Attachment& one) { one.fast->begin_parts(*one.body, time_step_); });
-  for (int part = 0; part < num_parts && !bodies.empty(); ++part) {
+  in_parallel(bodies, [&](Attachment& one) { one.fast->begin_substeps(*one.body, time_step_); });
+  for (int substep = 0; substep < num_substeps && !bodies.empty(); ++substep) {
     in_parallel(bodies, [&](Attachment& one) {
-      one.fast->begin_part(*one.body, rigid, part, num_parts, part_step);
+      one.fast->begin_substep(*one.body, rigid, substep, num_substeps, substep_time);
     });
-    rigid.begin_part();
-    detect_contacts(part_step);
-    solve_listed_bodies(part_step);
-    place_listed_bodies(part_step, false);
-    rigid.end_part();
+    rigid.begin_substep();
+    detect_contacts(substep_time);
+    solve_listed_bodies(substep_time);
+    place_listed_bodies(substep_time, false);
+    rigid.end_substep();
   }
   rigid.finish();
-  in_parallel(bodies, [&](Attachment& one) { one.fast->end_parts(*one.body, time_step_); });
+  in_parallel(bodies, [&](Attachment& one) { one.fast->end_substeps(*one.body, time_step_); });
 }
 
 bool SoftBodySolver::may_meet_cloth() const {

@@ -141,7 +141,7 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
     starts_.middleCols(begin, count) = positions.middleCols(begin, count).colwise() - origin_;
     start_velocities_.middleCols(begin, count) = velocities.middleCols(begin, count);
   });
-  last_parts_ = std::exchange(parts_, 1);
+  last_num_substeps_ = std::exchange(num_substeps_, 1);
   contacts_.clear();
   colliders_.clear();
   pushed_.begin_step();
@@ -312,7 +312,7 @@ void FastBody::solve(btSoftBody& body, btScalar time_step,
   solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, kinematic_,
                   pushed_.inertias(), bending_.empty() ? nullptr : &bending_, is_again},
                  solver_settings, places_, team_);
-  pushed_.take_ways(*solver_, time_step);
+  pushed_.read_displacements(*solver_, time_step);
 }
 
 void FastBody::prepare(const btSoftBody& body) {

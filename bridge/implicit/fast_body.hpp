@@ -95,16 +95,16 @@ class FastBody : public NodeTeam {
   [[nodiscard]] bool detects_alone() const;
   /// After prepare(), once Bullet has moved rigid bodies.
   void detect_contacts(const btSoftBody& body, btScalar time_step);
-  /// In how many parts the step is to be taken, after detect_contacts(): in one the surface of a dynamic body that comes far
-  /// would have turned away from the nodes that it meets.
-  [[nodiscard]] int num_parts(const btSoftBody& body, btScalar time_step) const;
+  /// How many substeps the step is to be divided into, after detect_contacts(): in a whole step the surface of a dynamic body
+  /// that comes far would have turned away from the nodes that it meets.
+  [[nodiscard]] int num_substeps(const btSoftBody& body, btScalar time_step) const;
   /// Appends the dynamic bodies that this one is near to or hangs on, each once.
   void list_dynamic(const btSoftBody& body, std::vector<btRigidBody*>& list) const;
-  /// Around all parts; each is then a step of its own, from detect_contacts() to end_solve().
-  void begin_parts(const btSoftBody& body, btScalar time_step);
-  void begin_part(btSoftBody& body, const RigidSubsteps& rigid, int part, int num_parts,
-                  btScalar part_step);
-  void end_parts(btSoftBody& body, btScalar time_step);
+  /// Around all substeps; each is then a step of its own, from detect_contacts() to end_solve().
+  void begin_substeps(const btSoftBody& body, btScalar time_step);
+  void begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int substep, int num_substeps,
+                     btScalar substep_time);
+  void end_substeps(btSoftBody& body, btScalar time_step);
   /// In place of btSoftBody::solveConstraints. prepare(), begin_solve(), solve_again() and end_solve() change only the
   /// body, so that those of several bodies may run at the same time; place() pushes and moves rigid bodies.
   /// pushed: those of all bodies, in order. Each of several that push one rigid body has a part of its inertia: they are
@@ -138,7 +138,7 @@ class FastBody : public NodeTeam {
 
   /// With rigid objects, of the last step.
   [[nodiscard]] const std::vector<RigidContact>& contacts() const { return contacts_; }
-  /// The largest over the parts of a step.
+  /// The largest over the substeps of a step.
   [[nodiscard]] const StepError& step_error() const { return step_error_; }
 
  private:
@@ -164,7 +164,7 @@ class FastBody : public NodeTeam {
   [[nodiscard]] RigidContact* known_contact(const RigidContact& found, const btVector3& place,
                                             btScalar margin);
   void follow_colliders(bool to_solution);
-  [[nodiscard]] btTransform solved_place(const btRigidBody& rigid) const;
+  [[nodiscard]] btTransform solved_pose(const btRigidBody& rigid) const;
   void find_contacts(const btSoftBody& body, const Collider& collider, btScalar time_step,
                      std::vector<RigidContact>& contacts);
   /// Contacts that the solution would need, and that nobody looked for where Bullet had predicted the
@@ -204,10 +204,10 @@ class FastBody : public NodeTeam {
   Matrix3X<btScalar> targets_;           ///< y [m]
   Matrix3X<btScalar> places_;            ///< solution [m]
   Matrix3X<btScalar> velocities_;        ///< solution [m/s]
-  // The whole step, while it is taken in parts.
-  Matrix3X<btScalar> whole_starts_;    ///< [m]
-  Matrix3X<btScalar> accelerations_;   ///< without springs [m/s^2]
-  std::vector<btVector3> pin_places_;  ///< of pins_, at the end [m]
+  // The whole step, while it is divided into substeps.
+  Matrix3X<btScalar> whole_starts_;   ///< [m]
+  Matrix3X<btScalar> accelerations_;  ///< without springs [m/s^2]
+  std::vector<btVector3> pin_ends_;   ///< of pins_, at the end [m]
   // The step before.
   Matrix3X<btScalar> last_starts_;
   Matrix3X<btScalar> last_velocities_;
@@ -217,8 +217,8 @@ class FastBody : public NodeTeam {
   ForceHistory force_history_;
   btScalar inertia_step_ = 0;               ///< [s] of the present step
   btScalar velocity_step_ = 0;              ///< [s] likewise: from origins_ to places_
-  int parts_ = 1;                           ///< of the present step
-  int last_parts_ = 1;                      ///< of the last one
+  int num_substeps_ = 1;                    ///< of the present step
+  int last_num_substeps_ = 1;               ///< of the last one
   Method method_ = Method::kImplicitEuler;  ///< of the present step
   btScalar last_step_ = 0;                  ///< [s]; 0: no history
   bool is_predicted_ = false;

@@ -29,25 +29,25 @@ void FastBody::find_contacts(const btSoftBody& body, const Collider& collider, b
   add_rigid_contacts(body, swept_, collider, time_step, PinnedNodes::kLeftOut, contacts, &team_);
 }
 
-// Where a rigid body is at the end of the step: as Bullet has moved it, and as the last solution moves it further.
-btTransform FastBody::solved_place(const btRigidBody& rigid) const {
-  btTransform place = rigid.getCenterOfMassTransform();
-  const RigidWay way = pushed_.way_of(rigid);
-  if (way.isZero(0)) return place;
-  place.setOrigin(place.getOrigin() + to_bullet(way.head<3>().eval()));
-  const btScalar angle = way.tail<3>().norm();
+// The pose of a rigid body at the end of the step: as Bullet has moved it, and as the last solution moves it further.
+btTransform FastBody::solved_pose(const btRigidBody& rigid) const {
+  btTransform end = rigid.getCenterOfMassTransform();
+  const GeneralizedDisplacement displacement = pushed_.displacement_of(rigid);
+  if (displacement.isZero(0)) return end;
+  end.setOrigin(end.getOrigin() + to_bullet(displacement.head<3>().eval()));
+  const btScalar angle = displacement.tail<3>().norm();
   if (angle > 0) {
-    const btVector3 axis = to_bullet((way.tail<3>() / angle).eval());
-    place.setBasis(btMatrix3x3(btQuaternion(axis, angle)) * place.getBasis());
+    const btVector3 axis = to_bullet((displacement.tail<3>() / angle).eval());
+    end.setBasis(btMatrix3x3(btQuaternion(axis, angle)) * end.getBasis());
   }
-  return place;
+  return end;
 }
 
 void FastBody::follow_colliders(bool to_solution) {
   for (Collider& collider : colliders_) {
     const btRigidBody* const rigid = movable(collider.object);
     if (rigid == nullptr) continue;
-    const btTransform end = to_solution ? solved_place(*rigid) : rigid->getCenterOfMassTransform();
+    const btTransform end = to_solution ? solved_pose(*rigid) : rigid->getCenterOfMassTransform();
     collider.motion = end * collider.object_place.inverse();
   }
 }
@@ -102,7 +102,7 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
     RigidContact* const known = known_contact(found, place, margin);
     if (known != nullptr && rigid != nullptr) {
       RigidContact solved = *known;
-      follow_object(solved, solved_place(*rigid));
+      follow_object(solved, solved_pose(*rigid));
       const btScalar known_gap = btDot(solved.normal, place) - solved.offset;
       if (std::abs(std::min(gap, known_gap)) < margin &&
           std::abs(gap - known_gap) > kPlaneShare * margin) {
@@ -178,7 +178,7 @@ void FastBody::list_coupled(const btSoftBody& body, std::vector<const btRigidBod
     const btRigidBody* const rigid = movable(contact.object);
     if (rigid == nullptr) continue;
     const bool is_inside = btDot(contact.normal, body.m_nodes[contact.node].m_x) < contact.offset;
-    if (is_inside || !pushed_.way_of(*rigid).isZero(0)) add(rigid);
+    if (is_inside || !pushed_.displacement_of(*rigid).isZero(0)) add(rigid);
   }
 }
 

@@ -50,7 +50,7 @@ bool FastBody::may_use_forces(const btSoftBody& body, btScalar time_step) {
     const btRigidBody* const rigid = movable(contact.object);
     if (rigid == nullptr) return false;
     const btScalar least = kLively * rigid->getGravity().length() * time_step;
-    const btScalar change = pushed_.way_of(*rigid).template head<3>().norm() / time_step;
+    const btScalar change = pushed_.displacement_of(*rigid).template head<3>().norm() / time_step;
     return rigid->getLinearVelocity().length() > least || change > least;
   };
   return std::any_of(contacts_.begin(), contacts_.end(), is_lively) && are_places_kept();

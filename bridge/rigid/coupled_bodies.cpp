@@ -8,16 +8,16 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-/// [m^2] Inertia over mass of a body that cannot be turned, far above that of any that can.
-constexpr btScalar kNoTurn = 100;
-/// Over the mass: that in a direction in which a body cannot be moved.
-constexpr btScalar kNoWay = 1e4;
+/// [m^2] Inertia over mass of a body that cannot rotate, far above that of any that can.
+constexpr btScalar kNoRotation = 100;
+/// Effective mass over mass in a direction in which a body cannot move [-].
+constexpr btScalar kNoTranslation = 1e4;
 
 /// With what Bullet makes of impulses: in the world, factors included [kg].
 Vector3<btScalar> mass_of(const btRigidBody& rigid) {
   const btScalar mass = 1 / rigid.getInvMass();
   const Vector3<btScalar> factor = from_bullet<btScalar>(rigid.getLinearFactor());
-  return mass * factor.cwiseMax(1 / kNoWay).cwiseInverse();
+  return mass * factor.cwiseMax(1 / kNoTranslation).cwiseInverse();
 }
 
 /// Likewise [kg m^2].
@@ -28,7 +28,7 @@ Matrix3<btScalar> inertia_of(const btRigidBody& rigid) {
   }
   const Vector3<btScalar> factor = from_bullet<btScalar>(rigid.getAngularFactor());
   inverse = (factor.asDiagonal() * inverse * factor.asDiagonal()).eval();
-  inverse.diagonal().array() += rigid.getInvMass() / kNoTurn;
+  inverse.diagonal().array() += rigid.getInvMass() / kNoRotation;
   return inverse.inverse();
 }
 
@@ -75,7 +75,7 @@ int CoupledBodies::number_of(const btRigidBody& rigid, btDispatcher* dispatcher,
   given.inertia = share * inertia_of(rigid);
   given.motion = from_bullet<btScalar>(time_step * rigid.getLinearVelocity());
   given.turn = from_bullet<btScalar>(time_step * rigid.getAngularVelocity());
-  if (is_again) given.guess = way_of(rigid);
+  if (is_again) given.guess = displacement_of(rigid);
   given.held = share * inertia_of_supports(rigid, supports_of(rigid, dispatcher, time_step));
   inertias_.push_back(given);
   return static_cast<int>(bodies_.size()) - 1;
@@ -100,30 +100,32 @@ bool CoupledBodies::are_supports_wrong(btScalar time_step) {
   const btScalar least = kLeastPush * time_step * time_step;
   bool are_wrong = false;
   for (std::size_t b = 0; b < bodies_.size() && !supports_.empty(); ++b) {
-    const RigidWay way = way_of(*bodies_[b]);
-    are_wrong = update_loads(*bodies_[b], way, least, supports_) || are_wrong;
+    const GeneralizedDisplacement displacement = displacement_of(*bodies_[b]);
+    are_wrong = update_loads(*bodies_[b], displacement, least, supports_) || are_wrong;
   }
   return are_wrong;
 }
 
-void CoupledBodies::take_ways(const fast::ImplicitSolver<btScalar>& solver, btScalar time_step) {
+void CoupledBodies::read_displacements(const fast::ImplicitSolver<btScalar>& solver,
+                                       btScalar time_step) {
   last_.assign(bodies_.begin(), bodies_.end());
-  last_ways_.clear();
+  last_displacements_.clear();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    last_ways_.push_back(solver.body_motion(static_cast<int>(b)));
+    last_displacements_.push_back(solver.body_motion(static_cast<int>(b)));
   }
   last_step_ = time_step;
 }
 
-RigidWay CoupledBodies::way_of(const btRigidBody& rigid) const {
-  const auto place = std::find(last_.begin(), last_.end(), &rigid);
-  return place == last_.end() ? RigidWay(RigidWay::Zero())
-                              : last_ways_[static_cast<std::size_t>(place - last_.begin())];
+GeneralizedDisplacement CoupledBodies::displacement_of(const btRigidBody& rigid) const {
+  const auto found = std::find(last_.begin(), last_.end(), &rigid);
+  return found == last_.end()
+             ? GeneralizedDisplacement(GeneralizedDisplacement::Zero())
+             : last_displacements_[static_cast<std::size_t>(found - last_.begin())];
 }
 
 btScalar CoupledBodies::push_in(const btRigidBody& rigid, btScalar time_step) const {
   const btScalar steps = last_step_ > 0 ? time_step / last_step_ : 0;
-  return steps * steps * way_of(rigid).template head<3>().norm();
+  return steps * steps * displacement_of(rigid).template head<3>().norm();
 }
 
 double CoupledBodies::kinetic_energy() const {
@@ -136,11 +138,11 @@ double CoupledBodies::energy_to_come(btScalar time_step) const {
   double sum = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const btRigidBody& rigid = *bodies_[b];
-    const RigidWay way = way_of(rigid);
-    const btVector3 impulse =
-        to_bullet((inertias_[b].mass.cwiseProduct(way.template head<3>()) / time_step).eval());
+    const GeneralizedDisplacement displacement = displacement_of(rigid);
+    const btVector3 impulse = to_bullet(
+        (inertias_[b].mass.cwiseProduct(displacement.template head<3>()) / time_step).eval());
     const btVector3 turning =
-        to_bullet((inertias_[b].inertia * way.template tail<3>() / time_step).eval());
+        to_bullet((inertias_[b].inertia * displacement.template tail<3>() / time_step).eval());
     const btVector3 turned = rigid.getInvInertiaTensorWorld() * turning;
     sum += static_cast<double>(
         btDot(rigid.getLinearVelocity(), impulse) + rigid.getInvMass() * impulse.length2() / 2 +
@@ -155,12 +157,12 @@ void CoupledBodies::exchange_impulses(btScalar time_step) {
     velocities_before_.emplace_back(rigid->getLinearVelocity(), rigid->getAngularVelocity());
   }
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const RigidWay motion = way_of(*bodies_[b]);
-    if (motion.isZero(0)) continue;
+    const GeneralizedDisplacement displacement = displacement_of(*bodies_[b]);
+    if (displacement.isZero(0)) continue;
     auto& rigid = const_cast<btRigidBody&>(*bodies_[b]);
     const fast::RigidInertia<btScalar>& inertia = inertias_[b];
-    const Vector3<btScalar> impulse = inertia.mass.cwiseProduct(motion.template head<3>());
-    const Vector3<btScalar> turning = inertia.inertia * motion.template tail<3>();
+    const Vector3<btScalar> impulse = inertia.mass.cwiseProduct(displacement.template head<3>());
+    const Vector3<btScalar> turning = inertia.inertia * displacement.template tail<3>();
     rigid.activate();
     rigid.applyCentralImpulse(to_bullet((impulse / time_step).eval()));
     rigid.applyTorqueImpulse(to_bullet((turning / time_step).eval()));

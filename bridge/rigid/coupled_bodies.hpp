@@ -19,7 +19,7 @@ inline namespace WEFT_BULLET_PRECISION {
 class CoupledBodies {
  public:
   void begin_step();
-  /// pushed: those of all bodies, in order. Of one that several may push each has a part of its inertia.
+  /// pushed: those of all cloths, in order. If several may push one body, each has a share of its inertia.
   void begin_solve(std::span<const btRigidBody* const> pushed) {
     of_all_.assign(pushed.begin(), pushed.end());
   }
@@ -32,10 +32,10 @@ class CoupledBodies {
   [[nodiscard]] bool empty() const { return bodies_.empty(); }
   [[nodiscard]] std::span<const fast::RigidInertia<btScalar>> inertias() const { return inertias_; }
 
-  /// After a solve.
-  void take_ways(const fast::ImplicitSolver<btScalar>& solver, btScalar time_step);
-  /// How far a body gave way in the last solution; zero for others.
-  [[nodiscard]] RigidWay way_of(const btRigidBody& rigid) const;
+  /// Keeps the displacements of a solution, after a solve.
+  void read_displacements(const fast::ImplicitSolver<btScalar>& solver, btScalar time_step);
+  /// The displacement of a body in the last solution; zero for others.
+  [[nodiscard]] GeneralizedDisplacement displacement_of(const btRigidBody& rigid) const;
   /// How far the same push would have moved it in a step of time_step [s], [m].
   [[nodiscard]] btScalar push_in(const btRigidBody& rigid, btScalar time_step) const;
   /// Whether bodies were pushed into others that had not held them in the last solution, or the other way round.
@@ -63,7 +63,7 @@ class CoupledBodies {
   std::vector<const btRigidBody*> last_held_;  ///< with a loaded support in the step before
   std::vector<const btRigidBody*> of_all_;     ///< that any cloth pushes, in order
   std::vector<const btRigidBody*> last_;       ///< in the last solution, and how far
-  std::vector<RigidWay> last_ways_;
+  std::vector<GeneralizedDisplacement> last_displacements_;
   btScalar last_step_ = 0;  ///< [s] of it
 };
 

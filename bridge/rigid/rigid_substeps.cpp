@@ -8,9 +8,9 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-btTransform moved(const btTransform& place, const btRigidBody& body, btScalar time) {
+btTransform moved(const btTransform& start, const btRigidBody& body, btScalar time) {
   btTransform result;
-  btTransformUtil::integrateTransform(place, body.getLinearVelocity(), body.getAngularVelocity(),
+  btTransformUtil::integrateTransform(start, body.getLinearVelocity(), body.getAngularVelocity(),
                                       time, result);
   return result;
 }
@@ -18,24 +18,24 @@ btTransform moved(const btTransform& place, const btRigidBody& body, btScalar ti
 }  // namespace
 
 RigidSubsteps::RigidSubsteps(const std::vector<btRigidBody*>& bodies, btScalar time_step,
-                             int num_parts)
-    : part_(time_step / static_cast<btScalar>(num_parts)) {
+                             int num_substeps)
+    : substep_time_(time_step / static_cast<btScalar>(num_substeps)) {
   for (btRigidBody* const body : bodies) {
     const btTransform& now = body->getCenterOfMassTransform();
     entries_.push_back({body, now, moved(now, *body, -time_step), now});
   }
 }
 
-void RigidSubsteps::begin_part() {
+void RigidSubsteps::begin_substep() {
   for (Entry& one : entries_) {
-    one.alone = moved(one.start, *one.body, part_);
+    one.alone = moved(one.start, *one.body, substep_time_);
     one.body->setCenterOfMassTransform(one.alone);
   }
 }
 
-void RigidSubsteps::end_part() {
+void RigidSubsteps::end_substep() {
   for (Entry& one : entries_) {
-    const btTransform going_on = moved(one.start, *one.body, part_);
+    const btTransform going_on = moved(one.start, *one.body, substep_time_);
     const bool is_moved = !(one.body->getCenterOfMassTransform() == one.alone);
     one.is_held = one.is_held || (!is_moved && !(going_on == one.alone));
     one.start = is_moved ? one.body->getCenterOfMassTransform() : going_on;
