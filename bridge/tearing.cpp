@@ -81,8 +81,8 @@ void make_room(int num_nodes, btSoftBody& body) {
 void append_nodes(const Tear& tear, btSoftBody& body) {
   make_room(tear.mesh.num_nodes(), body);
   for (const int origin : tear.origins) {
-    const btVector3 place = body.m_nodes[origin].m_x;  // a copy: the nodes may move in memory
-    body.appendNode(place, 1);
+    const btVector3 position = body.m_nodes[origin].m_x;  // a copy: the nodes may move in memory
+    body.appendNode(position, 1);
     btSoftBody::Node& node = body.m_nodes[body.m_nodes.size() - 1];
     btDbvtNode* const leaf = node.m_leaf;
     node = body.m_nodes[origin];

@@ -19,7 +19,7 @@ inline namespace WEFT_BULLET_PRECISION {
 
 /// Makes a cut (cut_along()) in a body that has the nodes and faces of the mesh before it.
 ///
-/// Nodes are appended with place, velocity and all else of their origin, and their share of its
+/// Nodes are appended with position, velocity and all else of their origin, and their share of its
 /// mass; what is pinned (m_im = 0) stays so. Faces are led to the copies. Links are made anew from
 /// settings.links, with rest lengths from the mesh; the area of split nodes from their faces'.
 /// Contacts are dropped: Bullet finds them anew in every step; one with set_cloth_contact() needs

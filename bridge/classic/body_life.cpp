@@ -25,7 +25,7 @@ class FollowedShape : public btSoftBodyCollisionShape {
   [[nodiscard]] const std::shared_ptr<BodyLife>& life() const { return life_; }
 
   // The first thing that a world asks of a body that it is given, after it has named its solver.
-  void getAabb(const btTransform& place, btVector3& low, btVector3& high) const override {
+  void getAabb(const btTransform& pose, btVector3& low, btVector3& high) const override {
     const bool is_in_world = m_body->getBroadphaseHandle() != nullptr;
     if (!is_in_world && life_->solver != nullptr && m_body->getSoftBodySolver() != nullptr &&
         m_body->getSoftBodySolver() != life_->solver) {
@@ -35,7 +35,7 @@ class FollowedShape : public btSoftBodyCollisionShape {
           "not know them; expected the world that was made with the laws' solver, or detach() "
           "first");
     }
-    own_->getAabb(place, low, high);
+    own_->getAabb(pose, low, high);
   }
   btScalar getMargin() const override { return own_->getMargin(); }
   void setMargin(btScalar margin) override { own_->setMargin(margin); }

@@ -24,11 +24,11 @@ btSoftBody::Material& material_of(btScalar factor, btSoftBody& body) {
 
 /// In Bullet's precision, as Bullet measures it.
 btScalar rest_length(const ClothMesh& mesh, int a, int b) {
-  const auto place = [&](int node) {
+  const auto position = [&](int node) {
     const Vector3<btScalar> x = mesh.rest_positions.col(node).cast<btScalar>();
     return btVector3(x[0], x[1], x[2]);
   };
-  return (place(a) - place(b)).length();
+  return (position(a) - position(b)).length();
 }
 
 }  // namespace

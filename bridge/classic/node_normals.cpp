@@ -26,7 +26,7 @@ bool NodeNormals::cross_edges(btSoftBody& body, fast::WorkerTeam& team) {
   crossings_.resize(at(num_faces));
   std::array<bool, fast::WorkerTeam::kMostParts> is_same;
   is_same.fill(is_known);
-  fast::run_parts(team, num_faces, [&](int part, int begin, int end) {
+  fast::run_parts(team, num_faces, [&](int range, int begin, int end) {
     bool same = is_known;
     for (int f = begin; f < end; ++f) {
       btSoftBody::Face& face = body.m_faces[f];
@@ -42,7 +42,7 @@ bool NodeNormals::cross_edges(btSoftBody& body, fast::WorkerTeam& team) {
       normal.safeNormalize();
       face.m_normal = normal;
     }
-    is_same[at(part)] = same;
+    is_same[at(range)] = same;
   });
   return std::all_of(is_same.begin(), is_same.end(), [](bool same) { return same; });
 }

@@ -77,9 +77,9 @@ void place_body(ConstMatrix3XRef<double> positions, ConstMatrix3XRef<double> vel
   }
   for (int i = 0; i < body.m_nodes.size(); ++i) {
     btSoftBody::Node& node = body.m_nodes[i];
-    const Vector3<btScalar> place = positions.col(i).cast<btScalar>();
+    const Vector3<btScalar> position = positions.col(i).cast<btScalar>();
     const Vector3<btScalar> velocity = velocities.col(i).cast<btScalar>();
-    node.m_x.setValue(place[0], place[1], place[2]);
+    node.m_x.setValue(position[0], position[1], position[2]);
     node.m_q = node.m_x;
     node.m_v.setValue(velocity[0], velocity[1], velocity[2]);
     node.m_vn = node.m_v;

@@ -35,8 +35,9 @@ void lead_nodes(const std::vector<int>& nodes, ConstMatrix3XRef<double> targets,
   check(nodes, targets, body);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     btSoftBody::Node& node = body.m_nodes[nodes[i]];
-    const Vector3<double> way = targets.col(static_cast<Eigen::Index>(i)) - from_bullet(node.m_x);
-    node.m_v = to_bullet(way / time_step);
+    const Vector3<double> displacement =
+        targets.col(static_cast<Eigen::Index>(i)) - from_bullet(node.m_x);
+    node.m_v = to_bullet(displacement / time_step);
   }
 }
 

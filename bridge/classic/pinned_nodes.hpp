@@ -12,7 +12,7 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// Leads pinned nodes (mass 0 in Bullet) to given places without a lag: lead_nodes() before the
+/// Moves pinned nodes (mass 0 in Bullet) to given positions without a lag: lead_nodes() before the
 /// step, place_nodes() after it. The contacts and springs of the step see them arrive.
 
 /// Gives the nodes the velocities that bring them to targets, 3 x nodes.size() [m], within

@@ -13,9 +13,9 @@ void apply_position_limits(const PositionLimits& limits, double time_step, btSof
         Vector3<btScalar>(node.m_x.x(), node.m_x.y(), node.m_x.z()).cast<double>();
     const Vector3<double> allowed = limited_position(limits, i, position);
     if (allowed == position) continue;
-    const Vector3<btScalar> place = allowed.cast<btScalar>();
+    const Vector3<btScalar> target = allowed.cast<btScalar>();
     const Vector3<btScalar> change = ((allowed - position) / time_step).cast<btScalar>();
-    node.m_x.setValue(place[0], place[1], place[2]);
+    node.m_x.setValue(target[0], target[1], target[2]);
     node.m_v += btVector3(change[0], change[1], change[2]);
   }
 }

@@ -14,7 +14,7 @@ inline namespace WEFT_BULLET_PRECISION {
 /// The laws of a body for the mesh that a tear makes, before the body is torn (SoftBodySolver::laws_after()).
 struct TornLaws {
   forces::LawSet<btScalar> laws;
-  // For a fast body: springs in the place of all that have an end among the changed nodes (flags).
+  // For a fast body: springs that replace all that have an end among the changed nodes (flags).
   fast::SpringNetwork springs;
   std::vector<char> is_changed;
 };

@@ -35,8 +35,9 @@ btVector3 at(const btVector3& weights, const btVector3& a, const btVector3& b, c
   return weights.x() * a + weights.y() * b + weights.z() * c;
 }
 
-/// Weights of the place of a face that a node is over; none if it is beside it.
-std::optional<btVector3> place_over(const Face& face, const Node& node, const btVector3& normal) {
+/// The barycentric weights of the point of a face below a node; none if the node is beside the face.
+std::optional<btVector3> weights_below(const Face& face, const Node& node,
+                                       const btVector3& normal) {
   const btVector3 &a = face.m_n[0]->m_x, &b = face.m_n[1]->m_x, &c = face.m_n[2]->m_x;
   const btScalar squared = normal.length2();
   btVector3 weights(btDot(btCross(c - b, node.m_x - b), normal),
@@ -48,7 +49,7 @@ std::optional<btVector3> place_over(const Face& face, const Node& node, const bt
   return weights / (weights.x() + weights.y() + weights.z());
 }
 
-/// Bullet takes this share of the sliding away at each of its visits; together what Coulomb's law
+/// Bullet removes this share of the sliding at each of its iterations; together what Coulomb's law
 /// allows for the normal correction.
 btScalar friction_share(const btVector3& sliding, btScalar correction, const Rules& rules) {
   const btScalar distance = sliding.length();
@@ -80,15 +81,15 @@ void try_contact(btSoftBody& body, Node& node, Face& face, const Rules& rules) {
   const btVector3 normal = btCross(b.m_x - a.m_x, c.m_x - a.m_x);
   const btVector3 start_normal = btCross(b.m_q - a.m_q, c.m_q - a.m_q);
   if (!(normal.length2() > 0) || !(start_normal.length2() > 0)) return;
-  const std::optional<btVector3> weights = place_over(face, node, normal);
+  const std::optional<btVector3> weights = weights_below(face, node, normal);
   if (!weights) return;
-  const btVector3 place = at(*weights, a.m_x, b.m_x, c.m_x);
-  const btVector3 start_place = at(*weights, a.m_q, b.m_q, c.m_q);
+  const btVector3 point = at(*weights, a.m_x, b.m_x, c.m_x);
+  const btVector3 start_point = at(*weights, a.m_q, b.m_q, c.m_q);
   // The side on which the step began: a node that would pass the face is held back.
-  const btScalar start_height = btDot(node.m_q - start_place, start_normal.normalized());
+  const btScalar start_height = btDot(node.m_q - start_point, start_normal.normalized());
   const btVector3 outward = normal.normalized() * (start_height < 0 ? btScalar(-1) : btScalar(1));
   const btScalar start_gap = btFabs(start_height);
-  const btScalar gap = btDot(node.m_x - place, outward);
+  const btScalar gap = btDot(node.m_x - point, outward);
   const btScalar recovery = std::min(btScalar(1), kRecoveryRate * rules.time_step);
   const btScalar wanted =
       std::min(rules.thickness, start_gap + recovery * (rules.thickness - start_gap));
@@ -101,7 +102,7 @@ void try_contact(btSoftBody& body, Node& node, Face& face, const Rules& rules) {
   contact.m_normal = outward;
   contact.m_margin = target;
   if (!share_out(node, face, contact)) return;
-  const btVector3 motion = (node.m_x - node.m_q) - (place - start_place);
+  const btVector3 motion = (node.m_x - node.m_q) - (point - start_point);
   const btVector3 sliding = motion - outward * btDot(motion, outward);
   contact.m_friction = friction_share(sliding, target - gap, rules);
   body.m_scontacts.push_back(contact);

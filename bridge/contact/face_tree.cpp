@@ -12,11 +12,11 @@ namespace {
 
 constexpr btScalar kFar = std::numeric_limits<btScalar>::max();
 
-/// Things into parts of about equal size: halves by the place of their centres along the longest
-/// extent of these, as often as it takes. parts gets the end of each.
+/// Divides elements into groups of about equal size: halves them at the median of their centers along the longest
+/// extent of these, as often as necessary. ends gets the end of each group.
 void divide(const std::vector<btVector3>& centers, std::vector<int>& order, std::size_t first,
-            std::size_t last, std::size_t num_parts, std::vector<std::size_t>& ends) {
-  if (num_parts == 1) {
+            std::size_t last, std::size_t num_groups, std::vector<std::size_t>& ends) {
+  if (num_groups == 1) {
     ends.push_back(last);
     return;
   }
@@ -34,11 +34,11 @@ void divide(const std::vector<btVector3>& centers, std::vector<int>& order, std:
     const btScalar at_b = centers[static_cast<std::size_t>(b)][axis];
     return at_a != at_b ? at_a < at_b : a < b;
   });
-  divide(centers, order, first, middle, num_parts / 2, ends);
-  divide(centers, order, middle, last, num_parts / 2, ends);
+  divide(centers, order, first, middle, num_groups / 2, ends);
+  divide(centers, order, middle, last, num_groups / 2, ends);
 }
 
-/// The starts of parts of at most so many; order gets who is where, ascending within a part.
+/// The starts of groups of at most so many elements; order gets the elements group by group, ascending within a group.
 std::vector<std::size_t> divide(const std::vector<btVector3>& centers, std::size_t most,
                                 std::vector<int>& order) {
   order.resize(centers.size());
@@ -89,9 +89,10 @@ MotionBox MotionBox::grown(btScalar distance) const {
 }
 
 void NodeGroups::arrange(const btSoftBody& body) {
-  std::vector<btVector3> places(static_cast<std::size_t>(body.m_nodes.size()));
-  for (std::size_t i = 0; i < places.size(); ++i) places[i] = body.m_nodes[static_cast<int>(i)].m_x;
-  starts_ = divide(places, kLargest, nodes_);
+  std::vector<btVector3> positions(static_cast<std::size_t>(body.m_nodes.size()));
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    positions[i] = body.m_nodes[static_cast<int>(i)].m_x;
+  starts_ = divide(positions, kLargest, nodes_);
 }
 
 void NodeGroups::sort() {

@@ -18,7 +18,7 @@ struct MotionBox {
   std::array<btScalar, 4> low;
   std::array<btScalar, 4> high;
 
-  /// Bounds the way of a node in this step, from m_q + shift to m_x.
+  /// The swept bounds of a node in this step, from m_q + shift to m_x.
   static MotionBox of(const btSoftBody::Node& node, const btVector3& shift);
   static MotionBox nowhere();
   void include(const MotionBox& other);
@@ -26,15 +26,15 @@ struct MotionBox {
   [[nodiscard]] MotionBox grown(btScalar distance) const;
 };
 
-/// Whether two boxes have a place in common.
+/// Whether two boxes have a point in common.
 [[nodiscard]] bool meet(const MotionBox& a, const MotionBox& b);
 
-/// Nodes of a body in groups of neighbors, decided once from where they are at first.
+/// Nodes of a body in groups of neighbors, decided once from their first positions.
 class NodeGroups {
  public:
   static constexpr int kLargest = 16;
   void arrange(const btSoftBody& body);
-  /// Groups by their first nodes, and nodes within a group, ascending: threads that go through parts of the groups have
+  /// Groups by their first nodes, and nodes within a group, ascending: threads that go through ranges of the groups have
   /// most of the nodes that they have in loops over nodes.
   void sort();
   [[nodiscard]] int num_nodes() const { return static_cast<int>(nodes_.size()); }
@@ -48,8 +48,8 @@ class NodeGroups {
   std::vector<std::size_t> starts_;
 };
 
-/// The faces of a soft body in a tree of boxes around their ways in a step, to be asked which of them
-/// may meet a node. Which face stands where in the tree is decided once; boxes follow the body.
+/// The faces of a soft body in a tree of their swept bounds in a step, to be asked which of them may meet a
+/// node. The order of the faces in the tree is decided once; boxes follow the body.
 class FaceTree {
  public:
   static constexpr std::size_t kWidth = 16;  ///< faces of a leaf, compared at once
@@ -62,17 +62,17 @@ class FaceTree {
     std::vector<int> slots;  ///< what collect() found
   };
 
-  /// Boxes from m_q + shift to m_x, shift [m] being what the observer moves in the step. Takes new
+  /// Boxes from m_q + shift to m_x, shift [m] being what the observer moves in the step. Allocates
   /// memory only if the number of faces is another.
   void refit(const btSoftBody& body, const btVector3& shift);
   /// The leaves whose boxes meet the box.
   void find(const MotionBox& box, Nearby& nearby) const;
   /// Slots, ascending, of the faces in the leaves found whose boxes meet the box.
   [[nodiscard]] std::span<const int> collect(const MotionBox& box, Nearby& nearby) const;
-  /// The face of a slot, a place in the tree.
+  /// The face of a slot, which is an index into the tree.
   [[nodiscard]] int face(int slot) const {
-    const auto place = static_cast<std::size_t>(slot);
-    return leaves_[place / kWidth].faces[place % kWidth];
+    const auto index = static_cast<std::size_t>(slot);
+    return leaves_[index / kWidth].faces[index % kWidth];
   }
 
  private:

@@ -14,15 +14,15 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-/// Nearer than this share of the hull's size, a direction between two places is mostly rounding [-].
+/// Nearer than this share of the hull's size, a direction between two points is mostly rounding [-].
 constexpr double kTouch = 1e-9;
 
-Vector3<double> nearest_on_segment(const Vector3<double>& place, const Vector3<double>& a,
+Vector3<double> nearest_on_segment(const Vector3<double>& point, const Vector3<double>& a,
                                    const Vector3<double>& b) {
   const Vector3<double> along = b - a;
   const double length2 = along.squaredNorm();
   if (!(length2 > 0)) return a;
-  return a + std::clamp((place - a).dot(along) / length2, 0.0, 1.0) * along;
+  return a + std::clamp((point - a).dot(along) / length2, 0.0, 1.0) * along;
 }
 
 }  // namespace
@@ -63,7 +63,8 @@ HullFacets::HullFacets(const btConvexHullShape& shape) {
       middle += facet.corners[c] / static_cast<double>(facet.corners.size());
     }
     const double area = facet.normal.norm();
-    if (!(area > kTouch * size_ * size_)) continue;  // a sliver: its neighbors hold the place
+    if (!(area > kTouch * size_ * size_))
+      continue;  // a sliver: its neighbors have the same distance
     facet.normal /= area;
     facet.offset = facet.normal.dot(middle);
     const bool is_inward = facet.offset < facet.normal.dot(center);
@@ -92,32 +93,32 @@ bool HullFacets::fit(const btConvexHullShape& shape) const {
   return true;
 }
 
-SurfaceDistance HullFacets::distance(const Vector3<double>& place, double reach) const {
+SurfaceDistance HullFacets::distance(const Vector3<double>& point, double reach) const {
   double highest = -std::numeric_limits<double>::max();
   const Facet* nearest = nullptr;
   for (const Facet& facet : facets_) {
-    const double height = facet.normal.dot(place) - facet.offset;
+    const double height = facet.normal.dot(point) - facet.offset;
     if (height > highest) {
       highest = height;
       nearest = &facet;
     }
   }
-  if (nearest == nullptr) return {reach, {0, 1, 0}};  // a place that is not finite is nowhere
+  if (nearest == nullptr) return {reach, {0, 1, 0}};  // a point that is not finite has no distance
   if (highest <= 0 || highest >= reach) return {highest, nearest->normal};
-  // Outside, what is nearest lies in a facet that faces the place: over the place's foot, or on an edge.
+  // Outside, the nearest point lies in a facet that faces the point: at the foot of its perpendicular, or on an edge.
   double least = std::numeric_limits<double>::max();
   Vector3<double> foot = Vector3<double>::Zero();
   for (const Facet& facet : facets_) {
-    const double height = facet.normal.dot(place) - facet.offset;
+    const double height = facet.normal.dot(point) - facet.offset;
     if (height <= 0 || height * height >= least) continue;
     bool is_over = true;
     for (std::size_t c = 0; c < facet.corners.size(); ++c) {
       const Vector3<double>& a = facet.corners[c];
       const Vector3<double>& b = facet.corners[(c + 1) % facet.corners.size()];
-      if ((b - a).cross(place - a).dot(facet.normal) >= 0) continue;
+      if ((b - a).cross(point - a).dot(facet.normal) >= 0) continue;
       is_over = false;
-      const Vector3<double> on_edge = nearest_on_segment(place, a, b);
-      const double distance2 = (place - on_edge).squaredNorm();
+      const Vector3<double> on_edge = nearest_on_segment(point, a, b);
+      const double distance2 = (point - on_edge).squaredNorm();
       if (distance2 < least) {
         least = distance2;
         foot = on_edge;
@@ -127,7 +128,7 @@ SurfaceDistance HullFacets::distance(const Vector3<double>& place, double reach)
   }
   const double distance = std::sqrt(least);
   if (!(distance > kTouch * size_)) return {distance, nearest->normal};
-  return {distance, (place - foot) / distance};
+  return {distance, (point - foot) / distance};
 }
 
 const HullFacets* HullTable::find(const btCollisionShape& shape) {

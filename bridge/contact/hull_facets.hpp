@@ -14,7 +14,7 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// Where a place stands against a solid.
+/// The signed distance of a point from the surface of a solid, and its gradient.
 struct SurfaceDistance {
   double distance = 0;           ///< [m], below zero inside
   Vector3<double> out{0, 0, 0};  ///< unit vector out of the solid
@@ -23,7 +23,7 @@ struct SurfaceDistance {
 /// The facets of a convex hull, with its scaling, in its own frame.
 class HullFacets {
  public:
-  static constexpr int kMostPoints = 256;  ///< above it, a search through all facets takes too long
+  static constexpr int kMostPoints = 256;  ///< above it, a search through all facets is too slow
 
   explicit HullFacets(const btConvexHullShape& shape);
 
@@ -31,9 +31,9 @@ class HullFacets {
   [[nodiscard]] bool fit(const btConvexHullShape& shape) const;
   /// False for points in a plane, and for more than kMostPoints.
   [[nodiscard]] bool are_closed() const { return !facets_.empty(); }
-  /// To the hull itself, without its margin. From reach [m] on it may be any distance that is not below reach. Any
+  /// The distance of a point to the hull itself, without its margin. From reach [m] on it may be any distance that is not below reach. Any
   /// thread.
-  [[nodiscard]] SurfaceDistance distance(const Vector3<double>& place, double reach) const;
+  [[nodiscard]] SurfaceDistance distance(const Vector3<double>& point, double reach) const;
 
  private:
   struct Facet {
@@ -47,7 +47,7 @@ class HullFacets {
   double size_ = 0;  ///< [m]
 };
 
-/// The facets of the hulls that were met of late.
+/// The facets of the hulls that were met lately.
 class HullTable {
  public:
   /// Facets of the shape; nullptr if it is no hull or has no closed facets. They live while somebody

@@ -11,7 +11,7 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// Contacts of a body with rigid objects by the laws of Signorini and Coulomb, in the place of Bullet's visits: a node
+/// Contacts of a body with rigid objects by the laws of Signorini and Coulomb, instead of Bullet's iterations: a node
 /// is pushed as far as the surface and no farther, and held sideways by kDF * friction times that impulse at most.
 /// kKHR and kCHR have no say. A depth inside an object at rest that was there already when the step began gives no speed.
 ///
@@ -27,10 +27,10 @@ class RigidResponse {
   [[nodiscard]] static bool knows(const btCollisionObject& object);
 
   void begin_step();
-  /// In the place of btSoftBody::defaultCollisionHandler: contacts as add_rigid_contacts() finds them.
+  /// Instead of btSoftBody::defaultCollisionHandler: contacts as add_rigid_contacts() finds them.
   void collide(btSoftBody& body, const btCollisionObjectWrapper& object, HullTable& hulls,
                btScalar time_step);
-  /// In the place of btSoftBody::solveConstraints. Contacts go first; then Bullet solves the rest: anchors, contacts
+  /// Instead of btSoftBody::solveConstraints. Contacts go first; then Bullet solves the rest: anchors, contacts
   /// with cloth and with links of a btMultiBody. Dynamic objects get the impulses.
   void solve(btSoftBody& body);
   [[nodiscard]] int num_contacts() const { return static_cast<int>(contacts_.size()); }

@@ -97,16 +97,16 @@ void DeformableAttachment::explode(int node, std::string reason) {
 }
 
 std::optional<BodyBlowUp> DeformableAttachment::beyond_distance_field(btScalar time_step) const {
-  // Cells have four voxels and are counted in int; the rest leaves room for the collider's own place.
+  // Cells have four voxels and are counted in int; the rest leaves room for the collider's own position.
   constexpr btScalar kMaxVoxels = 1e9;
   const btScalar reach = kMaxVoxels * body->m_worldInfo->m_sparsesdf.m_defaultVoxelsz;
   for (Eigen::Index i = 0; i < positions.cols(); ++i) {
-    const Vector3<btScalar> place = positions.col(i) + time_step * velocities.col(i);
-    if (place.cwiseAbs().maxCoeff() <= reach) continue;
+    const Vector3<btScalar> position = positions.col(i) + time_step * velocities.col(i);
+    if (position.cwiseAbs().maxCoeff() <= reach) continue;
     char text[96];
     std::snprintf(text, sizeof text,
                   "position %.3g m from the origin is beyond the %.3g m of the distance field",
-                  static_cast<double>(place.norm()), static_cast<double>(reach));
+                  static_cast<double>(position.norm()), static_cast<double>(reach));
     return BodyBlowUp{static_cast<int>(i), text};
   }
   return std::nullopt;

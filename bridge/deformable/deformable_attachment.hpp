@@ -14,8 +14,8 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// The laws of one body of the deformable world, with the memory they need. A part of
-/// DeformableForces.
+/// The laws of one body of the deformable world, with the memory they need. DeformableForces has one
+/// for each body.
 struct DeformableAttachment {
   using Stack = btAlignedObjectArray<btVector3>;
   using NodeVector = btVector3 btSoftBody::Node::*;

@@ -30,23 +30,23 @@ void BendingForces::begin_step(ConstMatrix3XRef<btScalar> starts) {
 }
 
 // A thread that waits here must not begin the solution of another body.
-void BendingForces::add_law_forces(ConstMatrix3XRef<btScalar> places,
+void BendingForces::add_law_forces(ConstMatrix3XRef<btScalar> positions,
                                    Matrix3XRef<btScalar> forces) const {
   tbb::this_task_arena::isolate([&] {
-    const forces::State<btScalar> state{places, no_velocities_, masses_, 0.0};
+    const forces::State<btScalar> state{positions, no_velocities_, masses_, 0.0};
     for (const auto* law : laws_) law->add_forces(state, scratch_, forces);
   });
 }
 
-void BendingForces::add_forces(ConstMatrix3XRef<btScalar> places,
+void BendingForces::add_forces(ConstMatrix3XRef<btScalar> positions,
                                Matrix3XRef<btScalar> forces) const {
-  add_law_forces(places, forces);
+  add_law_forces(positions, forces);
   forces -= start_forces_;
 }
 
-double BendingForces::energy(ConstMatrix3XRef<btScalar> places) const {
-  const forces::State<btScalar> state{places, no_velocities_, masses_, 0.0};
-  double sum = start_forces_.cwiseProduct(places).cast<double>().sum();
+double BendingForces::energy(ConstMatrix3XRef<btScalar> positions) const {
+  const forces::State<btScalar> state{positions, no_velocities_, masses_, 0.0};
+  double sum = start_forces_.cwiseProduct(positions).cast<double>().sum();
   for (const auto* law : laws_) sum += static_cast<double>(law->potential_energy(state));
   return sum;
 }

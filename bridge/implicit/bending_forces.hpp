@@ -21,11 +21,12 @@ class BendingForces : public fast::StepForces<btScalar> {
   /// starts: q, 3 x n [m].
   void begin_step(ConstMatrix3XRef<btScalar> starts);
 
-  void add_forces(ConstMatrix3XRef<btScalar> places, Matrix3XRef<btScalar> forces) const override;
-  [[nodiscard]] double energy(ConstMatrix3XRef<btScalar> places) const override;
+  void add_forces(ConstMatrix3XRef<btScalar> positions,
+                  Matrix3XRef<btScalar> forces) const override;
+  [[nodiscard]] double energy(ConstMatrix3XRef<btScalar> positions) const override;
 
  private:
-  void add_law_forces(ConstMatrix3XRef<btScalar> places, Matrix3XRef<btScalar> forces) const;
+  void add_law_forces(ConstMatrix3XRef<btScalar> positions, Matrix3XRef<btScalar> forces) const;
 
   std::vector<const forces::ForceLaw<btScalar>*> laws_;
   VectorX<btScalar> masses_;

@@ -18,11 +18,11 @@ void BodySleep::wake() {
 }
 
 bool BodySleep::is_disturbed(const btSoftBody& body) const {
-  if (meets_motion_ || met_.size() != neighbours_.size()) return true;
-  for (const Neighbour& now : met_) {
+  if (meets_motion_ || met_.size() != neighbors_.size()) return true;
+  for (const Neighbor& now : met_) {
     const bool is_known =
-        std::any_of(neighbours_.begin(), neighbours_.end(), [&](const Neighbour& before) {
-          return before.object == now.object && before.place == now.place;
+        std::any_of(neighbors_.begin(), neighbors_.end(), [&](const Neighbor& before) {
+          return before.object == now.object && before.pose == now.pose;
         });
     if (!is_known) return true;
   }
@@ -30,14 +30,14 @@ bool BodySleep::is_disturbed(const btSoftBody& body) const {
   for (int a = 0; a < body.m_anchors.size(); ++a) {
     const btRigidBody* const rigid = body.m_anchors[a].m_body;
     if (rigid != anchors_[at(a)].body) return true;
-    if (!(rigid->getWorldTransform() == anchors_[at(a)].place)) return true;
+    if (!(rigid->getWorldTransform() == anchors_[at(a)].pose)) return true;
   }
   if (body.m_worldInfo->m_gravity != gravity_ || body.m_windVelocity != wind_) return true;
-  if (at(body.m_nodes.size()) != places_.size()) return true;
+  if (at(body.m_nodes.size()) != positions_.size()) return true;
   const btVector3 zero(0, 0, 0);
   for (int i = 0; i < body.m_nodes.size(); ++i) {
     const btSoftBody::Node& node = body.m_nodes[i];
-    if (node.m_x != places_[at(i)] || node.m_v != zero || node.m_f != zero ||
+    if (node.m_x != positions_[at(i)] || node.m_v != zero || node.m_f != zero ||
         node.m_im != inverse_masses_[at(i)]) {
       return true;
     }
@@ -53,8 +53,8 @@ bool BodySleep::begin_step(const btSoftBody& body) {
   return wakes;
 }
 
-void BodySleep::meet(const btCollisionObject& object, const btTransform& place) {
-  met_.push_back({&object, place});
+void BodySleep::meet(const btCollisionObject& object, const btTransform& pose) {
+  met_.push_back({&object, pose});
   // One that moves without our knowing why, or will, for nothing has put it to sleep.
   if (!object.isStaticOrKinematicObject() && object.isActive()) meets_motion_ = true;
 }
@@ -64,16 +64,16 @@ void BodySleep::notify_cloth(bool is_at_rest) {
 }
 
 void BodySleep::remember(const btSoftBody& body) {
-  neighbours_ = met_;
+  neighbors_ = met_;
   anchors_.clear();
   for (int a = 0; a < body.m_anchors.size(); ++a) {
     const btRigidBody* const rigid = body.m_anchors[a].m_body;
     anchors_.push_back({rigid, rigid->getWorldTransform()});
   }
-  places_.clear();
+  positions_.clear();
   inverse_masses_.clear();
   for (int i = 0; i < body.m_nodes.size(); ++i) {
-    places_.push_back(body.m_nodes[i].m_x);
+    positions_.push_back(body.m_nodes[i].m_x);
     inverse_masses_.push_back(body.m_nodes[i].m_im);
   }
   gravity_ = body.m_worldInfo->m_gravity;

@@ -25,7 +25,7 @@ class BodySleep {
   /// Before a step. True if the body has just woken.
   bool begin_step(const btSoftBody& body);
   /// In a step: what the body's bounds meet.
-  void meet(const btCollisionObject& object, const btTransform& place);
+  void meet(const btCollisionObject& object, const btTransform& pose);
   /// In a step: cloth that its bounds meet.
   void notify_cloth(bool is_at_rest);
   /// After a step of time_step [s]. A body that falls asleep loses what velocities it has left.
@@ -33,13 +33,13 @@ class BodySleep {
   void wake();
 
  private:
-  struct Neighbour {
+  struct Neighbor {
     const btCollisionObject* object;  ///< only compared
-    btTransform place;
+    btTransform pose;
   };
   struct Anchor {
     const btRigidBody* body;
-    btTransform place;
+    btTransform pose;
   };
   [[nodiscard]] bool is_disturbed(const btSoftBody& body) const;
   void remember(const btSoftBody& body);
@@ -47,11 +47,11 @@ class BodySleep {
   bool is_asleep_ = false;
   bool meets_motion_ = false;  ///< in the present step
   double rest_time_ = 0;       ///< [s]
-  std::vector<Neighbour> met_;
+  std::vector<Neighbor> met_;
   // When it fell asleep:
-  std::vector<Neighbour> neighbours_;
+  std::vector<Neighbor> neighbors_;
   std::vector<Anchor> anchors_;
-  std::vector<btVector3> places_;
+  std::vector<btVector3> positions_;
   std::vector<btScalar> inverse_masses_;
   btVector3 gravity_{0, 0, 0};
   btVector3 wind_{0, 0, 0};

@@ -18,12 +18,12 @@ constexpr Eigen::Index kPiece = 128;
 template <class Term>
 double sum_over(Eigen::Index num_nodes, fast::WorkerTeam& team, const Term& term) {
   std::array<double, fast::WorkerTeam::kMostParts> sums{};
-  fast::run_parts(team, static_cast<int>(num_nodes), [&](int part, int begin, int end) {
+  fast::run_parts(team, static_cast<int>(num_nodes), [&](int range, int begin, int end) {
     double sum = 0;
     for (Eigen::Index first = begin; first < end; first += kPiece) {
       sum += static_cast<double>(term(first, std::min(kPiece, end - first)));
     }
-    sums[static_cast<std::size_t>(part)] = sum;
+    sums[static_cast<std::size_t>(range)] = sum;
   });
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
@@ -36,7 +36,7 @@ double energy_put_in(const StepMotion& motion, fast::WorkerTeam& team) {
       return vectors.middleCols(first, count).array();
     };
     const auto before = of(motion.start_velocities);
-    const auto work = (of(motion.predicted) - before) * (of(motion.places) - of(motion.starts)) /
+    const auto work = (of(motion.predicted) - before) * (of(motion.positions) - of(motion.starts)) /
                       motion.time_step;
     return (of(motion.masses) * (before * before / 2 + work)).sum();
   });

@@ -15,11 +15,11 @@ struct StepMotion {
   const Matrix3X<btScalar>& starts;            ///< [m]
   const Matrix3X<btScalar>& start_velocities;  ///< [m/s]
   const Matrix3X<btScalar>& predicted;         ///< velocities after all that is not implicit [m/s]
-  const Matrix3X<btScalar>& places;            ///< [m] at the end
+  const Matrix3X<btScalar>& positions;         ///< [m] at the end
   btScalar time_step;                          ///< [s]
 };
 
-/// Kinetic energy that the free nodes had, and the work on the step's way of all that is not implicit [J].
+/// Kinetic energy that the free nodes had, and the work over the step's displacement of all forces that are not implicit [J].
 /// Summed by a team, with the same bits for any; so is kinetic_energy().
 [[nodiscard]] double energy_put_in(const StepMotion& motion, fast::WorkerTeam& team);
 

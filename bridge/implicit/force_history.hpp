@@ -9,7 +9,7 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
 /// Forces of springs in the last steps, for a method of second order with contact: that of Hilber, Hughes and Taylor (1977) in
-/// the form that has places instead of accelerations,
+/// the form that has positions instead of accelerations,
 ///
 ///   x' - x = h v,   v' - v = h (a + (w f(x') + known) / m) + contact / m
 ///
@@ -33,7 +33,7 @@ class ForceHistory {
   void begin_step(btScalar time_step);
   /// The known force on a node [N].
   [[nodiscard]] Vector3<btScalar> known(Eigen::Index node) const;
-  /// Room for the forces at the end of a step [N], of all nodes, each part of which is to be written to coming() and then added.
+  /// Room for the forces at the end of a step [N], of all nodes, each range of which is to be written to coming() and then added.
   void resize(Eigen::Index num_nodes, btScalar time_step);
   [[nodiscard]] auto coming(Eigen::Index first, Eigen::Index count) {
     return coming_.middleCols(first, count);

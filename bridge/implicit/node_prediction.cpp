@@ -17,7 +17,7 @@ constexpr btScalar kCoveredSteps = 8;
 constexpr int kFewShare = 50;
 /// A tree's depth is some 20; one that nodes were put into in a row is made anew.
 constexpr int kMostDepth = 200;
-/// Depth down to which threads share the parts of a tree.
+/// Depth down to which threads share the subtrees of a tree.
 constexpr int kSharedDepth = 4;
 
 btVector3 vector_of(const Four& v) {
@@ -47,28 +47,28 @@ Box integrate(btSoftBody& body, btScalar time_step, int begin, int end) {
     Four velocity = four(node.m_v);
     if (node.m_im > 0) velocity += fall;
     velocity += push;
-    const Four place = start + velocity * time_step;
+    const Four target = start + velocity * time_step;
     four(node.m_q) = start;
     four(node.m_v) = velocity;
-    four(node.m_x) = place;
+    four(node.m_x) = target;
     four(node.m_f).setZero();
-    low = low.min(start).min(place);
-    high = high.max(start).max(place);
+    low = low.min(start).min(target);
+    high = high.max(start).max(target);
   }
   return {low, high};
 }
 
 void integrate(btSoftBody& body, btScalar time_step, fast::WorkerTeam& team) {
-  const fast::NodePartition parts(body.m_nodes.size());
+  const fast::NodePartition ranges(body.m_nodes.size());
   std::array<Box, fast::WorkerTeam::kMostParts> boxes;
   boxes.fill({Four::Zero(), Four::Zero()});
-  fast::run_parts(team, body.m_nodes.size(), [&](int part, int begin, int end) {
-    boxes[static_cast<std::size_t>(part)] = integrate(body, time_step, begin, end);
+  fast::run_parts(team, body.m_nodes.size(), [&](int range, int begin, int end) {
+    boxes[static_cast<std::size_t>(range)] = integrate(body, time_step, begin, end);
   });
   Box all = boxes[0];
-  for (int part = 1; part < parts.count(); ++part) {
-    all.low = all.low.min(boxes[static_cast<std::size_t>(part)].low);
-    all.high = all.high.max(boxes[static_cast<std::size_t>(part)].high);
+  for (int range = 1; range < ranges.count(); ++range) {
+    all.low = all.low.min(boxes[static_cast<std::size_t>(range)].low);
+    all.high = all.high.max(boxes[static_cast<std::size_t>(range)].high);
   }
   body.m_bounds[0] = vector_of(all.low - body.m_sst.radmrg);
   body.m_bounds[1] = vector_of(all.high + body.m_sst.radmrg);
@@ -139,24 +139,24 @@ void update_tree(btSoftBody& body, ConstMatrix3XRef<btScalar> last_velocities,
   if (body.m_ndbvt.m_root == nullptr) return;
   const btScalar margin = body.m_sst.radmrg;
   const int few = body.m_nodes.size() / kFewShare;
-  const fast::NodePartition parts(body.m_nodes.size());
+  const fast::NodePartition ranges(body.m_nodes.size());
   std::array<int, fast::WorkerTeam::kMostParts> num_left{};
   left.resize(static_cast<std::size_t>(body.m_nodes.size()));
-  fast::run_parts(team, body.m_nodes.size(), [&](int part, int begin, int end) {
+  fast::run_parts(team, body.m_nodes.size(), [&](int range, int begin, int end) {
     int count = 0;
     for (int i = begin; i < end && count <= few; ++i) {
       const btSoftBody::Node& node = body.m_nodes[i];
       if (node.m_leaf->volume.Contain(box_of(node, margin))) continue;
       left[static_cast<std::size_t>(begin + count++)] = i;
     }
-    num_left[static_cast<std::size_t>(part)] = count;
+    num_left[static_cast<std::size_t>(range)] = count;
   });
   if (std::accumulate(num_left.begin(), num_left.end(), 0) > few) {
     return cover_ways(body, last_velocities, team);
   }
-  for (int part = 0; part < parts.count(); ++part) {
-    const auto first = static_cast<std::size_t>(parts[part].begin);
-    const auto count = static_cast<std::size_t>(num_left[static_cast<std::size_t>(part)]);
+  for (int range = 0; range < ranges.count(); ++range) {
+    const auto first = static_cast<std::size_t>(ranges[range].begin);
+    const auto count = static_cast<std::size_t>(num_left[static_cast<std::size_t>(range)]);
     for (std::size_t k = first; k < first + count; ++k) {
       btSoftBody::Node& node = body.m_nodes[left[k]];
       btDbvtVolume box = box_of(node, margin);

@@ -19,9 +19,9 @@ inline namespace WEFT_BULLET_PRECISION {
 /// The broadphase is not told; m_bounds hold where nodes are and where they will be.
 ///
 /// Boxes of the tree of nodes hold what Bullet's would. A node that has left its own is put into the tree anew, as
-/// Bullet does it; if many have, all boxes grow to hold the ways of the next steps instead, which costs less by far:
+/// Bullet does it; if many have, all boxes grow to the swept bounds of the next steps instead, which costs less by far:
 /// neighbors in a cloth stay neighbors, so that the tree stays good.
-/// last_velocities: at the start of the step before, 3 x n [m/s], or of another size if not known: how fast ways bend.
+/// last_velocities: at the start of the step before, 3 x n [m/s], or of another size if not known: how fast paths bend.
 /// By a team, with the same bits for any. scratch: memory that is kept from step to step.
 void predict_nodes(btSoftBody& body, btScalar time_step, ConstMatrix3XRef<btScalar> last_velocities,
                    std::vector<int>& scratch, fast::WorkerTeam& team);

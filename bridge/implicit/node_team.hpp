@@ -22,7 +22,7 @@ class NodeTeam {
   void hold_threads(std::optional<fast::WorkerTeam::Scope>& scope) {
     scope.emplace(team_, team_size());
   }
-  /// work(first node, number of nodes) for each part of the nodes, by them.
+  /// work(first node, number of nodes) for each range of the nodes, by the threads.
   template <class Work>
   void for_nodes(const Work& work) {
     fast::run_parts(team_, num_nodes_, [&](int, int begin, int end) { work(begin, end - begin); });
@@ -30,7 +30,7 @@ class NodeTeam {
 
  protected:
   void set_num_nodes(Eigen::Index num_nodes) { num_nodes_ = static_cast<int>(num_nodes); }
-  /// What threads gain with one part each, they lose waiting for one another.
+  /// Two ranges per thread: with one each, threads lose by waiting for one another what they gain.
   [[nodiscard]] int team_size() const {
     return std::clamp(fast::NodePartition(num_nodes_).count() / 2, 1, num_threads_);
   }
