@@ -176,9 +176,9 @@ std::vector<NodeContact> SoftBodySolver::rigid_contacts(const btSoftBody& body) 
   }
   std::vector<NodeContact> contacts;
   for (const RigidContact& contact : own) {
-    const btVector3& place = body.m_nodes[contact.node].m_x;
+    const btVector3& position = body.m_nodes[contact.node].m_x;
     contacts.push_back({contact.node, contact.object, contact.normal,
-                        btDot(place, contact.normal) - contact.offset});
+                        btDot(position, contact.normal) - contact.offset});
   }
   for (int i = 0; i < body.m_rcontacts.size(); ++i) {
     const btSoftBody::RContact& contact = body.m_rcontacts[i];
@@ -347,7 +347,7 @@ void SoftBodySolver::optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool fo
   for (const auto& attachment : attachments_->list) {
     const bool was_in_world = attachment->was_in_world;
     attachment->was_in_world = is_among(m_softBodySet, attachment->body);
-    // One that comes back may come to another place.
+    // One that comes back may come to another position.
     if (attachment->was_in_world && !was_in_world && attachment->fast) attachment->fast->wake();
   }
   for (const auto& entry : attachments_->contacts) {

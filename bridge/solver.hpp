@@ -77,7 +77,7 @@ struct NodeContact {
 ///   positions there and would lose one that was written before,
 /// * contacts with rigid objects are ContactResponse::kCoulomb, unless the body has links or clusters,
 /// * a state that is not finite, or faster than kMaxSpeed, freezes the body and is reported (blow_up(),
-///   set_on_blow_up()); Bullet would go on to look up contacts at that place and crash. So does an exception
+///   set_on_blow_up()); Bullet would go on to look up contacts at that position and crash. So does an exception
 ///   of a law or a contact: none leaves stepSimulation() in the middle of a step.
 ///
 /// Laws that move with time (drive) count it from the body's first step with laws, in the world's
@@ -112,7 +112,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   /// The body must not gain or lose nodes while laws are attached, but as replace_laws() says.
   void attach(btSoftBody& body, forces::LawSet<btScalar> laws, VectorX<btScalar> masses,
               DampingPlace damping = DampingPlace::kAutomatic);
-  /// As attach(), with springs and their dampers solved implicitly in place of btSoftBody's own
+  /// As attach(), with springs and their dampers solved implicitly instead of btSoftBody's own
   /// constraints (FastBody): stable at any time step, stiffness in N/m whatever the step. Damping laws
   /// act after the projection. Returns nothing if that was done, and else why the body cannot be stepped
   /// so: clusters, a pose to match, a timescale other than 1, links that no tension law stands in for.
@@ -134,7 +134,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   /// Contacts with rigid bodies and with cloth that the last step looked at.
   [[nodiscard]] int num_contacts(const btSoftBody& body) const;
   /// Those with rigid bodies, also of a body without laws. Bodies with laws leave btSoftBody::m_rcontacts empty;
-  /// contacts with cloth are in m_scontacts. Distances are those of the nodes' present places. Objects that
+  /// contacts with cloth are in m_scontacts. Distances are those of the nodes' present positions. Objects that
   /// have been deleted since the step are still named.
   [[nodiscard]] std::vector<NodeContact> rigid_contacts(const btSoftBody& body) const;
   /// Back to plain Bullet. Does nothing if no laws are attached.
@@ -162,7 +162,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   /// for the step is not over. Empty: nobody is told.
   void set_on_blow_up(std::function<void(btSoftBody&, const BodyBlowUp&)> callback);
 
-  /// Limits on the places of a body's nodes at the end of each of the following steps, until others
+  /// Limits on the positions of a body's nodes at the end of each of the following steps, until others
   /// are set; empty limits end them. They act after btSoftBody::solveConstraints, and so after links
   /// and contacts, and before damping (position_limits.hpp). Throws InvalidArgument for limits that do
   /// not fit the body and for a body without attached laws.
@@ -179,7 +179,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
 
   /// Contact of the body with itself and with the others that have it too, see ClothContact. Made
   /// from the body's present shape as its rest shape; replaces what was set before. Bodies without
-  /// it meet as Bullet's flags say; of two with VF_SS, one of them fast, in this way too, with the margins of
+  /// it meet as Bullet's flags say; of two with VF_SS, one of them fast, likewise, with the margins of
   /// their shapes and the product of their kDF. Throws InvalidArgument for settings out of their domain.
   void set_cloth_contact(btSoftBody& body, const ClothContactSettings& settings);
 
@@ -218,7 +218,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   void solve_other_body(btSoftBody& body, Attachment* attachment);
   void tell_of_blow_ups() noexcept;
   [[nodiscard]] bool may_meet_cloth() const;
-  void place_listed_bodies(btScalar time_step, bool may_meet);
+  void apply_listed_solutions(btScalar time_step, bool may_meet);
   /// Has exploded or is suspended.
   [[nodiscard]] bool is_still(const btSoftBody& body) const;
 

@@ -176,7 +176,7 @@ void SoftBodySolver::Attachment::add_forces(btScalar time_step) {
   sum_laws();
   if (blow_up) return;
   // Now, on the velocities that predictMotion is about to make: afterwards would be too late, for a
-  // node without a place in space ruins the body's bounding-volume tree.
+  // node whose position is not finite ruins the body's bounding-volume tree.
   blow_up = predicted_blow_up(*body, velocities, forces, time_step, SoftBodySolver::kMaxSpeed);
   if (!blow_up) add_node_forces(forces, *body);
 }

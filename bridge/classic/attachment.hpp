@@ -96,7 +96,7 @@ struct ContactEntry {
   ClothContact contact;
   bool was_in_world = false;
   bool is_by_flag = false;        ///< with others only where Bullet's VF_SS asks a fast body for it
-  std::vector<btVector3> solved;  ///< [m] places of the nodes when the body itself was solved
+  std::vector<btVector3> solved;  ///< [m] positions of the nodes when the body itself was solved
 
   [[nodiscard]] bool is_of(const btSoftBody& other) const {
     return body == &other && life->is_alive;
@@ -104,7 +104,7 @@ struct ContactEntry {
   void remember_solution();
   /// What moved nodes afterwards, the contacts of other bodies, becomes part of their velocities.
   void add_later_motion();
-  /// The same where velocities are differences of places, as Bullet's own: with Bullet's rounding.
+  /// The same where velocities are differences of positions, as Bullet's own: with Bullet's rounding.
   void derive_velocities();
 };
 

@@ -111,7 +111,7 @@ void SoftBodySolver::solve_fast_bodies() {
   solve_listed_bodies(time_step_);
   const bool may_meet = may_meet_cloth();
   if (may_meet) threads.reset();  // cloth on cloth takes long, and one thread
-  place_listed_bodies(time_step_, may_meet);
+  apply_listed_solutions(time_step_, may_meet);
   const bool is_final = single && !may_meet && single->limits.is_empty() &&
                         m_softBodySet.size() == 1 && !single->blow_up;
   if (is_final) single->fast->update_normals(*single->body);
@@ -179,7 +179,7 @@ void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_
     rigid.begin_substep();
     detect_contacts(substep_time);
     solve_listed_bodies(substep_time);
-    place_listed_bodies(substep_time, false);
+    apply_listed_solutions(substep_time, false);
     rigid.end_substep();
   }
   rigid.finish();
@@ -223,9 +223,10 @@ void SoftBodySolver::solve_listed_bodies(btScalar time_step) {
               [&](Attachment& one) { one.fast->solve_anew_if_it_gains(*one.body, time_step); });
 }
 
-void SoftBodySolver::place_listed_bodies(btScalar time_step, bool may_meet) {
+void SoftBodySolver::apply_listed_solutions(btScalar time_step, bool may_meet) {
   std::vector<Attachment*>& bodies = attachments_->stepped;
-  in_turn(bodies, [&](Attachment& one) { one.fast->place(*one.body, time_step, may_meet); });
+  in_turn(bodies,
+          [&](Attachment& one) { one.fast->apply_solution(*one.body, time_step, may_meet); });
   // Where springs have led the nodes, not where they would fly without them: in steps of 1/100 s layers that were found there
   // threw each other about.
   in_parallel(bodies, [&](Attachment& one) {

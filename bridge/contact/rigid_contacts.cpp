@@ -22,7 +22,7 @@ MotionBox box_of(const btVector3& low, const btVector3& high) {
   return {{low.x(), low.y(), low.z(), 0}, {high.x(), high.y(), high.z(), 0}};
 }
 
-/// Bounds the ways of some nodes, at least one.
+/// The swept bounds of some nodes, at least one.
 MotionBox box_of(const btSoftBody& body, std::span<const int> nodes) {
   Four low = four(body.m_nodes[nodes[0]].m_x);
   Four high = low;
@@ -35,16 +35,17 @@ MotionBox box_of(const btSoftBody& body, std::span<const int> nodes) {
   return {{low[0], low[1], low[2], 0}, {high[0], high[1], high[2], 0}};
 }
 
-/// Plane through the first surface on the way from one place to another, by Bullet's test of rays, which is true to about a millimetre.
-std::optional<RigidContact> stop_on_the_way(const Collider& collider, const btVector3& from,
-                                            const btVector3& to, btScalar margin) {
+/// Plane through the first surface on the segment from one point to another, by Bullet's test of rays, which is true to about a
+/// millimetre.
+std::optional<RigidContact> first_hit(const Collider& collider, const btVector3& from,
+                                      const btVector3& to, btScalar margin) {
   btCollisionWorld::ClosestRayResultCallback hit(from, to);
   // Bullet's default test of a ray with a convex shape passes through a box of 2 cm in one of six
   // cases that start within 6 cm of it; this one in none.
   hit.m_flags |= btTriangleRaycastCallback::kF_UseGjkConvexCastRaytest;
   btCollisionWorld::rayTestSingle(
       btTransform(btQuaternion::getIdentity(), from), btTransform(btQuaternion::getIdentity(), to),
-      const_cast<btCollisionObject*>(collider.object), collider.shape, collider.place, hit);
+      const_cast<btCollisionObject*>(collider.object), collider.shape, collider.pose, hit);
   if (!hit.hasHit() || !(hit.m_hitNormalWorld.length2() > 0)) return std::nullopt;
   RigidContact contact;
   contact.normal = hit.m_hitNormalWorld.normalized();
@@ -53,18 +54,18 @@ std::optional<RigidContact> stop_on_the_way(const Collider& collider, const btVe
   return contact;
 }
 
-/// A collider that surface_distance() knows, in double precision: the ground may be a box of many metres, of which a place
-/// is a millionth.
+/// A collider that surface_distance() knows, in double precision: the ground may be a box of many meters, whose
+/// positions are rounded to a millionth of it in single precision.
 class ExactCollider {
  public:
   ExactCollider(const Collider& collider, btScalar margin)
       : collider_(collider),
         margin_(static_cast<double>(margin)),
-        origin_(from_bullet(collider.place.getOrigin())) {
-    for (int k = 0; k < 3; ++k) turn_.row(k) = from_bullet(collider.place.getBasis().getRow(k));
+        origin_(from_bullet(collider.pose.getOrigin())) {
+    for (int k = 0; k < 3; ++k) turn_.row(k) = from_bullet(collider.pose.getBasis().getRow(k));
   }
 
-  /// The contact of a node that goes from one place to another. One that is followed is stopped where its path first
+  /// The contact of a node that moves from one point to another. One that is followed is stopped where its path first
   /// meets the surface.
   [[nodiscard]] std::optional<RigidContact> find(const btVector3& from, const btVector3& to,
                                                  bool is_followed) const {
@@ -94,10 +95,10 @@ class ExactCollider {
     const Vector3<double> path = end - start;
     double share = 0;
     for (int step = 0; step < kMostSteps; ++step) {
-      const Vector3<double> place = start + share * path;
-      const SurfaceDistance here = distance_at(place, length);
+      const Vector3<double> point = start + share * path;
+      const SurfaceDistance here = distance_at(point, length);
       if (here.distance >= length || (step == 0 && here.distance <= 0)) return std::nullopt;
-      if (here.distance <= kTouch * margin_) return plane_at(place, here);
+      if (here.distance <= kTouch * margin_) return plane_at(point, here);
       const double slope = here.out.dot(path);
       if (!(slope < 0)) return std::nullopt;
       share -= here.distance / slope;
@@ -106,20 +107,20 @@ class ExactCollider {
     return plane_at(start + share * path, distance_at(start + share * path, length));
   }
 
-  [[nodiscard]] RigidContact plane_at(const Vector3<double>& place,
+  [[nodiscard]] RigidContact plane_at(const Vector3<double>& point,
                                       const SurfaceDistance& surface) const {
     RigidContact contact;
     contact.normal = to_bullet((turn_ * surface.out).eval());
-    // With the normal as it is rounded, so that the plane is where it should be for this place.
+    // With the normal as it is rounded, so that the plane is where it should be for this position.
     contact.offset = static_cast<btScalar>(
-        from_bullet(contact.normal).dot(turn_ * place + origin_) - surface.distance + margin_);
+        from_bullet(contact.normal).dot(turn_ * point + origin_) - surface.distance + margin_);
     return contact;
   }
-  [[nodiscard]] Vector3<double> local(const btVector3& place) const {
-    return turn_.transpose() * (from_bullet(place) - origin_);
+  [[nodiscard]] Vector3<double> local(const btVector3& point) const {
+    return turn_.transpose() * (from_bullet(point) - origin_);
   }
-  [[nodiscard]] SurfaceDistance distance_at(const Vector3<double>& place, double reach) const {
-    return surface_distance(*collider_.shape, collider_.facets, place, reach).value();
+  [[nodiscard]] SurfaceDistance distance_at(const Vector3<double>& point, double reach) const {
+    return surface_distance(*collider_.shape, collider_.facets, point, reach).value();
   }
 
   const Collider& collider_;
@@ -133,24 +134,24 @@ class ConcaveCollider {
  public:
   ConcaveCollider(const Collider& collider, btScalar margin)
       : surface_(*collider.shape),
-        place_(collider.place),
+        pose_(collider.pose),
         margin_(static_cast<double>(margin)),
-        origin_(from_bullet(collider.place.getOrigin())) {
-    for (int k = 0; k < 3; ++k) turn_.row(k) = from_bullet(collider.place.getBasis().getRow(k));
+        origin_(from_bullet(collider.pose.getOrigin())) {
+    for (int k = 0; k < 3; ++k) turn_.row(k) = from_bullet(collider.pose.getBasis().getRow(k));
   }
 
   /// Triangles that nodes may meet whose paths, as the collider sees them, are in a box.
   void gather(const MotionBox& box, std::vector<ConcaveSurface::Triangle>& triangles) const {
     const btVector3 low(box.low[0], box.low[1], box.low[2]);
     const btVector3 high(box.high[0], box.high[1], box.high[2]);
-    const btTransform back = place_.inverse();
+    const btTransform back = pose_.inverse();
     btVector3 local_low;
     btVector3 local_high;
     btTransformAabb(low, high, 0, back, local_low, local_high);
     surface_.gather(local_low, local_high, triangles);
   }
 
-  /// The contacts of a node that goes from one place to another, among those triangles.
+  /// The contacts of a node that moves from one point to another, among those triangles.
   void find(const btVector3& from, const btVector3& to,
             std::span<const ConcaveSurface::Triangle> triangles,
             std::vector<ConcaveSurface::Plane>& planes, std::vector<RigidContact>& found) const {
@@ -169,12 +170,12 @@ class ConcaveCollider {
   }
 
  private:
-  [[nodiscard]] Vector3<double> local(const btVector3& place) const {
-    return turn_.transpose() * (from_bullet(place) - origin_);
+  [[nodiscard]] Vector3<double> local(const btVector3& point) const {
+    return turn_.transpose() * (from_bullet(point) - origin_);
   }
 
   ConcaveSurface surface_;
-  btTransform place_;
+  btTransform pose_;
   double margin_;
   Vector3<double> origin_;
   Matrix3<double> turn_;
@@ -185,10 +186,10 @@ std::optional<RigidContact> find_in_field(const btSoftBody& body, const Collider
                                           const btVector3& from, const btVector3& to,
                                           btScalar margin, bool is_followed) {
   if (is_followed) {
-    if (auto contact = stop_on_the_way(collider, from, to, margin)) return contact;
+    if (auto contact = first_hit(collider, from, to, margin)) return contact;
   }
-  const btCollisionObjectWrapper object(nullptr, collider.shape, collider.object, collider.place,
-                                        -1, -1);
+  const btCollisionObjectWrapper object(nullptr, collider.shape, collider.object, collider.pose, -1,
+                                        -1);
   btSoftBody::sCti found;
   if (!body.checkContact(&object, to, 2 * margin, found)) return std::nullopt;
   RigidContact contact;
@@ -222,7 +223,7 @@ class ContactFinder {
     concave_->gather(box.grown(2 * margin_ + collider_.shape->getMargin()), nearby.triangles);
   }
 
-  /// Appends those of a node that goes from one place to another, where they are.
+  /// Appends those of a node that moves from one point to another, where they are.
   void find(const btVector3& from, const btVector3& to, Nearby& nearby,
             std::vector<RigidContact>& found) const {
     if (concave_) return concave_->find(from, to, nearby.triangles, nearby.planes, found);
@@ -261,8 +262,8 @@ btScalar largest_motion(const btTransform& back, const MotionBox& nodes) {
       const auto k = static_cast<std::size_t>(axis);
       return (corner >> axis & 1) != 0 ? nodes.high[k] : nodes.low[k];
     };
-    const btVector3 place(side(0), side(1), side(2));
-    most = std::max(most, (back * place - place).length());
+    const btVector3 point(side(0), side(1), side(2));
+    most = std::max(most, (back * point - point).length());
   }
   return most;
 }
@@ -277,8 +278,8 @@ Collider make_collider(const btCollisionObjectWrapper& object, const HullFacets*
     btTransform end;
     btTransformUtil::integrateTransform(rigid->getWorldTransform(), rigid->getLinearVelocity(),
                                         rigid->getAngularVelocity(), time_step, end);
-    collider.object_place = rigid->getWorldTransform();
-    collider.motion = end * collider.object_place.inverse();
+    collider.object_pose = rigid->getWorldTransform();
+    collider.motion = end * collider.object_pose.inverse();
   }
   return collider;
 }
@@ -299,8 +300,8 @@ btRigidBody* movable(const btCollisionObject* object) {
 }
 
 void SweptNodes::update(const btSoftBody& body, fast::WorkerTeam* team) {
-  if (is_of_now_) return;
-  is_of_now_ = true;
+  if (is_current_) return;
+  is_current_ = true;
   if (groups_.num_nodes() != body.m_nodes.size()) {
     groups_.arrange(body);
     groups_.sort();
@@ -311,10 +312,10 @@ void SweptNodes::update(const btSoftBody& body, fast::WorkerTeam* team) {
       boxes_[g] = box_of(body, groups_[g]);
     }
   };
-  if (const std::size_t num_parts = num_parts_for(team); num_parts > 1) {
-    team->run(static_cast<int>(num_parts), [&](int part) {
-      const auto p = static_cast<std::size_t>(part);
-      enclose(boxes_.size() * p / num_parts, boxes_.size() * (p + 1) / num_parts);
+  if (const std::size_t num_ranges = num_ranges_for(team); num_ranges > 1) {
+    team->run(static_cast<int>(num_ranges), [&](int range) {
+      const auto p = static_cast<std::size_t>(range);
+      enclose(boxes_.size() * p / num_ranges, boxes_.size() * (p + 1) / num_ranges);
     });
   } else {
     enclose(0, boxes_.size());
@@ -323,7 +324,7 @@ void SweptNodes::update(const btSoftBody& body, fast::WorkerTeam* team) {
   for (const MotionBox& box : boxes_) all_.include(box);
 }
 
-void add_rigid_contacts(const btSoftBody& body, SweptNodes& ways, const Collider& collider,
+void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collider& collider,
                         btScalar time_step, PinnedNodes pinned, std::vector<RigidContact>& contacts,
                         fast::WorkerTeam* team) {
   if (!collider.object->hasContactResponse()) return;
@@ -337,15 +338,15 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& ways, const Collider
   const btScalar margin = body.getCollisionShape()->getMargin();
   btVector3 low;
   btVector3 high;
-  collider.shape->getAabb(collider.place, low, high);
+  collider.shape->getAabb(collider.pose, low, high);
   // Bounds of a mesh of triangles are without its margin.
   const btScalar own = ConcaveSurface::has(*collider.shape) ? collider.shape->getMargin() : 0;
   const MotionBox box = box_of(low, high).grown(2 * margin + own);
   btScalar farthest = 0;  // that an object moves with respect to a node [m]
-  if (dynamic != nullptr) farthest = largest_motion(back, ways.all());
-  if (led != nullptr) farthest = largest_motion(*led, ways.all(), time_step);
+  if (dynamic != nullptr) farthest = largest_motion(back, swept.all());
+  if (led != nullptr) farthest = largest_motion(*led, swept.all(), time_step);
   const MotionBox reached = box.grown(farthest);
-  if (!meet(reached, ways.all())) return;
+  if (!meet(reached, swept.all())) return;
   const bool looks_at_pinned =
       pinned == PinnedNodes::kWithDynamicObjects && !collider.object->isStaticOrKinematicObject();
   const ContactFinder finder(body, collider, margin);
@@ -373,30 +374,30 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& ways, const Collider
       contact.collider = collider.number;
       if (dynamic == nullptr) continue;
       contact.met = to;
-      contact.met_by_object = collider.object_place.invXform(to);
-      contact.normal_by_object = contact.normal * collider.object_place.getBasis();
+      contact.met_by_object = collider.object_pose.invXform(to);
+      contact.normal_by_object = contact.normal * collider.object_pose.getBasis();
       contact.gap = btDot(contact.normal, to) - contact.offset;
-      follow_object(contact, collider.motion * collider.object_place);
+      follow_object(contact, collider.motion * collider.object_pose);
     }
   };
   const auto look_at_groups = [&](std::size_t begin, std::size_t end,
                                   std::vector<RigidContact>& found) {
     ContactFinder::Nearby nearby;
     for (std::size_t g = begin; g < end; ++g) {
-      if (!meet(ways.boxes()[g], reached)) continue;
-      finder.gather(ways.boxes()[g].grown(farthest), nearby);
-      for (const int i : ways.group(g)) look_at(i, nearby, found);
+      if (!meet(swept.boxes()[g], reached)) continue;
+      finder.gather(swept.boxes()[g].grown(farthest), nearby);
+      for (const int i : swept.group(g)) look_at(i, nearby, found);
     }
   };
   // Bullet's field is made as it is asked.
-  ways.collect(look_at_groups, is_detected_alone(collider) ? team : nullptr, contacts);
+  swept.collect(look_at_groups, is_detected_alone(collider) ? team : nullptr, contacts);
 }
 
-void follow_object(RigidContact& contact, const btTransform& object_place) {
+void follow_object(RigidContact& contact, const btTransform& object_pose) {
   if (movable(contact.object) == nullptr) return;
-  const btVector3 now = object_place * contact.met_by_object;
+  const btVector3 now = object_pose * contact.met_by_object;
   contact.motion = now - contact.met;
-  contact.normal = object_place.getBasis() * contact.normal_by_object;
+  contact.normal = object_pose.getBasis() * contact.normal_by_object;
   contact.offset = btDot(contact.normal, now) - contact.gap;
 }
 

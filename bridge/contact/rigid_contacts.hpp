@@ -30,22 +30,22 @@ struct RigidContact {
   const btCollisionObject* object = nullptr;
   int collider = 0;               ///< Collider::number
   std::array<int, 2> triangle{};  ///< of a concave collider: Bullet's part and index
-  // A dynamic object carries the plane with it: the node's place as seen from the object, in the world where the
-  // step began, and as the object has it; the normal as the object has it.
+  // A dynamic object carries the plane with it: the node's position as seen from the object, in the world where the
+  // step began, and in the object's frame; the normal in the object's frame.
   btVector3 met{0, 0, 0};
   btVector3 met_by_object{0, 0, 0};
   btVector3 normal_by_object{0, 0, 0};
-  btScalar gap = 0;  ///< of that place in front of the plane [m]
+  btScalar gap = 0;  ///< of that position in front of the plane [m]
 };
 
 /// What a body's bounds meet: a whole object, or a part of it.
 struct Collider {
   const btCollisionObject* object;
   const btCollisionShape* shape;
-  btTransform place;         ///< where the step begins; of what is not dynamic, where it stands
+  btTransform pose;          ///< where the step begins; of what is not dynamic, where it stands
   const HullFacets* facets;  ///< of a hull, or nullptr
   int number = 0;            ///< to tell the parts of an object from each other
-  btTransform object_place = btTransform::getIdentity();  ///< of the whole object, as place
+  btTransform object_pose = btTransform::getIdentity();  ///< of the whole object, as pose
   /// Takes the points of a dynamic object from where the step begins to where it ends.
   btTransform motion = btTransform::getIdentity();
 };
@@ -61,39 +61,39 @@ struct Collider {
 /// Whether add_rigid_contacts() touches nothing that another body may use at the same time.
 [[nodiscard]] bool is_detected_alone(const Collider& collider);
 
-/// A body's nodes by where their ways lead, from m_q to m_x.
+/// The swept bounds of a body's nodes, from m_q to m_x.
 class SweptNodes {
  public:
-  /// The ways are others than at the last update().
-  void outdate() { is_of_now_ = false; }
-  /// Does nothing unless outdate() was called. Takes new memory only if the number of nodes is another.
+  /// Nodes have moved since the last update().
+  void invalidate() { is_current_ = false; }
+  /// Does nothing unless invalidate() was called. Allocates memory only if the number of nodes is another.
   void update(const btSoftBody& body, fast::WorkerTeam* team = nullptr);
   /// Boxes of groups of nodes, as NodeGroups has them.
   [[nodiscard]] const std::vector<MotionBox>& boxes() const { return boxes_; }
   [[nodiscard]] std::span<const int> group(std::size_t g) const { return groups_[g]; }
   [[nodiscard]] const MotionBox& all() const { return all_; }
 
-  /// work(first group, group behind the last, contacts) for parts of the groups, by a team; appends what each adds, in
+  /// work(first group, group behind the last, contacts) for ranges of the groups, by a team; appends what each adds, in
   /// order.
   template <class Work>
   void collect(const Work& work, fast::WorkerTeam* team, std::vector<RigidContact>& contacts) {
-    const std::size_t num_parts = num_parts_for(team);
-    if (num_parts == 1) return work(std::size_t{0}, boxes_.size(), contacts);
-    found_.resize(std::max(found_.size(), num_parts));
-    team->run(static_cast<int>(num_parts), [&](int part) {
-      const auto p = static_cast<std::size_t>(part);
+    const std::size_t num_ranges = num_ranges_for(team);
+    if (num_ranges == 1) return work(std::size_t{0}, boxes_.size(), contacts);
+    found_.resize(std::max(found_.size(), num_ranges));
+    team->run(static_cast<int>(num_ranges), [&](int range) {
+      const auto p = static_cast<std::size_t>(range);
       found_[p].clear();
-      work(boxes_.size() * p / num_parts, boxes_.size() * (p + 1) / num_parts, found_[p]);
+      work(boxes_.size() * p / num_ranges, boxes_.size() * (p + 1) / num_ranges, found_[p]);
     });
-    for (std::size_t p = 0; p < num_parts; ++p) {
+    for (std::size_t p = 0; p < num_ranges; ++p) {
       contacts.insert(contacts.end(), found_[p].begin(), found_[p].end());
     }
   }
 
  private:
-  /// Groups of a part: some microseconds.
+  /// Groups of a range, which are some microseconds of work.
   static constexpr std::size_t kGroups = 32;
-  [[nodiscard]] std::size_t num_parts_for(const fast::WorkerTeam* team) const {
+  [[nodiscard]] std::size_t num_ranges_for(const fast::WorkerTeam* team) const {
     if (team == nullptr || team->num_threads() == 1) return 1;
     return std::clamp<std::size_t>(boxes_.size() / kGroups, 1, fast::WorkerTeam::kMostParts);
   }
@@ -101,8 +101,8 @@ class SweptNodes {
   NodeGroups groups_;
   std::vector<MotionBox> boxes_;
   MotionBox all_ = MotionBox::nowhere();
-  bool is_of_now_ = false;
-  std::vector<std::vector<RigidContact>> found_;  ///< of each part
+  bool is_current_ = false;
+  std::vector<std::vector<RigidContact>> found_;  ///< of each range
 };
 
 /// Which pinned nodes (without a mass of their own) have contacts.
@@ -112,18 +112,18 @@ enum class PinnedNodes {
 };
 
 /// Appends the contacts of a body's nodes with a collider, between btSoftBody::predictMotion and
-/// solveConstraints of a step of time_step [s]. ways: of the body as it is.
+/// solveConstraints of a step of time_step [s]. swept: of the body as it is now.
 ///
-/// Nodes are looked up at the predicted place, as the collider sees it, up to twice the collision margin: exactly (surface_distance()), or in
+/// Nodes are looked up at the predicted position, as the collider sees it, up to twice the collision margin: exactly (surface_distance()), or in
 /// Bullet's distance field of the shape, as Bullet does; at a concave one, each triangle around gives a contact. A node that travels farther than the margin is followed along
-/// its way, relative to the object, and stopped at the surface that it meets first: however thin the
+/// its path, relative to the object, and stopped at the surface that it meets first: however thin the
 /// object, it is not shot through. Anchored nodes are left out. By a team, in the same order for any.
-void add_rigid_contacts(const btSoftBody& body, SweptNodes& ways, const Collider& collider,
+void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collider& collider,
                         btScalar time_step, PinnedNodes pinned, std::vector<RigidContact>& contacts,
                         fast::WorkerTeam* team = nullptr);
 
-/// Takes the plane of a contact with a dynamic object to where the object is at the end of the step.
-void follow_object(RigidContact& contact, const btTransform& object_place);
+/// Moves the plane of a contact with a dynamic object with the object to its pose at the end of the step.
+void follow_object(RigidContact& contact, const btTransform& object_pose);
 
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

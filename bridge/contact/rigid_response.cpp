@@ -42,7 +42,7 @@ bool RigidResponse::knows(const btCollisionObject& object) {
 }
 
 void RigidResponse::begin_step() {
-  swept_.outdate();
+  swept_.invalidate();
   contacts_.clear();
 }
 
@@ -74,8 +74,8 @@ void RigidResponse::collide(btSoftBody& body, const btCollisionObjectWrapper& ob
   }
 }
 
-// A place where the node is put says nothing of how it moves: start and end are shifted alike, by what both have in common,
-// for where the surface bends the plane at the end is none at the start. Not for objects that move: where
+// Depenetration does not change velocities: start and end are shifted alike, by what both have in common,
+// because where the surface bends the plane at the end is none at the start. Not for objects that move: where
 // the surface of one was is known to first order in its turn only, and every step would lift nodes by that.
 void RigidResponse::project_out_of_planes(const btSoftBody& body) {
   for (const Contact& contact : contacts_) {
@@ -153,7 +153,7 @@ void RigidResponse::solve(btSoftBody& body) {
       node.m_v = (1 - body.m_cfg.kDP) * body.m_sst.isdt * (node.m_x - node.m_q);
     }
   }
-  // A dynamic object stands where it came to before it was pushed: a node leaves it in place, not in speed.
+  // A dynamic object stands where it came to before it was pushed: depenetration changes a node's position, not its velocity.
   for (const Contact& contact : contacts_) {
     const btScalar gap = btDot(contact.with.normal, contact.node->m_x) - contact.with.offset;
     if (gap < 0 && contact.node->m_im > 0) contact.node->m_x -= gap * contact.with.normal;

@@ -18,7 +18,7 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-/// [m] Places are counted from a multiple of this near the body.
+/// [m] Positions are counted from a multiple of this near the body.
 constexpr btScalar kOriginGrid = btScalar(0.25);
 constexpr btScalar kFarFromOrigin = 2;  // [m] from which on another one is chosen
 /// The longest step of a program that can still be played [s].
@@ -68,7 +68,7 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
   }
   contacts_.clear();
   colliders_.clear();
-  swept_.outdate();
+  swept_.invalidate();
   excess_ = 0;
   force_history_.forget();
   last_step_ = 0;
@@ -84,7 +84,7 @@ void FastBody::wake() {
 }
 
 btVector3 FastBody::in_world(int node) const {
-  return to_bullet(places_.col(node) + origin_);
+  return to_bullet(positions_.col(node) + origin_);
 }
 
 // Far from the world's origin numbers in single precision are coarse. A multiple of a power of two changes them
@@ -96,7 +96,7 @@ void FastBody::choose_origin(const btSoftBody& body) {
   if ((last_starts_.cols() > 0 && !is_far) || !near.allFinite()) return;
   const Vector3<btScalar> origin = (near / kOriginGrid).array().round() * kOriginGrid;
   last_starts_.colwise() += origin_ - origin;
-  places_.colwise() += origin_ - origin;
+  positions_.colwise() += origin_ - origin;
   origin_ = origin;
 }
 
@@ -146,7 +146,7 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
   colliders_.clear();
   pushed_.begin_step();
   is_support_missing_ = false;
-  swept_.outdate();
+  swept_.invalidate();
   if (is_plain(body)) {
     predict_nodes(body, time_step, last_velocities_, scratch_, team_);
   } else {
@@ -165,20 +165,20 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
 void FastBody::read_prediction(const btSoftBody& body) {
   predicted_.resize(3, body.m_nodes.size());
   std::array<bool, fast::WorkerTeam::kMostParts> has_pins{};
-  fast::run_parts(team_, body.m_nodes.size(), [&](int part, int begin, int end) {
+  fast::run_parts(team_, body.m_nodes.size(), [&](int range, int begin, int end) {
     bool any = false;
     for (int i = begin; i < end; ++i) {
       const btSoftBody::Node& node = body.m_nodes[i];
       predicted_.col(i) << node.m_v.x(), node.m_v.y(), node.m_v.z();
       any = any || node.m_im <= 0;
     }
-    has_pins[static_cast<std::size_t>(part)] = any;
+    has_pins[static_cast<std::size_t>(range)] = any;
   });
   pins_.clear();
-  const fast::NodePartition parts(body.m_nodes.size());
-  for (int part = 0; part < parts.count(); ++part) {
-    if (!has_pins[static_cast<std::size_t>(part)]) continue;
-    for (int i = parts[part].begin; i < std::min(parts[part].end, body.m_nodes.size()); ++i) {
+  const fast::NodePartition ranges(body.m_nodes.size());
+  for (int range = 0; range < ranges.count(); ++range) {
+    if (!has_pins[static_cast<std::size_t>(range)]) continue;
+    for (int i = ranges[range].begin; i < std::min(ranges[range].end, body.m_nodes.size()); ++i) {
       if (body.m_nodes[i].m_im <= 0) pins_.push_back(i);
     }
   }
@@ -230,17 +230,17 @@ void FastBody::set_free(const std::vector<bool>& is_free) {
   network_ = {};  // the solver has it now
 }
 
-void FastBody::place(btSoftBody& body, btScalar time_step, bool is_looked_at) {
+void FastBody::apply_solution(btSoftBody& body, btScalar time_step, bool is_looked_at) {
   is_projected_ = solver_->was_clamped();
   project_out_of_missed_colliders(body, time_step);
   project_out_of_planes();
   exchange_impulses(body, time_step);
-  is_placed_ = is_looked_at;
-  if (is_looked_at) write_places(body);
+  is_written_ = is_looked_at;
+  if (is_looked_at) write_positions(body);
 }
 
-// Pinned nodes are where their leader has put them, to the last bit.
-void FastBody::write_places(btSoftBody& body) {
+// Pinned nodes are where the program has put them, to the last bit.
+void FastBody::write_positions(btSoftBody& body) {
   for_nodes([&](int begin, int count) {
     for (int i = begin; i < begin + count; ++i) {
       if (body.m_nodes[i].m_im > 0) body.m_nodes[i].m_x = in_world(i);
@@ -253,14 +253,14 @@ void FastBody::project_cloth_contacts(btSoftBody& body) {
   project_out_of_colliders(body);
 }
 
-// What has moved nodes since they were put to their places: other cloth.
+// Other cloth may have moved nodes since the solution was written to them.
 bool FastBody::take_changed_positions(const btSoftBody& body) {
   bool any = false;
   for (int i = 0; i < body.m_nodes.size(); ++i) {
     const btSoftBody::Node& node = body.m_nodes[i];
     if (node.m_im <= 0 || node.m_x == in_world(i)) continue;
     any = true;
-    places_.col(i) = from_bullet<btScalar>(node.m_x) - origin_;
+    positions_.col(i) = from_bullet<btScalar>(node.m_x) - origin_;
   }
   return any;
 }
@@ -269,7 +269,7 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
   const TraceScope trace("write back");
   const fast::WorkerTeam::Scope scope(team_, team_size());
   is_predicted_ = false;
-  const bool is_pushed = is_placed_ && take_changed_positions(body);
+  const bool is_pushed = is_written_ && take_changed_positions(body);
   const bool meets_cloth = body.m_scontacts.size() > 0 || is_pushed;
   find_velocities();
   step_error_.include(solver_->report(), static_cast<double>(inertia_step_), masses_.sum());
@@ -284,16 +284,16 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
       btSoftBody::Node& node = body.m_nodes[i];
       node.m_f.setZero();
       if (node.m_im > 0) {
-        if (!is_placed_) node.m_x = in_world(i);
+        if (!is_written_) node.m_x = in_world(i);
         node.m_v = (1 - body.m_cfg.kDP) * to_bullet(velocities_.col(i));
       } else {
         node.m_v = (node.m_x - node.m_q) / time_step;
       }
     }
     if (origin_.isZero(0)) return;
-    auto places = places_.middleCols(begin, count);  // with Bullet's rounding
-    places.colwise() += origin_;
-    places.colwise() -= origin_;
+    auto rounded = positions_.middleCols(begin, count);  // with Bullet's rounding
+    rounded.colwise() += origin_;
+    rounded.colwise() -= origin_;
   });
   const bool met_something = !contacts_.empty() || meets_cloth;
   last_step_ = met_something ? btScalar(0) : time_step;
@@ -311,7 +311,7 @@ void FastBody::solve(btSoftBody& body, btScalar time_step,
   read_constraints(body, time_step, is_again);
   solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, kinematic_,
                   pushed_.inertias(), bending_.empty() ? nullptr : &bending_, is_again},
-                 solver_settings, places_, team_);
+                 solver_settings, positions_, team_);
   pushed_.read_displacements(*solver_, time_step);
 }
 
@@ -333,7 +333,7 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
   const TraceScope trace("fast body");
   const fast::WorkerTeam::Scope scope(team_, team_size());
   pushed_.begin_solve(pushed);
-  if (excess_ > 0 && (was_changed_outside() || !are_places_kept())) excess_ = 0;
+  if (excess_ > 0 && (was_changed_outside() || !are_positions_kept())) excess_ = 0;
   set_targets(body, choose_method(body, time_step), time_step);
   if (!bending_.empty()) bending_.begin_step(starts_);
   solve(body, time_step, settings_.solver, false);

@@ -28,13 +28,13 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// Implicit springs for one btSoftBody of the classic world: what stands in the place of
-/// btSoftBody::solveConstraints. Bullet's bookkeeping stays: nodes are predicted as by btSoftBody::predictMotion, m_q keeps
-/// the places at the start of the step, m_v follows from places, m_f is cleared.
+/// Implicit springs for one btSoftBody of the classic world, instead of btSoftBody::solveConstraints.
+/// Bullet's bookkeeping stays: nodes are predicted as by btSoftBody::predictMotion, m_q keeps
+/// the positions at the start of the step, m_v follows from positions, m_f is cleared.
 ///
 /// Solved together: springs and dampers of the network, stabilised bending, anchors, contact with rigid
 /// shapes and Coulomb friction. Contacts with cloth (m_scontacts) are projected afterwards, as Bullet
-/// does it. A dynamic body takes part with its inertia; at the end of the step it gets the impulses, and is moved by them.
+/// does it. A dynamic body is coupled with its inertia; at the end of the step it gets the impulses, and is moved by them.
 /// Bullet's own links are not looked at.
 class FastBody : public NodeTeam {
  public:
@@ -49,14 +49,14 @@ class FastBody : public NodeTeam {
     wake();
   }
 
-  /// The body has come apart: springs in the place of all that have an end among the changed nodes
+  /// The body has torn: springs that replace all that have an end among the changed nodes
   /// (flags), masses of all nodes [kg], the last of which are copies of the origins.
   void tear(const fast::SpringNetwork& springs, const std::vector<char>& is_changed,
             VectorX<double> masses, const std::vector<int>& origins);
 
   /// Another rest length [m], > 0, of the spring between two nodes; does nothing without such a spring.
   void set_rest_length(int first, int second, double rest_length);
-  /// Laws of the body; those of bending follow the places within a step. To be called before each step.
+  /// Laws of the body; those of bending follow the positions within a step. To be called before each step.
   void set_laws(const forces::LawSet<btScalar>& laws, const VectorX<btScalar>& masses) {
     bending_.set_laws(laws, masses);
   }
@@ -68,9 +68,7 @@ class FastBody : public NodeTeam {
     step_error_ = {};
     if (sleep_.begin_step(body)) last_step_ = 0;
   }
-  void meet(const btCollisionObject& object, const btTransform& place) {
-    sleep_.meet(object, place);
-  }
+  void meet(const btCollisionObject& object, const btTransform& pose) { sleep_.meet(object, pose); }
   void notify_cloth(bool is_at_rest) { sleep_.notify_cloth(is_at_rest); }
   void end_step(btSoftBody& body, btScalar time_step) {
     sleep_.end_step(body, time_step, settings_);
@@ -82,9 +80,9 @@ class FastBody : public NodeTeam {
   /// its entry in the broadphase: predictions of several bodies may run at the same time.
   void predict(btSoftBody& body, btScalar time_step, const Matrix3X<btScalar>& positions,
                const Matrix3X<btScalar>& velocities);
-  /// After predict(): tells the broadphase of the bounds, which hold the whole way of each node.
+  /// After predict(): tells the broadphase of the bounds, which hold the swept bounds of all nodes.
   static void publish_bounds(btSoftBody& body);
-  /// In place of btSoftBody::defaultCollisionHandler: notes the object.
+  /// Instead of btSoftBody::defaultCollisionHandler: notes the object.
   void collide(const btSoftBody& body, const btCollisionObjectWrapper& object, HullTable& hulls,
                btScalar time_step);
   /// Whether predict() was called in this step. A body that is woken up in between is to be left alone.
@@ -105,9 +103,9 @@ class FastBody : public NodeTeam {
   void begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int substep, int num_substeps,
                      btScalar substep_time);
   void end_substeps(btSoftBody& body, btScalar time_step);
-  /// In place of btSoftBody::solveConstraints. prepare(), begin_solve(), solve_again() and end_solve() change only the
-  /// body, so that those of several bodies may run at the same time; place() pushes and moves rigid bodies.
-  /// pushed: those of all bodies, in order. Each of several that push one rigid body has a part of its inertia: they are
+  /// Instead of btSoftBody::solveConstraints. prepare(), begin_solve(), solve_again() and end_solve() change only the
+  /// body, so that those of several bodies may run at the same time; apply_solution() pushes and moves rigid bodies.
+  /// pushed: those of all bodies, in order. Each of several that push one rigid body has a share of its inertia: they are
   /// solved apart, and each alone would stop it.
   void prepare(const btSoftBody& body);
   void begin_solve(btSoftBody& body, btScalar time_step,
@@ -123,7 +121,7 @@ class FastBody : public NodeTeam {
   void solve_anew_if_it_gains(btSoftBody& body, btScalar time_step);
   /// Writes the solution to m_x, if anybody looks at it before end_solve(). Contacts with cloth are projected then, over all bodies, as often as
   /// kClothContactSweeps says, for what one body does to another would be lost otherwise.
-  void place(btSoftBody& body, btScalar time_step, bool is_looked_at);
+  void apply_solution(btSoftBody& body, btScalar time_step, bool is_looked_at);
   void project_cloth_contacts(btSoftBody& body);
   static constexpr int kClothContactSweeps = 16;
   void end_solve(btSoftBody& body, btScalar time_step);  ///< velocities, from m_x
@@ -132,7 +130,7 @@ class FastBody : public NodeTeam {
   /// btSoftBody::updateNormals, once no node moves any more in this step.
   void update_normals(btSoftBody& body);
   [[nodiscard]] bool has_normals() const { return has_normals_; }
-  /// [s] What the end of this step's velocity counts of a rate: BDF2 takes two thirds of the step, and the rest from the steps before.
+  /// [s] The time for which a rate at the end of this step counts: with BDF2 two thirds of the step, the rest is in the steps before.
   [[nodiscard]] btScalar velocity_step() const { return velocity_step_; }
   static constexpr int kMostRedetections = 2;  ///< how often redetect_contacts() is called
 
@@ -159,9 +157,9 @@ class FastBody : public NodeTeam {
   void set_targets(const btSoftBody& body, Method method, btScalar time_step);
   void find_velocities();
   void keep_forces(btScalar time_step);
-  [[nodiscard]] bool are_places_kept();
+  [[nodiscard]] bool are_positions_kept();
   void list_known(const btSoftBody& body);
-  [[nodiscard]] RigidContact* known_contact(const RigidContact& found, const btVector3& place,
+  [[nodiscard]] RigidContact* known_contact(const RigidContact& found, const btVector3& point,
                                             btScalar margin);
   void follow_colliders(bool to_solution);
   [[nodiscard]] btTransform solved_pose(const btRigidBody& rigid) const;
@@ -174,7 +172,7 @@ class FastBody : public NodeTeam {
   [[nodiscard]] bool was_changed_outside();
   void read_prediction(const btSoftBody& body);
   [[nodiscard]] btVector3 in_world(int node) const;
-  void write_places(btSoftBody& body);
+  void write_positions(btSoftBody& body);
   void read_constraints(const btSoftBody& body, btScalar time_step, bool is_again);
   void exchange_impulses(btSoftBody& body, btScalar time_step);
   void project_out_of_missed_colliders(btSoftBody& body, btScalar time_step);
@@ -194,7 +192,7 @@ class FastBody : public NodeTeam {
   std::vector<int> solver_pins_;  ///< likewise
   std::vector<int> pins_;         ///< of the present step
   BodySleep sleep_;
-  Vector3<btScalar> origin_ = Vector3<btScalar>::Zero();  ///< that places are counted from [m]
+  Vector3<btScalar> origin_ = Vector3<btScalar>::Zero();  ///< that positions are counted from [m]
   // The present step, 3 x n.
   Matrix3X<btScalar> weights_;           ///< masses, each thrice [kg]; 0 for pins
   Matrix3X<btScalar> starts_;            ///< q [m]
@@ -202,7 +200,7 @@ class FastBody : public NodeTeam {
   Matrix3X<btScalar> predicted_;         ///< v + h a [m/s]
   Matrix3X<btScalar> origins_;           ///< what velocities are counted from [m]
   Matrix3X<btScalar> targets_;           ///< y [m]
-  Matrix3X<btScalar> places_;            ///< solution [m]
+  Matrix3X<btScalar> positions_;         ///< solution [m]
   Matrix3X<btScalar> velocities_;        ///< solution [m/s]
   // The whole step, while it is divided into substeps.
   Matrix3X<btScalar> whole_starts_;   ///< [m]
@@ -216,14 +214,14 @@ class FastBody : public NodeTeam {
   Matrix3X<btScalar> left_velocities_;  ///< at its end, after damping
   ForceHistory force_history_;
   btScalar inertia_step_ = 0;               ///< [s] of the present step
-  btScalar velocity_step_ = 0;              ///< [s] likewise: from origins_ to places_
+  btScalar velocity_step_ = 0;              ///< [s] likewise: from origins_ to positions_
   int num_substeps_ = 1;                    ///< of the present step
   int last_num_substeps_ = 1;               ///< of the last one
   Method method_ = Method::kImplicitEuler;  ///< of the present step
   btScalar last_step_ = 0;                  ///< [s]; 0: no history
   bool is_predicted_ = false;
-  bool has_normals_ = false;   ///< of the places at the end of the present step
-  bool is_placed_ = false;     ///< before end_solve()
+  bool has_normals_ = false;   ///< of the positions at the end of the present step
+  bool is_written_ = false;    ///< before end_solve()
   bool is_projected_ = false;  ///< out of what the solution let a node into
   StepError step_error_;
   double given_to_bodies_ = 0;       ///< kinetic energy, in the present step [J]

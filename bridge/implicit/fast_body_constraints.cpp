@@ -9,9 +9,9 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& place) {
+void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& point) {
   rigid.activate();
-  rigid.applyImpulse(impulse, place - rigid.getCenterOfMassPosition());
+  rigid.applyImpulse(impulse, point - rigid.getCenterOfMassPosition());
 }
 
 /// How far below its plane a node may end a step, as a share of the margin [-].
@@ -48,7 +48,7 @@ void FastBody::follow_colliders(bool to_solution) {
     const btRigidBody* const rigid = movable(collider.object);
     if (rigid == nullptr) continue;
     const btTransform end = to_solution ? solved_pose(*rigid) : rigid->getCenterOfMassTransform();
-    collider.motion = end * collider.object_place.inverse();
+    collider.motion = end * collider.object_pose.inverse();
   }
 }
 
@@ -81,13 +81,13 @@ void FastBody::list_known(const btSoftBody& body) {
 }
 
 // Whether the solution needs contacts that are not known. Those that it keeps to anyway are left out. Where a dynamic object
-// was met by another place of the node than it has come to, the plane there counts from now on.
+// was met at another position of the node than it has come to, the plane there counts from now on.
 bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
   deep_.clear();
   if (colliders_.empty()) return false;
-  write_places(body);
+  write_positions(body);
   found_.clear();
-  swept_.outdate();
+  swept_.invalidate();
   for (const Collider& collider : colliders_) find_contacts(body, collider, time_step, found_);
   if (found_.empty()) return false;
   list_known(body);
@@ -95,15 +95,15 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
   const std::size_t num_known = contacts_.size();
   bool is_any_wrong = false;
   for (RigidContact& found : found_) {
-    const btVector3& place = body.m_nodes[found.node].m_x;
-    const btScalar gap = btDot(found.normal, place) - found.offset;
+    const btVector3& position = body.m_nodes[found.node].m_x;
+    const btScalar gap = btDot(found.normal, position) - found.offset;
     const btRigidBody* const rigid = movable(found.object);
     if (gap < -kDepthShare * margin && rigid == nullptr) deep_.push_back(found);
     RigidContact* const known = known_contact(found, place, margin);
     if (known != nullptr && rigid != nullptr) {
       RigidContact solved = *known;
       follow_object(solved, solved_pose(*rigid));
-      const btScalar known_gap = btDot(solved.normal, place) - solved.offset;
+      const btScalar known_gap = btDot(solved.normal, position) - solved.offset;
       if (std::abs(std::min(gap, known_gap)) < margin &&
           std::abs(gap - known_gap) > kPlaneShare * margin) {
         *known = found;
@@ -131,13 +131,13 @@ void FastBody::project_out_of_missed_colliders(btSoftBody& body, btScalar time_s
       if (movable(contact.object) != nullptr) continue;
       is_projected_ = true;
       if (look == kMostRedetections && &contact >= &contacts_[num_solved]) {  // between two facets
-        places_.col(contact.node) =
+        positions_.col(contact.node) =
             starts_.col(contact.node) + from_bullet<btScalar>(contact.motion);
         continue;
       }
       const Vector3<btScalar> normal = from_bullet<btScalar>(contact.normal);
-      const btScalar gap = normal.dot(places_.col(contact.node) + origin_) - contact.offset;
-      if (gap < 0) places_.col(contact.node) -= gap * normal;
+      const btScalar gap = normal.dot(positions_.col(contact.node) + origin_) - contact.offset;
+      if (gap < 0) positions_.col(contact.node) -= gap * normal;
     }
   }
   contacts_.resize(num_solved);  // the others have no force in the solution
@@ -151,8 +151,8 @@ void FastBody::project_out_of_planes() {
     const Vector3<btScalar> normal = from_bullet<btScalar>(contact.normal);
     const Vector3<btScalar> start =
         starts_.col(contact.node) + from_bullet<btScalar>(contact.motion);
-    if (normal.dot(start) > normal.dot(places_.col(contact.node)))
-      places_.col(contact.node) = start;
+    if (normal.dot(start) > normal.dot(positions_.col(contact.node)))
+      positions_.col(contact.node) = start;
   }
 }
 
@@ -185,8 +185,8 @@ void FastBody::list_coupled(const btSoftBody& body, std::vector<const btRigidBod
 void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool is_again) {
   pushed_.clear();
   btDispatcher* const dispatcher = body.m_worldInfo->m_dispatcher;
-  const auto arm_of = [](const btRigidBody& rigid, const btVector3& place) {
-    return from_bullet<btScalar>(place - rigid.getCenterOfMassPosition());
+  const auto arm_of = [](const btRigidBody& rigid, const btVector3& point) {
+    return from_bullet<btScalar>(point - rigid.getCenterOfMassPosition());
   };
   plane_contacts_.clear();
   for (const RigidContact& contact : contacts_) {
@@ -199,9 +199,9 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     if (const btRigidBody* const rigid = movable(contact.object)) {
       plane.body = pushed_.number_of(*rigid, dispatcher, time_step, is_again);
       // Where the surface holds the node, which is predicted to be deep inside.
-      const btVector3& place = body.m_nodes[contact.node].m_x;
-      const btScalar gap = btDot(contact.normal, place) - contact.offset;
-      plane.lever_arm = arm_of(*rigid, place - std::min(btScalar(0), gap) * contact.normal);
+      const btVector3& point = body.m_nodes[contact.node].m_x;
+      const btScalar gap = btDot(contact.normal, point) - contact.offset;
+      plane.lever_arm = arm_of(*rigid, point - std::min(btScalar(0), gap) * contact.normal);
     }
     plane_contacts_.push_back(plane);
   }
@@ -213,13 +213,13 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     const bool is_kinematic = std::any_of(kinematic_.begin(), kinematic_.end(),
                                           [&](const auto& other) { return other.node == node; });
     if (is_kinematic) continue;  // by an anchor before
-    const btVector3 place = anchor.m_body->getWorldTransform() * anchor.m_local;
+    const btVector3 point = anchor.m_body->getWorldTransform() * anchor.m_local;
     fast::KinematicNode<btScalar> led;
     led.node = node;
-    led.position = from_bullet<btScalar>(place) - origin_;
+    led.position = from_bullet<btScalar>(point) - origin_;
     if (const btRigidBody* const rigid = movable(anchor.m_body)) {
       led.body = pushed_.number_of(*rigid, dispatcher, time_step, is_again);
-      led.lever_arm = arm_of(*rigid, place);
+      led.lever_arm = arm_of(*rigid, point);
     }
     kinematic_.push_back(led);
   }
@@ -228,7 +228,7 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
 void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
   given_to_bodies_ = -pushed_.kinetic_energy();
   pushed_.exchange_impulses(time_step);
-  for (int a = 0; a < body.m_anchors.size(); ++a) {  // that push with a part only
+  for (int a = 0; a < body.m_anchors.size(); ++a) {  // that push with a share only
     const btSoftBody::Anchor& anchor = body.m_anchors[a];
     if (anchor.m_influence == 1 || movable(anchor.m_body) == nullptr) continue;
     const auto node = static_cast<int>(anchor.m_node - &body.m_nodes[0]);

@@ -22,9 +22,9 @@ constexpr btScalar kLively = btScalar(2.5);
 
 }  // namespace
 
-// BDF2 takes a change of velocity between steps for the beginning of a trend, and makes 4/3 of it: such a step is implicit
+// BDF2 extrapolates a change of velocity between steps and makes 4/3 of it: such a step is implicit
 // Euler, which counts it once. The steps after it have a history that has had that velocity. Velocities of pins belong to
-// whoever leads them, and are part of no history.
+// whoever leads them, and are range of no history.
 bool FastBody::was_changed_outside() {
   if (impulses_.cols() > 0) return true;
   if (left_velocities_.cols() != start_velocities_.cols()) return false;
@@ -37,7 +37,7 @@ bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
       body.m_scontacts.size() > 0 || was_changed_outside()) {
     return false;
   }
-  return are_places_kept();
+  return are_positions_kept();
 }
 
 // With dynamic bodies that springs throw back. What only lies there comes to rest by the damping of implicit Euler.
@@ -53,18 +53,18 @@ bool FastBody::may_use_forces(const btSoftBody& body, btScalar time_step) {
     const btScalar change = pushed_.displacement_of(*rigid).template head<3>().norm() / time_step;
     return rigid->getLinearVelocity().length() > least || change > least;
   };
-  return std::any_of(contacts_.begin(), contacts_.end(), is_lively) && are_places_kept();
+  return std::any_of(contacts_.begin(), contacts_.end(), is_lively) && are_positions_kept();
 }
 
 // Somebody may have moved a node since the last step.
-bool FastBody::are_places_kept() {
-  if (places_.cols() != starts_.cols()) return false;
-  for (const int pin : pins_) places_.col(pin) = starts_.col(pin);
+bool FastBody::are_positions_kept() {
+  if (positions_.cols() != starts_.cols()) return false;
+  for (const int pin : pins_) positions_.col(pin) = starts_.col(pin);
   std::array<bool, fast::WorkerTeam::kMostParts> is_same;
   is_same.fill(true);
-  fast::run_parts(team_, static_cast<int>(starts_.cols()), [&](int part, int begin, int end) {
-    is_same[static_cast<std::size_t>(part)] =
-        places_.middleCols(begin, end - begin) == starts_.middleCols(begin, end - begin);
+  fast::run_parts(team_, static_cast<int>(starts_.cols()), [&](int range, int begin, int end) {
+    is_same[static_cast<std::size_t>(range)] =
+        positions_.middleCols(begin, end - begin) == starts_.middleCols(begin, end - begin);
   });
   return std::all_of(is_same.begin(), is_same.end(), [](bool same) { return same; });
 }
@@ -83,7 +83,7 @@ void FastBody::set_targets(const btSoftBody& body, Method method, btScalar time_
                                               : time_step;
   velocity_step_ = uses_history ? inertia_step_ : time_step;
   if (method == Method::kForces) force_history_.begin_step(time_step);
-  for (Matrix3X<btScalar>* vectors : {&origins_, &targets_, &places_}) {
+  for (Matrix3X<btScalar>* vectors : {&origins_, &targets_, &positions_}) {
     vectors->resize(3, starts_.cols());
   }
   for_nodes([&](int begin, int count) {
@@ -103,9 +103,9 @@ void FastBody::set_targets(const btSoftBody& body, Method method, btScalar time_
         if (mass > 0) targets_.col(i) += time_step * time_step / mass * force_history_.known(i);
       }
     }
-    of(places_) = of(starts_) + time_step * of(start_velocities_);
+    of(positions_) = of(starts_) + time_step * of(start_velocities_);
     // Springs may hold back at once what a force would do alone.
-    if (impulses_.cols() > 0) of(places_) -= time_step * of(impulses_);
+    if (impulses_.cols() > 0) of(positions_) -= time_step * of(impulses_);
   });
   for (const int pin : pins_) {
     targets_.col(pin) = from_bullet<btScalar>(body.m_nodes[pin].m_x) - origin_;
@@ -113,10 +113,10 @@ void FastBody::set_targets(const btSoftBody& body, Method method, btScalar time_
 }
 
 void FastBody::find_velocities() {
-  velocities_.resize(3, places_.cols());
+  velocities_.resize(3, positions_.cols());
   for_nodes([&](int begin, int count) {
     auto velocities = velocities_.middleCols(begin, count);
-    velocities = places_.middleCols(begin, count) - origins_.middleCols(begin, count);
+    velocities = positions_.middleCols(begin, count) - origins_.middleCols(begin, count);
     solver_->add_compensation(begin, velocities);
     velocities /= velocity_step_;
   });
@@ -131,7 +131,7 @@ bool FastBody::gets_work_from_outside() const {
       return true;  // a ghost, a link: nobody knows how it moves
   }
   return std::any_of(pins_.begin(), pins_.end(),
-                     [&](int pin) { return places_.col(pin) != starts_.col(pin); });
+                     [&](int pin) { return positions_.col(pin) != starts_.col(pin); });
 }
 
 // Only where a dynamic body is near enough that springs may have to throw it back.
@@ -140,7 +140,7 @@ void FastBody::keep_forces(btScalar time_step) {
       std::any_of(colliders_.begin(), colliders_.end(),
                   [](const Collider& collider) { return movable(collider.object) != nullptr; });
   if (!is_any_near) return force_history_.forget();
-  force_history_.resize(places_.cols(), time_step);
+  force_history_.resize(positions_.cols(), time_step);
   for_nodes([&](int begin, int count) {
     solver_->get_forces(begin, force_history_.coming(begin, count));
     force_history_.add(begin, count);
@@ -151,10 +151,10 @@ FastBody::EnergyBalance FastBody::energy_balance(btScalar time_step, double for_
   weights_.resize(3, masses_.size());
   for (int axis = 0; axis < 3; ++axis) weights_.row(axis) = masses_.transpose().cast<btScalar>();
   for (const int pin : pins_) weights_.col(pin).setZero();
-  const double given =
-      energy_put_in({weights_, starts_, start_velocities_, predicted_, places_, time_step}, team_);
+  const double given = energy_put_in(
+      {weights_, starts_, start_velocities_, predicted_, positions_, time_step}, team_);
   const double start = solver_->spring_energy(starts_, team_);
-  const double end = solver_->spring_energy(places_, team_);
+  const double end = solver_->spring_energy(positions_, team_);
   const bool is_between = method_ == Method::kForces;
   // Where velocities are those of the middle of a step, what springs store from middle to middle counts.
   double stored = end - start;

@@ -35,7 +35,7 @@ int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
     if (rigid == nullptr) continue;
     touches_dynamic = true;
     const Collider& collider = colliders_[static_cast<std::size_t>(contact.collider)];
-    const btVector3 normal = collider.object_place.getBasis() * contact.normal_by_object;
+    const btVector3 normal = collider.object_pose.getBasis() * contact.normal_by_object;
     const btScalar approach = btDot(normal, body.m_nodes[contact.node].m_q - contact.met);
     // By what cloth has done to it in the last solve: so it will go on.
     const btScalar weight = 2 * time_step * time_step * rigid->getGravity().length();
@@ -96,13 +96,13 @@ void FastBody::begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int s
   contacts_.clear();
   pushed_.begin_step();
   is_support_missing_ = false;
-  swept_.outdate();
+  swept_.invalidate();
   for (Collider& collider : colliders_) {
     const btRigidBody* const dynamic = movable(collider.object);
     if (dynamic == nullptr) continue;
     const btTransform start = rigid.start_of(*dynamic);
-    collider.place = start * collider.object_place.inverse() * collider.place;
-    collider.object_place = start;
+    collider.pose = start * collider.object_pose.inverse() * collider.pose;
+    collider.object_pose = start;
   }
 }
 
