@@ -43,7 +43,7 @@ class DeformableWorld {
   [[nodiscard]] DeformableSolver& solver() { return *solver_; }
   [[nodiscard]] DeformableForces& forces() { return solver_->forces(); }
 
-  /// The world takes the objects over and deletes them with itself; a soft body goes through
+  /// The world owns the objects and deletes them with itself; a soft body goes through
   /// prepare_for_deformable_world().
   btSoftBody& add(std::unique_ptr<btSoftBody> body);
   /// A shape that needs others, or arrays, to live as long owns them: shared_ptr's aliasing.

@@ -33,7 +33,7 @@ class SoftWorld {
   [[nodiscard]] btSoftBodyWorldInfo& info() { return world_->getWorldInfo(); }
   [[nodiscard]] SoftBodySolver& solver() { return *solver_; }
 
-  /// The world takes the objects over and deletes them with itself.
+  /// The world owns the objects and deletes them with itself.
   btSoftBody& add(std::unique_ptr<btSoftBody> body);
   /// A shape that needs others, or arrays, to live as long owns them: shared_ptr's aliasing.
   btRigidBody& add(std::unique_ptr<btRigidBody> body, std::shared_ptr<btCollisionShape> shape);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Tested by tests/bridge/implicit/fast_body_impact_test.cpp, tests/bridge/implicit/fast_body_anchor_test.cpp.
+// Tested by tests/bridge/implicit/fast_body_impact_test.cpp, tests/bridge/implicit/fast_body_test.cpp.
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/core/types.hpp>
