@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/contact/terrain_test.cpp.
+
 #include <array>
 #include <optional>
 #include <span>

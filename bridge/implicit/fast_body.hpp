@@ -159,7 +159,7 @@ class FastBody : public NodeTeam {
   void keep_forces(btScalar time_step);
   [[nodiscard]] bool are_positions_kept();
   void list_known(const btSoftBody& body);
-  [[nodiscard]] RigidContact* known_contact(const RigidContact& found, const btVector3& point,
+  [[nodiscard]] RigidContact* known_contact(const RigidContact& found, const btVector3& position,
                                             btScalar margin);
   void follow_colliders(bool to_solution);
   [[nodiscard]] btTransform solved_pose(const btRigidBody& rigid) const;

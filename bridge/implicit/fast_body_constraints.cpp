@@ -54,15 +54,15 @@ void FastBody::follow_colliders(bool to_solution) {
 
 // The contact that is known of a node and a collider, after list_known(). Triangles of a concave one that make one plane where the
 // node is are one contact.
-RigidContact* FastBody::known_contact(const RigidContact& found, const btVector3& place,
+RigidContact* FastBody::known_contact(const RigidContact& found, const btVector3& position,
                                       btScalar margin) {
-  const btScalar gap = btDot(found.normal, place) - found.offset;
+  const btScalar gap = btDot(found.normal, position) - found.offset;
   for (int c = last_contact_[static_cast<std::size_t>(found.node)]; c >= 0;
        c = contact_before_[static_cast<std::size_t>(c)]) {
     RigidContact& known = contacts_[static_cast<std::size_t>(c)];
     if (known.collider != found.collider) continue;
     if (known.triangle == found.triangle) return &known;
-    const btScalar known_gap = btDot(known.normal, place) - known.offset;
+    const btScalar known_gap = btDot(known.normal, position) - known.offset;
     const bool is_same_plane = std::abs(gap - known_gap) <= kPlaneShare * margin &&
                                btDot(found.normal, known.normal) > kAlike;
     if (is_same_plane) return &known;
@@ -99,7 +99,7 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
     const btScalar gap = btDot(found.normal, position) - found.offset;
     const btRigidBody* const rigid = movable(found.object);
     if (gap < -kDepthShare * margin && rigid == nullptr) deep_.push_back(found);
-    RigidContact* const known = known_contact(found, place, margin);
+    RigidContact* const known = known_contact(found, position, margin);
     if (known != nullptr && rigid != nullptr) {
       RigidContact solved = *known;
       follow_object(solved, solved_pose(*rigid));

@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/bridge/solver_checks_test.cpp.
+
 #include <optional>
 #include <string>
 
