@@ -1,0 +1,96 @@
+#!/usr/bin/env bash
+# The commands for recordings: info. Texts, exit codes, files left behind.
+# Usage: recording_commands_test.sh WEFT
+set -u
+weft=$(realpath "$1") || exit 1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+checks=0
+
+check() {  # check DESCRIPTION COMMAND...: the command must succeed
+  checks=$((checks + 1))
+  if ! "${@:2}"; then
+    echo "FAILED: $1"
+    failures=$((failures + 1))
+  fi
+}
+
+exits() {  # exits CODE ARGUMENTS...: weft must end with this code; output in out and err
+  local expected=$1
+  timeout 60 "$weft" "${@:2}" >out 2>err
+  local code=$?
+  [ "$code" -eq "$expected" ] || { echo "weft ${*:2}: exit $code, expected $expected"; cat err; return 1; }
+}
+
+says() { grep -qF -- "$1" out; }
+one_line() { [ "$(wc -l <err)" -eq 1 ] && grep -qF -- "$1" err; }
+
+json() {  # json EXPRESSION: a Python expression about the array that is in the file out
+  python3 -c "import json, sys; r = json.load(open('out')); sys.exit(0 if ($1) else 1)"
+}
+
+# A recording of every kind: whole, blown up, partial with its log, damaged, cut off, foreign
+check "a run" exits 0 run drape_sphere -e reference --duration "0.6 s" -o a.weftrec
+hash=$(sed -n 's/^content hash //p' out)
+check "a run that blows up" exits 1 run drape_sphere --integrator explicit_euler -o blown.weftrec
+"$weft" run hang -e reference -o stopped.weftrec --duration "1000 s" >out 2>err &
+run=$!
+while [ ! -s stopped.partial.weftrec-wal ] && kill -0 $run; do sleep 0.01; done
+sleep 0.3
+kill -KILL $run
+wait $run 2>/dev/null
+head -c 100000 a.weftrec >cut.weftrec
+echo "a text" >text.weftrec
+mkfifo pipe.weftrec
+: >empty.weftrec
+python3 - <<'PYTHON'
+import sqlite3
+sqlite3.connect("foreign.weftrec").executescript("CREATE TABLE t (x)")
+PYTHON
+
+# What every command says of a file that is no recording
+unreadable=(gone.weftrec "no such file" cut.weftrec "truncated, 100000 of " text.weftrec "not a Weft recording"
+  pipe.weftrec "pipe.weftrec: " empty.weftrec "is empty" foreign.weftrec "another application's database" . ".: ")
+refuses() {  # refuses COMMAND with the file put after it
+  local i
+  for ((i = 0; i < ${#unreadable[@]}; i += 2)); do
+    check "$1 ${unreadable[i]}" exits 2 "$1" "${unreadable[i]}" "${@:2}"
+    check "$1 ${unreadable[i]}: names the file" one_line "weft: ${unreadable[i]}: "
+    check "$1 ${unreadable[i]}: says why" one_line "${unreadable[i + 1]}"
+  done
+}
+
+# info
+refuses info
+check "info" exits 0 info a.weftrec
+for text in "a.weftrec: finished recording of scene 'drape_sphere'" "  16 frames, t = 0 s to 0.6 s of 0.6 s" \
+  "  engine reference, float64; time step 0.01 s, frame interval 0.04 s" "  cloth 'cloth': 2500 nodes, 4802 faces" \
+  "  rigid body 'ball': sphere, fixed" "  weft: " "  format version 1, " "  content hash $hash"; do
+  check "info: $text" says "$text"
+done
+check "info of a blow-up" exits 0 info blown.weftrec
+check "says it" says "  blew up at step "
+check "info of a killed run" exits 0 info stopped.partial.weftrec
+check "says that it is partial" says "partial recording of scene 'hang'"
+check "and counts its log" says " with the -wal file beside it"
+check "says it on standard error too" one_line "stopped.partial.weftrec: a partial recording, "
+check "info of several" exits 2 info a.weftrec gone.weftrec blown.weftrec
+check "shows the others" test "$(grep -c "recording of scene" out)" -eq 2
+check "info --json" exits 0 info --json a.weftrec blown.weftrec stopped.partial.weftrec
+check "one object each" json "[o['file'] for o in r] == ['a.weftrec', 'blown.weftrec', 'stopped.partial.weftrec']"
+check "the hash" json "r[0]['content_hash'] == '$hash'"
+check "the size" json "r[0]['size_bytes'] == $(stat -c %s a.weftrec)"
+check "a partial one with its log" json "r[2]['size_bytes'] == $(($(stat -c %s stopped.partial.weftrec) + $(stat -c %s stopped.partial.weftrec-wal)))"
+check "finished or not" json "[o['is_finished'] for o in r] == [True, True, False]"
+check "times" json "r[0]['frames'] == 16 and r[0]['first_time_s'] == 0 and abs(r[0]['last_time_s'] - 0.6) < 1e-9"
+check "intervals" json "(r[0]['time_step_s'], r[0]['frame_interval_s'], r[0]['duration_s']) == (0.01, 0.04, 0.6)"
+check "engine" json "(r[0]['engine'], r[0]['precision']) == ('reference', 'float64')"
+check "bodies" json "[b['name'] for b in r[0]['bodies']] == ['cloth', 'ball'] and r[0]['bodies'][0]['faces'] == 4802"
+check "blow-up" json "r[0]['blow_up'] is None and r[1]['blow_up']['step'] > 0"
+check "info --json of nothing" exits 2 info --json gone.weftrec
+check "is an array too" json "r == []"
+
+echo "$checks checks, $failures failures"
+[ "$failures" -eq 0 ]
