@@ -15,6 +15,7 @@ namespace weft::app {
 /// Exit codes of the weft command.
 inline constexpr int kOk = 0;
 inline constexpr int kCaseFailed = 1;  ///< a validation case failed, or a simulation blew up
+inline constexpr int kDifferent = 1;   ///< two recordings are not equal
 inline constexpr int kBadInput = 2;    ///< command line, scene file, recording or output place
 inline constexpr int kSignal = 128;    ///< plus the number of the signal that stopped it
 
@@ -35,6 +36,7 @@ struct CommandLine {
 [[nodiscard]] Action add_validate_command(CLI::App& parser, const CommandLine& command_line);
 [[nodiscard]] Action add_reference_command(CLI::App& parser);
 [[nodiscard]] Action add_info_command(CLI::App& parser);
+[[nodiscard]] Action add_diff_command(CLI::App& parser);
 [[nodiscard]] Action add_render_command(CLI::App& parser);
 [[nodiscard]] Action add_contact_sheet_command(CLI::App& parser);
 [[nodiscard]] Action add_export_command(CLI::App& parser);

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The commands for recordings: info. Texts, exit codes, files left behind.
+# The commands for recordings: info, diff. Texts, exit codes, files left behind.
 # Usage: recording_commands_test.sh WEFT
 set -u
 weft=$(realpath "$1") || exit 1
@@ -91,6 +91,45 @@ check "bodies" json "[b['name'] for b in r[0]['bodies']] == ['cloth', 'ball'] an
 check "blow-up" json "r[0]['blow_up'] is None and r[1]['blow_up']['step'] > 0"
 check "info --json of nothing" exits 2 info --json gone.weftrec
 check "is an array too" json "r == []"
+
+# diff
+check "diff --help" exits 0 diff --help
+check "explains its exit codes" says "0 equal in precision, frames and blow-up, bit for bit; 1 different; 2 bad input"
+refuses diff a.weftrec
+for ((i = 0; i < ${#unreadable[@]}; i += 2)); do
+  check "diff a.weftrec ${unreadable[i]}" exits 2 diff a.weftrec "${unreadable[i]}"
+  check "names the second file" one_line "weft: ${unreadable[i]}: "
+done
+check "the same run again" exits 0 run drape_sphere -e reference -j 1 --duration "0.6 s" -o again.weftrec
+check "diff of equal ones" exits 0 diff a.weftrec again.weftrec
+check "says it" says "a.weftrec and again.weftrec: equal bit for bit, 16 frames"
+check "and nothing more" test "$(wc -l <out)" -eq 1
+check "a longer run" exits 0 run drape_sphere -e reference --duration "0.64 s" -o longer.weftrec
+check "diff of a longer one" exits 1 diff a.weftrec longer.weftrec
+for text in "a.weftrec and longer.weftrec: different" "'duration = \"0.6 s\"' and 'duration = \"0.64 s\"'" \
+  "  16 and 17 frames, 16 of them at common times" "  the frames at common times are equal bit for bit" "  cloth 'cloth': at the same place"; do
+  check "diff: $text" says "$text"
+done
+check "another integrator" exits 0 run drape_sphere -e reference --integrator runge_kutta_4 --duration "0.6 s" -o other.weftrec
+check "diff of another integrator" exits 1 diff a.weftrec other.weftrec -o diff.png
+check "says where it begins" grep -qE "^  first difference: frame 1, t = 0.04 s, body 'cloth', position of node [0-9]+$" out
+check "says how far" grep -qE "^  cloth 'cloth': at most [0-9.e-]+ m apart, node [0-9]+ at t = 0\.[0-9]+ s; rms [0-9.e-]+ m then, [0-9.e-]+ m over all common times$" out
+check "says when the picture is" grep -qE "^diff.png: t = 0\.[0-9]+ s$" out
+check "a PNG" test "$(head -c 4 diff.png | tail -c 3)" = "PNG"
+check "diff of a blow-up" exits 1 diff a.weftrec blown.weftrec
+check "says who blew up" says "  blown.weftrec: blew up at step "
+check "and who did not" says "  a.weftrec: no blow-up"
+check "diff of another scene" exits 1 diff a.weftrec stopped.partial.weftrec
+check "says what has no counterpart" says "  body 'ball': in a.weftrec alone"
+check "says what has another mesh" says "  cloth 'cloth': no distance; it has 2500 and 625 nodes"
+check "says that one is partial" one_line "stopped.partial.weftrec: a partial recording, "
+check "nothing to draw" exits 2 diff a.weftrec stopped.partial.weftrec -o none.png
+check "says why" grep -q "weft: none.png: is not drawn, expected recordings with a common time and a common body" err
+check "no picture" test ! -e none.png
+cp a.weftrec before.weftrec
+check "diff spares recordings" exits 2 diff a.weftrec longer.weftrec -o a.weftrec
+check "says so before it compares" test ! -s out
+check "the recording is whole" cmp a.weftrec before.weftrec
 
 echo "$checks checks, $failures failures"
 [ "$failures" -eq 0 ]
