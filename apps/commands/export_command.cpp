@@ -13,7 +13,6 @@
 #include <weft/playback/export/player_page.hpp>
 #include <weft/playback/rendering/image.hpp>
 #include <weft/playback/rendering/renderer.hpp>
-#include <weft/scenes/format/quantity.hpp>
 #include <weft/scenes/output/output_file.hpp>
 #include <weft/scenes/recording/playback_copy.hpp>
 #include <weft/scenes/recording/recording.hpp>
@@ -21,6 +20,7 @@
 #include "apps/app.hpp"
 #include "apps/partial_note.hpp"
 #include "apps/progress_bar.hpp"
+#include "apps/quantity_option.hpp"
 #include "apps/terminal.hpp"
 
 namespace weft::app {
@@ -47,15 +47,7 @@ double round_down(double value) {
 }
 
 double position_error(const ExportOptions& options, const scenes::Scene& scene) {
-  if (!options.error.empty()) {
-    double error = 0.0;
-    try {
-      error = scenes::parse_quantity(options.error, "m");
-    } catch (const scenes::UnitError& reason) {
-      throw InvalidArgument(fmt::format("--error \"{}\": {}", options.error, reason.what()));
-    }
-    return error;
-  }
+  if (!options.error.empty()) return quantity_option("--error", options.error, "m");
   double largest = 0.0;
   for (const scenes::Cloth& cloth : scene.cloths) {
     largest = std::max(largest, scenes::body_size(cloth.source));

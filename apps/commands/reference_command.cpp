@@ -7,13 +7,13 @@
 
 #include <weft/core/error.hpp>
 #include <weft/scenes/catalog.hpp>
-#include <weft/scenes/format/quantity.hpp>
 #include <weft/scenes/format/scene_words.hpp>
 #include <weft/scenes/output/output_file.hpp>
 #include <weft/validation/converged/converged_reference.hpp>
 
 #include "apps/app.hpp"
 #include "apps/provenance.hpp"
+#include "apps/quantity_option.hpp"
 #include "apps/terminal.hpp"
 
 namespace weft::app {
@@ -27,14 +27,6 @@ struct ReferenceOptions {
   double gate = 0.01;
   std::string output;
 };
-
-double parsed_time(const std::string& text) {
-  try {
-    return scenes::parse_quantity(text, "s");
-  } catch (const scenes::UnitError& error) {
-    throw InvalidArgument(fmt::format("--time \"{}\": {}", text, error.what()));
-  }
-}
 
 std::string shown(const std::optional<double>& value) {
   return value ? fmt::format("{:.3g}", *value) : "-";
@@ -65,7 +57,7 @@ int make_reference_data(const ReferenceOptions& options) {
   std::optional<output::OutputFile> file;
   if (!options.output.empty()) file.emplace(options.output, validation::kReferenceKind);
   validation::ConvergedReference reference =
-      validation::converge(scene, {.time = parsed_time(options.time),
+      validation::converge(scene, {.time = quantity_option("--time", options.time, "s"),
                                    .num_levels = options.levels,
                                    .first_division = options.division,
                                    .gate = options.gate});

@@ -15,13 +15,13 @@
 #include <weft/playback/rendering/image.hpp>
 #include <weft/playback/rendering/montage.hpp>
 #include <weft/playback/rendering/renderer.hpp>
-#include <weft/scenes/format/quantity.hpp>
 #include <weft/scenes/recording/recording.hpp>
 #include <weft/scenes/torn_cloth.hpp>
 
 #include "apps/app.hpp"
 #include "apps/partial_note.hpp"
 #include "apps/progress_bar.hpp"
+#include "apps/quantity_option.hpp"
 #include "apps/terminal.hpp"
 
 namespace weft::app {
@@ -40,12 +40,7 @@ struct RenderCommandOptions {
 };
 
 int frame_at(const scenes::RecordingReader& reader, const char* option, const std::string& time) {
-  double seconds = 0;
-  try {
-    seconds = scenes::parse_quantity(time, "s");
-  } catch (const scenes::UnitError& error) {
-    throw InvalidArgument(fmt::format("{} \"{}\": {}", option, time, error.what()));
-  }
+  const double seconds = quantity_option(option, time, "s");
   int best = 0;
   for (int f = 0; f < reader.num_frames(); ++f) {
     if (std::abs(reader.frame_time(f) - seconds) < std::abs(reader.frame_time(best) - seconds))

@@ -16,7 +16,6 @@
 #include <weft/core/trace.hpp>
 #include <weft/engines/engine_table.hpp>
 #include <weft/scenes/catalog.hpp>
-#include <weft/scenes/format/quantity.hpp>
 #include <weft/scenes/format/scene_file.hpp>
 #include <weft/scenes/format/scene_words.hpp>
 #include <weft/scenes/recording/recording.hpp>
@@ -28,6 +27,7 @@
 #include "apps/interruption.hpp"
 #include "apps/progress_bar.hpp"
 #include "apps/provenance.hpp"
+#include "apps/quantity_option.hpp"
 #include "apps/terminal.hpp"
 
 namespace weft::app {
@@ -69,21 +69,13 @@ scenes::StoredPrecision requested_precision(const RunOptions& options) {
                                         : scenes::StoredPrecision::kFloat32;
 }
 
-double time_option(const char* option, const std::string& text) {
-  try {
-    return scenes::parse_quantity(text, "s");
-  } catch (const scenes::UnitError& error) {
-    throw InvalidArgument(fmt::format("{} \"{}\": {}", option, text, error.what()));
-  }
-}
-
 scenes::Scene requested_scene(const RunOptions& options) {
   scenes::Scene scene = scenes::load_scene(options.scene);
   if (!options.duration.empty()) {
-    scene.world.duration = time_option("--duration", options.duration);
+    scene.world.duration = quantity_option("--duration", options.duration, "s");
   }
   if (!options.time_step.empty()) {
-    scene.world.time_step = time_option("--time-step", options.time_step);
+    scene.world.time_step = quantity_option("--time-step", options.time_step, "s");
     scene.world.implicit_time_step.reset();
   }
   const auto word = std::find(scenes::kIntegratorWords.begin(), scenes::kIntegratorWords.end(),
