@@ -37,6 +37,7 @@ struct CommandLine {
 [[nodiscard]] Action add_reference_command(CLI::App& parser);
 [[nodiscard]] Action add_info_command(CLI::App& parser);
 [[nodiscard]] Action add_diff_command(CLI::App& parser);
+[[nodiscard]] Action add_trim_command(CLI::App& parser);
 [[nodiscard]] Action add_render_command(CLI::App& parser);
 [[nodiscard]] Action add_contact_sheet_command(CLI::App& parser);
 [[nodiscard]] Action add_export_command(CLI::App& parser);

@@ -19,6 +19,7 @@ constexpr const char* kFooter = R"(Examples:
   weft run drape_sphere --engine bullet_forces --precision float64 -o drape.weftrec
   weft info drape.weftrec                    how far it goes, and whether it is whole
   weft diff drape.weftrec other.weftrec      are they equal bit for bit, and if not, how far apart?
+  weft trim drape.weftrec -o part.weftrec --from "1 s" --to "2 s"
   weft render drape.weftrec -o drape.png     a picture of the last frame
   weft export --html d.html drape.weftrec    a page that plays it in any browser
   weft check my_scene.toml                   is this scene file right?
@@ -60,6 +61,7 @@ int run(int argc, char** argv) {
   actions["run"] = add_run_command(parser, command_line);
   actions["info"] = add_info_command(parser);
   actions["diff"] = add_diff_command(parser);
+  actions["trim"] = add_trim_command(parser);
   actions["render"] = add_render_command(parser);
   actions["contact-sheet"] = add_contact_sheet_command(parser);
   actions["export"] = add_export_command(parser);

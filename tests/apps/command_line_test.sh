@@ -30,7 +30,7 @@ exits() {  # exits CODE ARGUMENTS...: weft must end with this code; output in ou
 check "help" exits 0 --help
 check "help names the commands" grep -q "validate" out
 check "help explains exit codes" grep -q "Exit codes" out
-for command in list run info diff render check validate; do check "$command --help" exits 0 $command --help; done
+for command in list run info diff trim render check validate; do check "$command --help" exits 0 $command --help; done
 check "version" exits 0 --version
 check "no command" exits 2
 check "unknown command" exits 2 simulate
@@ -125,7 +125,7 @@ for length in 238 247 250; do  # too long with .partial, .lock or .weftrec
 done
 check "no file of that name" test -z "$(find . -name 'aaa*')"
 for command in "run hang -o" "run hang --trace" "render a.weftrec -o" "contact-sheet a.weftrec -o" "reference hang -o" \
-  "contact-table -o" "validate oscillator -o" "stability hang -o" "run hang --duration" "check" "info" "diff a.weftrec" "diff a.weftrec a.weftrec -o"; do
+  "contact-table -o" "validate oscillator -o" "stability hang -o" "run hang --duration" "check" "info" "diff a.weftrec" "diff a.weftrec a.weftrec -o" "trim a.weftrec -o" "trim a.weftrec -o u.weftrec --from"; do
   # shellcheck disable=SC2086
   check "$command ''" exits 2 $command ""
   check "$command '': says so" grep -q "is empty, expected a text" err
@@ -143,6 +143,7 @@ for place in notes pipe link folder $device; do
   check "--trace: $place" exits 2 "${short[@]}" -o u.weftrec --trace $place
   check "render: $place" exits 2 render a.weftrec -o $place --size 96x54
   check "diff: $place" exits 2 diff a.weftrec a.weftrec -o $place
+  check "trim: $place" exits 2 trim a.weftrec -f -o $place
   check "contact sheet: $place" exits 2 contact-sheet a.weftrec -o $place
   check "its page: $place" exits 2 contact-sheet a.weftrec -o sheet.png --page $place
   check "reference: $place" exits 2 reference hang --time "0.005 s" --levels 3 -o $place

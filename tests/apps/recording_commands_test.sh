@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The commands for recordings: info, diff. Texts, exit codes, files left behind.
+# The commands for recordings: info, diff, trim. Texts, exit codes, files left behind.
 # Usage: recording_commands_test.sh WEFT
 set -u
 weft=$(realpath "$1") || exit 1
@@ -130,6 +130,46 @@ cp a.weftrec before.weftrec
 check "diff spares recordings" exits 2 diff a.weftrec longer.weftrec -o a.weftrec
 check "says so before it compares" test ! -s out
 check "the recording is whole" cmp a.weftrec before.weftrec
+
+# trim
+refuses trim -o part.weftrec
+for arguments in "--from 9" "--from \"9 kg\"" "--to 1s" "--every 0" "--every 1.5" "--every 99999999"; do
+  check "trim $arguments" eval "exits 2 trim a.weftrec -o part.weftrec $arguments"
+  check "names the option" grep -q -- "${arguments%% *}" err
+done
+check "trim to nothing" exits 2 trim a.weftrec -o part.weftrec --from "0.7 s"
+check "says which times there are" one_line "weft: a.weftrec: has no frame from 0.7 s to the end, expected a time from its 16 frames, t = 0 s to 0.6 s"
+check "from after to" exits 2 trim a.weftrec -o part.weftrec --from "0.4 s" --to "0.2 s"
+check "says so" one_line '--from "0.4 s": is later than --to "0.2 s"'
+check "no output" exits 2 trim a.weftrec
+check "nothing was written" test -z "$(find . -name 'part*')"
+check "trim" exits 0 trim a.weftrec -o part.weftrec --from "0.2 s" --to "0.4 s" --every 2
+check "says what is kept" says "part.weftrec: 3 of 16 frames, t = 0.2 s to 0.36 s"
+check "no lock and no partial recording is left" test "$(echo part*)" = part.weftrec
+check "info of a part" exits 0 info --json part.weftrec
+check "it is whole" json "r[0]['is_finished'] and r[0]['frames'] == 3"
+check "it says what it is" json "r[0]['provenance']['trimmed'] == 'frames 5 to 9 of 16, counted from 0, one in 2'"
+check "diff of a part" exits 1 diff part.weftrec a.weftrec
+check "it has the same bits" says "  the frames at common times are equal bit for bit"
+check "render of a part" exits 0 render part.weftrec -o part.png --size 96x54
+check "export of a part" exits 0 export --html part.html part.weftrec
+check "no overwriting" exits 2 trim a.weftrec -o part.weftrec
+check "--force" exits 0 trim a.weftrec -o part.weftrec -f
+check "of the whole" exits 0 diff part.weftrec a.weftrec
+check "into itself" exits 2 trim a.weftrec -o ./a.weftrec -f
+check "says so" one_line "-o ./a.weftrec: is the recording to trim, expected another name"
+check "the recording is as it was" cmp a.weftrec before.weftrec
+check "trim of a killed run" exits 0 trim stopped.partial.weftrec -o saved.weftrec
+check "says that it is partial" one_line "stopped.partial.weftrec: a partial recording, "
+check "is whole" exits 0 info saved.weftrec
+check "says where it comes from" says " of a partial recording, counted from 0"
+check "and equal" exits 0 diff stopped.partial.weftrec saved.weftrec
+check "trim of a blow-up" exits 0 trim blown.weftrec -o part.weftrec -f
+check "keeps the blow-up" exits 0 diff blown.weftrec part.weftrec
+(ulimit -f 40; "$weft" trim a.weftrec -o large.weftrec >out 2>err)
+check "a part that is too large for the disk" test $? -eq 2
+check "says so in one line" one_line "large.partial.weftrec: "
+check "leaves nothing" test -z "$(find . -name 'large*')"
 
 echo "$checks checks, $failures failures"
 [ "$failures" -eq 0 ]
