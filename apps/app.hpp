@@ -16,6 +16,7 @@ namespace weft::app {
 inline constexpr int kOk = 0;
 inline constexpr int kCaseFailed = 1;  ///< a validation case failed, or a simulation blew up
 inline constexpr int kDifferent = 1;   ///< two recordings are not equal
+inline constexpr int kUnsound = 1;     ///< a recording is damaged or has values that are not finite
 inline constexpr int kBadInput = 2;    ///< command line, scene file, recording or output place
 inline constexpr int kSignal = 128;    ///< plus the number of the signal that stopped it
 
@@ -38,6 +39,7 @@ struct CommandLine {
 [[nodiscard]] Action add_info_command(CLI::App& parser);
 [[nodiscard]] Action add_diff_command(CLI::App& parser);
 [[nodiscard]] Action add_trim_command(CLI::App& parser);
+[[nodiscard]] Action add_verify_command(CLI::App& parser);
 [[nodiscard]] Action add_render_command(CLI::App& parser);
 [[nodiscard]] Action add_contact_sheet_command(CLI::App& parser);
 [[nodiscard]] Action add_export_command(CLI::App& parser);

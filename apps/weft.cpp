@@ -20,6 +20,7 @@ constexpr const char* kFooter = R"(Examples:
   weft info drape.weftrec                    how far it goes, and whether it is whole
   weft diff drape.weftrec other.weftrec      are they equal bit for bit, and if not, how far apart?
   weft trim drape.weftrec -o part.weftrec --from "1 s" --to "2 s"
+  weft verify drape.weftrec                  is every frame readable, every hash right?
   weft render drape.weftrec -o drape.png     a picture of the last frame
   weft export --html d.html drape.weftrec    a page that plays it in any browser
   weft check my_scene.toml                   is this scene file right?
@@ -31,8 +32,8 @@ constexpr const char* kFooter = R"(Examples:
 A SCENE is a name from `weft list` or the path of a scene file (TOML).
 A file is never written over another one, except what the same command made before; a recording only with --force.
 A run that is stopped keeps its frames in NAME.partial.weftrec.
-Exit codes: 0 ok; 1 a case failed, a simulation blew up or two recordings differ; 2 bad input or no place for
-the output; 128 + n stopped by signal n.)";
+Exit codes: 0 ok; 1 a case failed, a simulation blew up, two recordings differ, or one is not sound;
+2 bad input or no place for the output; 128 + n stopped by signal n.)";
 
 /// A shell variable that is not set makes an empty text, which is not the same as none.
 void refuse_empty_texts(const CLI::App& command) {
@@ -62,6 +63,7 @@ int run(int argc, char** argv) {
   actions["info"] = add_info_command(parser);
   actions["diff"] = add_diff_command(parser);
   actions["trim"] = add_trim_command(parser);
+  actions["verify"] = add_verify_command(parser);
   actions["render"] = add_render_command(parser);
   actions["contact-sheet"] = add_contact_sheet_command(parser);
   actions["export"] = add_export_command(parser);

@@ -30,7 +30,7 @@ exits() {  # exits CODE ARGUMENTS...: weft must end with this code; output in ou
 check "help" exits 0 --help
 check "help names the commands" grep -q "validate" out
 check "help explains exit codes" grep -q "Exit codes" out
-for command in list run info diff trim render check validate; do check "$command --help" exits 0 $command --help; done
+for command in list run info diff trim verify render check validate; do check "$command --help" exits 0 $command --help; done
 check "version" exits 0 --version
 check "no command" exits 2
 check "unknown command" exits 2 simulate
@@ -125,7 +125,7 @@ for length in 238 247 250; do  # too long with .partial, .lock or .weftrec
 done
 check "no file of that name" test -z "$(find . -name 'aaa*')"
 for command in "run hang -o" "run hang --trace" "render a.weftrec -o" "contact-sheet a.weftrec -o" "reference hang -o" \
-  "contact-table -o" "validate oscillator -o" "stability hang -o" "run hang --duration" "check" "info" "diff a.weftrec" "diff a.weftrec a.weftrec -o" "trim a.weftrec -o" "trim a.weftrec -o u.weftrec --from"; do
+  "contact-table -o" "validate oscillator -o" "stability hang -o" "run hang --duration" "check" "info" "verify" "diff a.weftrec" "diff a.weftrec a.weftrec -o" "trim a.weftrec -o" "trim a.weftrec -o u.weftrec --from"; do
   # shellcheck disable=SC2086
   check "$command ''" exits 2 $command ""
   check "$command '': says so" grep -q "is empty, expected a text" err
@@ -202,7 +202,7 @@ check "says that it is kept" grep -q "stopped.partial.weftrec: left by an earlie
 check "it is kept" exits 0 info stopped.partial.weftrec
 
 # Standard output counts
-for words in list "list --verbose" --help "check mine.toml" "info a.weftrec" "diff a.weftrec a.weftrec"; do
+for words in list "list --verbose" --help "check mine.toml" "info a.weftrec" "diff a.weftrec a.weftrec" "verify a.weftrec"; do
   # shellcheck disable=SC2086
   "$weft" $words >/dev/full 2>err
   check "weft $words >/dev/full: exit code" test $? -eq 2

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The commands for recordings: info, diff, trim. Texts, exit codes, files left behind.
+# The commands for recordings: info, diff, trim, verify. Texts, exit codes, files left behind.
 # Usage: recording_commands_test.sh WEFT
 set -u
 weft=$(realpath "$1") || exit 1
@@ -37,8 +37,8 @@ hash=$(sed -n 's/^content hash //p' out)
 check "a run that blows up" exits 1 run drape_sphere --integrator explicit_euler -o blown.weftrec
 "$weft" run hang -e reference -o stopped.weftrec --duration "1000 s" >out 2>err &
 run=$!
-while [ ! -s stopped.partial.weftrec-wal ] && kill -0 $run; do sleep 0.01; done
-sleep 0.3
+log_size() { stat -c %s stopped.partial.weftrec-wal 2>/dev/null || echo 0; }
+while [ "$(log_size)" -lt 2500000 ] && kill -0 $run; do sleep 0.01; done  # several commits
 kill -KILL $run
 wait $run 2>/dev/null
 head -c 100000 a.weftrec >cut.weftrec
@@ -170,6 +170,36 @@ check "keeps the blow-up" exits 0 diff blown.weftrec part.weftrec
 check "a part that is too large for the disk" test $? -eq 2
 check "says so in one line" one_line "large.partial.weftrec: "
 check "leaves nothing" test -z "$(find . -name 'large*')"
+
+# verify
+refuses verify
+check "verify" exits 0 verify a.weftrec
+check "says it" says "a.weftrec: sound"
+check "counts frames" says "  all 16 committed frames are readable, 0 to 15 (t = 0 s to 0.6 s)"
+check "verify of a killed run" exits 0 verify stopped.partial.weftrec
+check "says that it is partial" says "stopped.partial.weftrec: sound, a partial recording whose run has not ended or was stopped"
+frames=$(sed -n 's/^  all \([0-9]*\) committed.*/\1/p' out)
+check "has every committed frame" grep -qE "^  all [0-9]+ committed frames are readable, 0 to " out
+cp stopped.partial.weftrec less.weftrec && head -c 1500000 stopped.partial.weftrec-wal >less.weftrec-wal
+check "verify of a log that is cut off" exits 0 verify less.weftrec
+fewer=$(sed -n 's/^  all \([0-9]*\) committed frames are readable, 0 to .*/\1/p' out)
+check "has what was committed before: ${fewer:=0} of $frames" test "$fewer" -gt 0 -a "$fewer" -le "$frames"
+cp a.weftrec damaged.weftrec
+python3 - <<'PYTHON'
+import sqlite3
+database = sqlite3.connect("damaged.weftrec")
+database.execute("UPDATE chunk SET data = zeroblob(5) WHERE id = 0")
+database.commit()
+PYTHON
+check "verify of a damaged one" exits 1 verify damaged.weftrec
+check "says it" says "damaged.weftrec: damaged"
+check "says what is left" grep -qE "^  [0-9]+ of 16 committed frames are readable: [1-9][0-9]* to 15 \(t = " out
+check "says what is wrong" says "  damaged.weftrec: data does not have its hash (chunk 0, frames 0 to "
+from=$(sed -n 's/^  .* readable: .*(t = \(.* s\) to 0.6 s)$/\1/p' out)
+check "the rest can be saved" exits 0 trim damaged.weftrec -o rest.weftrec --from "$from"
+check "and is sound" exits 0 verify rest.weftrec
+check "verify of several" exits 2 verify a.weftrec gone.weftrec damaged.weftrec
+check "looks at all of them" test "$(grep -c "^[a-z]*.weftrec: " out)" -eq 2
 
 echo "$checks checks, $failures failures"
 [ "$failures" -eq 0 ]
