@@ -54,7 +54,7 @@ void print_non_finite(const scenes::RecordingReader& reader,
   const std::optional<scenes::BlowUp> blow_up = reader.blow_up();
   print("  {}\n", blow_up ? fmt::format("the run blew up at step {}, t = {:.6g} s", blow_up->step,
                                         blow_up->time)
-                          : "the recording says of no blow-up");
+                          : "no blow-up is recorded");
 }
 
 int verify(const std::string& file) {

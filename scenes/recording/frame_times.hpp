@@ -6,12 +6,14 @@
 
 namespace weft::scenes {
 
-/// Engines add up their times step by step, Bullet steps that are rounded to single precision: what is one moment for a person
-/// differs by rounding between two recordings, and from the number that the person writes. This is how far such times may be
-/// apart [s]: a thousandth of the smallest distance of two frames, or of the scene's frame interval if there are not two.
+/// Engines add up their times step by step, Bullet steps that are rounded to single precision: what
+/// is one moment for a person differs by rounding between two recordings, and from the number that
+/// the person writes. This is how far such times may be apart [s]: a thousandth of the smallest
+/// distance of two frames, or of the scene's frame interval if there are not two.
 [[nodiscard]] double time_tolerance(const RecordingReader& reader);
 
-/// The frames from a time to another one, both included within time_tolerance() [s]. Infinite times have no end.
+/// The frames from a time to another one, both included within time_tolerance() [s]. Infinite times
+/// have no end.
 [[nodiscard]] std::vector<int> frames_between(const RecordingReader& reader, double from,
                                               double to);
 

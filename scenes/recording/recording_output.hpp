@@ -30,7 +30,8 @@ class RecordingOutput {
   /// Gives the finished recording its name. The writer must be gone.
   /// @throws Error that tells where the recording is if it cannot have its name.
   void publish() const;
-  /// Removes this run's partial recording, which has no frame or none that is not elsewhere too. The writer must be gone.
+  /// Removes this run's partial recording, which has no frame that is not elsewhere too. The writer
+  /// must be gone.
   void discard() const;
 
  private:

@@ -20,9 +20,10 @@ struct TrimRange {
 [[nodiscard]] std::vector<int> frames_to_keep(const RecordingReader& reader,
                                               const TrimRange& range);
 
-/// Writes the frames that frames_to_keep() gives, with their own times and bits, then the metrics of the range and the
-/// blow-up if it is in the range. The writer must be of the same scene and precision, and without frames. progress, if any, is
-/// called after each frame with the part that is done, 0 to 1.
+/// Writes the frames that frames_to_keep() gives, with their own times and bits, then the metrics
+/// of the range and the blow-up if it is in the range. The writer must be of the same scene and
+/// precision, and without frames. progress, if any, is called after each frame with the part that
+/// is done, 0 to 1.
 /// @throws Error if one of the frames is damaged; damage elsewhere does not matter.
 void copy_range(const RecordingReader& reader, const TrimRange& range, RecordingWriter& writer,
                 const std::function<void(double)>& progress = {});

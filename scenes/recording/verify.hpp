@@ -36,8 +36,9 @@ struct Verification {
   [[nodiscard]] bool is_sound() const { return faults.empty() && num_non_finite == 0; }
 };
 
-/// Reads all of a recording: the scene and its bodies, every frame with the hash of its chunk and its topologies, the metrics, the
-/// content hash. Goes on after a fault. progress, if any, is called after each frame with the part that is done, 0 to 1.
+/// Reads all of a recording: the scene and its bodies, every frame with the hash of its chunk and
+/// its topologies, the metrics, the content hash. Goes on after a fault. progress, if any, is
+/// called after each frame with the part that is done, 0 to 1.
 [[nodiscard]] Verification verify_recording(const RecordingReader& reader,
                                             const std::function<void(double)>& progress = {});
 

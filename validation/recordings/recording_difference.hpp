@@ -48,13 +48,15 @@ struct RecordingDifference {
   std::vector<std::string> only_in_a;  ///< names of bodies
   std::vector<std::string> only_in_b;
 
-  /// Precision, all frames with their times, all bodies and the blow-up are the same, bit for bit. The text of the scene is not looked at.
+  /// Precision, all frames with their times, all bodies and the blow-up are the same, bit for bit.
+  /// The text of the scene is not looked at.
   [[nodiscard]] bool is_equal() const;
   /// The body with the largest distance; none if none was compared.
   [[nodiscard]] const BodyDifference* farthest() const;
 };
 
-/// Compares every frame of a common time. progress, if any, is called with the part that is done, 0 to 1.
+/// Compares every frame of a common time. progress, if any, is called with the part that is done, 0
+/// to 1.
 /// @throws Error if one of them is damaged.
 [[nodiscard]] RecordingDifference compare_recordings(
     const scenes::RecordingReader& a, const scenes::RecordingReader& b,
