@@ -2,8 +2,7 @@
 
 #include <span>
 
-#include <Eigen/Core>
-
+#include <weft/core/eigen_alignment.hpp>
 #include <weft/mesh/cloth_grid.hpp>
 
 namespace weft::forces {

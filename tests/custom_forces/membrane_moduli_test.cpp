@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -290,6 +291,65 @@ TEST(StiffnessFromModuli, GivesGridsBothModuli) {
       EXPECT_NEAR(moduli.poisson(), 2 * g / (1 + std::sqrt(1 + 4 * g * g)), kRoundoff);
       EXPECT_GE(k.stretch, 0);
     }
+  }
+}
+
+/// How much longer a square sheet of 1 m gets under its own weight [-], held by its upper row: the
+/// equations of the law at rest, solved by conjugate gradients.
+double elongation_under_weight(GridStencil stencil, const SpringStiffness& k, int cells) {
+  constexpr double kGravity = 9.81;  // [m/s^2]
+  const ClothMesh mesh = make_cloth_grid({.nodes = {cells + 1, cells + 1},
+                                          .v_axis = {0, 1, 0},
+                                          .stencil = stencil,
+                                          .total_mass = 0.3});
+  const Eigen::Index width = cells + 1;  // the last row is the upper one
+  const Matrix3X<double> still = Matrix3X<double>::Zero(3, mesh.num_nodes());
+  std::vector<std::unique_ptr<ForceLaw<double>>> laws;
+  laws.push_back(make_law<double>(tension(k.stretch, {"stretch"}), mesh));
+  laws.push_back(make_law<double>(tension(k.shear, {"shear"}), mesh));
+  if (mesh.has_edge_set("bend")) {
+    laws.push_back(make_law<double>(tension(k.bend, {"bend"}), mesh));
+  }
+  const auto resistance = [&](const Matrix3X<double>& displacements) {
+    Matrix3X<double> product = still;
+    for (const auto& law : laws) {
+      Matrix3X<double> scratch(3, law->scratch_columns());
+      law->add_stiffness_product({mesh.rest_positions, still, mesh.masses}, displacements, scratch,
+                                 product);
+    }
+    product.rightCols(width).setZero();
+    return Matrix3X<double>(-product);
+  };
+  Matrix3X<double> residual = still;
+  residual.row(1) = -kGravity * mesh.masses.transpose();
+  residual.rightCols(width).setZero();
+  Matrix3X<double> displacements = still;
+  Matrix3X<double> direction = residual;
+  double squared = residual.squaredNorm();
+  const double enough = 1e-20 * squared;
+  for (int iteration = 0; squared > enough && iteration < 5000; ++iteration) {
+    const Matrix3X<double> change = resistance(direction);
+    const double alpha = squared / direction.cwiseProduct(change).sum();
+    displacements += alpha * direction;
+    residual -= alpha * change;
+    const double beta = residual.squaredNorm() / squared;
+    squared *= beta;
+    direction = residual + beta * direction;
+  }
+  return -displacements.row(1).head(width).mean();
+}
+
+TEST(StiffnessFromModuli, ASheetThatHangsGetsLongerAsTheModulusSays) {
+  constexpr double kYoung = 800;                         // [N/m]
+  constexpr double kLonger = 0.3 * 9.81 / (2 * kYoung);  // m g L / (2 E h w)
+  for (const GridStencil stencil : kStencils) {
+    const SpringStiffness k = stiffness_from_moduli(stencil, kYoung, 60);
+    // The rims count by 1 / cells, which the difference of two sheets takes out.
+    const double longer =
+        2 * elongation_under_weight(stencil, k, 24) - elongation_under_weight(stencil, k, 12);
+    constexpr double kSecondOrder =
+        0.005;  // 1 / cells^2, and the held row, which does not contract
+    EXPECT_NEAR(longer / kLonger, 1, kSecondOrder) << static_cast<int>(stencil);
   }
 }
 
