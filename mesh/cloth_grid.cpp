@@ -1,8 +1,8 @@
 #include <weft/mesh/cloth_grid.hpp>
 
+#include <array>
 #include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -12,15 +12,7 @@
 namespace weft {
 namespace {
 
-using Offset = std::pair<int, int>;
-
-// Offsets with a positive index step, so that every spring appears once and its first node has the
-// lower index.
-const std::vector<Offset> kStretchOffsets = {{1, 0}, {0, 1}};
-const std::vector<Offset> kShearOffsets = {{1, 1}, {-1, 1}};
-const std::vector<Offset> kSkipOneOffsets = {{2, 0}, {0, 2}};
-const std::vector<Offset> kRingTwoOffsets = {{2, 0}, {0, 2},  {2, 1}, {-2, 1},
-                                             {1, 2}, {-1, 2}, {2, 2}, {-2, 2}};
+using Step = std::array<int, 2>;
 
 void require(bool ok, const std::string& message) {
   if (!ok) throw InvalidArgument("cloth grid: " + message);
@@ -48,12 +40,12 @@ void check(const ClothGrid& grid) {
           "u_axis and v_axis are not perpendicular");
 }
 
-Edges edges_of_offsets(const ClothGrid& grid, const std::vector<Offset>& offsets) {
+Edges edges_of_steps(const ClothGrid& grid, const std::vector<Step>& steps) {
   const auto [columns, rows] = grid.nodes;
   std::vector<int> flat;
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
-      for (const auto& [di, dj] : offsets) {
+      for (const auto& [di, dj] : steps) {
         const int i2 = i + di;
         const int j2 = j + dj;
         if (i2 < 0 || i2 >= columns || j2 >= rows) continue;
@@ -104,6 +96,15 @@ Triangles union_jack(const ClothGrid& grid, int phase) {
 
 }  // namespace
 
+std::vector<GridEdgeSet> grid_edge_sets(GridStencil stencil) {
+  std::vector<GridEdgeSet> sets = {{"stretch", {{1, 0}, {0, 1}}}, {"shear", {{1, 1}, {-1, 1}}}};
+  if (stencil == GridStencil::k12Neighbour) sets.push_back({"bend", {{2, 0}, {0, 2}}});
+  if (stencil == GridStencil::k24Neighbour) {
+    sets.push_back({"bend", {{2, 0}, {0, 2}, {2, 1}, {-2, 1}, {1, 2}, {-1, 2}, {2, 2}, {-2, 2}}});
+  }
+  return sets;
+}
+
 ClothMesh make_cloth_grid(const ClothGrid& grid) {
   check(grid);
   const auto [columns, rows] = grid.nodes;
@@ -123,12 +124,8 @@ ClothMesh make_cloth_grid(const ClothGrid& grid) {
   mesh.crossed_triangles = union_jack(grid, 1);
   mesh.line_sets.push_back({"lines_u", lines_along(grid, 0)});
   mesh.line_sets.push_back({"lines_v", lines_along(grid, 1)});
-  mesh.edge_sets.push_back({"stretch", edges_of_offsets(grid, kStretchOffsets)});
-  mesh.edge_sets.push_back({"shear", edges_of_offsets(grid, kShearOffsets)});
-  if (grid.stencil != GridStencil::k8Neighbour) {
-    const bool ring = grid.stencil == GridStencil::k24Neighbour;
-    mesh.edge_sets.push_back(
-        {"bend", edges_of_offsets(grid, ring ? kRingTwoOffsets : kSkipOneOffsets)});
+  for (const GridEdgeSet& set : grid_edge_sets(grid.stencil)) {
+    mesh.edge_sets.push_back({set.name, edges_of_steps(grid, set.steps)});
   }
   const int num_nodes = mesh.num_nodes();
   if (grid.lumping == MassLumping::kUniform) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <string>
+#include <vector>
 
 #include <weft/mesh/cloth_mesh.hpp>
 
@@ -27,6 +29,18 @@ struct ClothGrid {
   double total_mass = 1.0;  ///< [kg], > 0
   MassLumping lumping = MassLumping::kArea;
 };
+
+/// One edge set of a grid: each node (i, j) is joined to the nodes (i + step[0], j + step[1]), as far as
+/// the grid has them.
+struct GridEdgeSet {
+  std::string name;
+  /// One of each pair of opposite steps, with a positive step of the index, so that every spring
+  /// appears once and its first node has the lower index.
+  std::vector<std::array<int, 2>> steps;
+};
+
+/// The edge sets that make_cloth_grid() gives a grid with this stencil, in their order.
+[[nodiscard]] std::vector<GridEdgeSet> grid_edge_sets(GridStencil stencil);
 
 /// Builds the mesh: edge sets "stretch" (distance 1), "shear" (diagonals) and "bend" (ring 2), line
 /// sets "lines_u" and "lines_v" (three next neighbours along an axis), and union-jack triangles (the

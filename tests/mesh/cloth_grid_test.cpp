@@ -1,5 +1,6 @@
 #include <weft/mesh/cloth_grid.hpp>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -68,6 +69,22 @@ TEST(ClothGrid, AnInnerNodeHasAsManyNeighboursAsTheStencilSays) {
         ASSERT_EQ(count[static_cast<std::size_t>(grid_node(grid, i, j))], expected);
       }
     }
+  }
+}
+
+TEST(ClothGrid, TheStepsOfAStencilAreOneOfEachPairOfNeighborsInTheOrderOfTheSets) {
+  for (const auto& [stencil, neighbors] : {std::pair{GridStencil::k24Neighbour, 24U},
+                                           {GridStencil::k12Neighbour, 12U},
+                                           {GridStencil::k8Neighbour, 8U}}) {
+    const ClothMesh mesh = make_cloth_grid(classic(stencil));
+    const std::vector<GridEdgeSet> sets = grid_edge_sets(stencil);
+    ASSERT_EQ(mesh.edge_sets.size(), sets.size());
+    std::set<std::array<int, 2>> both_ways;
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+      EXPECT_EQ(mesh.edge_sets[s].name, sets[s].name);
+      for (const auto& [i, j] : sets[s].steps) both_ways.insert({{i, j}, {-i, -j}});
+    }
+    EXPECT_EQ(both_ways.size(), neighbors);
   }
 }
 

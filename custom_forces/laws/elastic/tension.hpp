@@ -11,7 +11,8 @@ namespace weft::forces {
 ///   E = k' (l - l0)^2 / 2     f_i = k' (l - l0) u     f_j = -f_i     u = (x_j - x_i) / l
 ///   k' = k if l >= l0, else ratio k
 ///
-/// Symbols  k      stiffness          [N/m]  >= 0
+/// Symbols  k      stiffness          [N/m]  >= 0, of each spring, however long: the moduli of a
+///                                           sheet are multiples of it (membrane_moduli.hpp)
 ///          ratio  compression_ratio  [1]    0 to 1; 0: slack, 1 (default): pushes as it pulls
 ///          l0     rest length        [m]    > 0, from the mesh
 /// Errors   InvalidArgument at construction; a spring shorter than kMinLengthRatio l0 exerts
