@@ -8,8 +8,8 @@
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 
+#include <weft/bridge/adoption/suitable_body.hpp>
 #include <weft/bridge/classic/node_state.hpp>
-#include <weft/bridge/implicit/suitable_body.hpp>
 #include <weft/core/trace.hpp>
 
 namespace weft::bridge {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Tested by tests/bridge/adoption_test.cpp.
+// Tested by tests/bridge/adoption/adoption_test.cpp.
 
 #include <string>
 #include <vector>

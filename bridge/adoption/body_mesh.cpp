@@ -1,4 +1,4 @@
-#include <weft/bridge/classic/body_mesh.hpp>
+#include <weft/bridge/adoption/body_mesh.hpp>
 
 #include <algorithm>
 #include <set>

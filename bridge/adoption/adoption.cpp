@@ -1,12 +1,12 @@
-#include <weft/bridge/adoption.hpp>
+#include <weft/bridge/adoption/adoption.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
 
-#include <weft/bridge/classic/body_mesh.hpp>
-#include <weft/bridge/implicit/suitable_body.hpp>
+#include <weft/bridge/adoption/body_mesh.hpp>
+#include <weft/bridge/adoption/suitable_body.hpp>
 #include <weft/bridge/link_stiffness.hpp>
 #include <weft/core/error.hpp>
 

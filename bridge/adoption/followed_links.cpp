@@ -1,4 +1,4 @@
-#include <weft/bridge/implicit/followed_links.hpp>
+#include <weft/bridge/adoption/followed_links.hpp>
 
 #include <cmath>
 
