@@ -46,6 +46,46 @@ void read_faces(const btSoftBody& body, ClothMesh& mesh) {
   mesh.triangles = wound_alike(mesh.triangles);
 }
 
+/// Appends the links of a material to the mesh as an edge set, if there are any.
+void read_links(const btSoftBody& body, int material, bool is_bending, BodyMesh& result) {
+  LinkedEdges group;
+  group.material = body.m_materials[material];
+  group.is_bending = is_bending;
+  group.name = "material " + std::to_string(material) + (is_bending ? " (bending)" : "");
+  std::set<std::pair<int, int>> known;
+  std::vector<std::pair<int, int>> pairs;
+  double sum = 0;
+  int num_movable = 0;
+  for (int l = 0; l < body.m_links.size(); ++l) {
+    const btSoftBody::Link& link = body.m_links[l];
+    if (link.m_material != group.material || (link.m_bbending != 0) != is_bending) continue;
+    const std::pair<int, int> nodes =
+        std::minmax({index_of(body, link.m_n[0]), index_of(body, link.m_n[1])});
+    const bool has_length = nodes.first != nodes.second && link.m_rl > 0 &&
+                            (link.m_n[0]->m_x - link.m_n[1]->m_x).length2() > 0;
+    if (!has_length || !known.insert(nodes).second) {
+      ++group.num_left_out;
+      continue;
+    }
+    pairs.push_back(nodes);
+    const double mobility =
+        static_cast<double>(link.m_n[0]->m_im) + static_cast<double>(link.m_n[1]->m_im);
+    if (!(mobility > 0)) continue;
+    sum += 1 / mobility;
+    ++num_movable;
+  }
+  if (pairs.empty() && group.num_left_out == 0) return;
+  group.num_links = static_cast<int>(pairs.size());
+  group.mean_reduced_mass = num_movable > 0 ? sum / num_movable : 0.0;
+  Edges edges(2, static_cast<Eigen::Index>(pairs.size()));
+  for (Eigen::Index e = 0; e < edges.cols(); ++e) {
+    const auto& nodes = pairs[static_cast<std::size_t>(e)];
+    edges.col(e) << nodes.first, nodes.second;
+  }
+  result.mesh.edge_sets.push_back({group.name, std::move(edges)});
+  result.links.push_back(std::move(group));
+}
+
 }  // namespace
 
 BodyMesh mesh_of(const btSoftBody& body) {
@@ -53,41 +93,7 @@ BodyMesh mesh_of(const btSoftBody& body) {
   read_nodes(body, result.mesh);
   read_faces(body, result.mesh);
   for (int m = 0; m < body.m_materials.size(); ++m) {
-    LinkedEdges group;
-    group.material = body.m_materials[m];
-    group.name = "material " + std::to_string(m);
-    std::set<std::pair<int, int>> known;
-    std::vector<std::pair<int, int>> pairs;
-    double sum = 0;
-    int num_movable = 0;
-    for (int l = 0; l < body.m_links.size(); ++l) {
-      const btSoftBody::Link& link = body.m_links[l];
-      if (link.m_material != group.material) continue;
-      const std::pair<int, int> nodes =
-          std::minmax({index_of(body, link.m_n[0]), index_of(body, link.m_n[1])});
-      const bool has_length = nodes.first != nodes.second && link.m_rl > 0 &&
-                              (link.m_n[0]->m_x - link.m_n[1]->m_x).length2() > 0;
-      if (!has_length || !known.insert(nodes).second) {
-        ++group.num_left_out;
-        continue;
-      }
-      pairs.push_back(nodes);
-      const double mobility =
-          static_cast<double>(link.m_n[0]->m_im) + static_cast<double>(link.m_n[1]->m_im);
-      if (!(mobility > 0)) continue;
-      sum += 1 / mobility;
-      ++num_movable;
-    }
-    if (pairs.empty() && group.num_left_out == 0) continue;
-    group.num_links = static_cast<int>(pairs.size());
-    group.mean_reduced_mass = num_movable > 0 ? sum / num_movable : 0.0;
-    Edges edges(2, static_cast<Eigen::Index>(pairs.size()));
-    for (Eigen::Index e = 0; e < edges.cols(); ++e) {
-      const auto& nodes = pairs[static_cast<std::size_t>(e)];
-      edges.col(e) << nodes.first, nodes.second;
-    }
-    result.mesh.edge_sets.push_back({group.name, std::move(edges)});
-    result.links.push_back(std::move(group));
+    for (const bool is_bending : {false, true}) read_links(body, m, is_bending, result);
   }
   return result;
 }

@@ -119,7 +119,11 @@ void SoftBodySolver::Attachment::predict(btScalar time_step) {
   if (body->m_cfg.timescale != btScalar(1)) {
     return stop("m_cfg.timescale = " + std::to_string(body->m_cfg.timescale) + " [1], expected 1");
   }
-  const auto predict_fast = [&] { fast->predict(*body, time_step, positions, velocities); };
+  const bool is_measured_anew = body->m_bUpdateRtCst;
+  const auto predict_fast = [&] {
+    fast->predict(*body, time_step, positions, velocities);
+    if (is_measured_anew) links.restore(*body);
+  };
   const bool fits = masses().size() == body->m_nodes.size();  // if not, the laws say so
   if (fast && fits) {
     fast->apply_external_impulses(*body, time_step);
