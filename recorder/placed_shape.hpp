@@ -1,7 +1,5 @@
 #pragma once
 
-// Tested by tests/recorder/recorder_test.cpp.
-
 #include <string>
 
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>

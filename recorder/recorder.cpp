@@ -110,6 +110,10 @@ scenes::Camera view_of(const scenes::Scene& scene, const scenes::SceneState& sta
 }  // namespace
 
 struct Recorder::Impl {
+  struct Soft {
+    const btSoftBody* body;
+    std::optional<FollowedFaces> faces;  ///< of one that may tear
+  };
   struct Rigid {
     const btCollisionObject* body;
     Vector3<double> position;  ///< of the drawn shape in the body's frame [m]
@@ -127,6 +131,7 @@ struct Recorder::Impl {
 
   void require_new(const std::string& name) const;
   void read_state(double time);
+  void follow_tear(std::size_t index);
   void read_cloth(std::size_t index);
   void read_rigid(std::size_t index);
   [[nodiscard]] bool is_due(double time) const;
@@ -138,7 +143,7 @@ struct Recorder::Impl {
   scenes::Scene scene;
   std::string file;
   int num_exceptions;
-  std::vector<const btSoftBody*> cloths;
+  std::vector<Soft> cloths;
   std::vector<Rigid> rigids;
   scenes::SceneState state;
   std::optional<scenes::RecordingOutput> output;  ///< none when all is done
@@ -163,15 +168,29 @@ void Recorder::Impl::require_new(const std::string& name) const {
   }
 }
 
+void Recorder::Impl::follow_tear(std::size_t index) {
+  const Soft& soft = cloths[index];
+  scenes::ClothState& cloth = state.cloths[index];
+  const int num_nodes = soft.body->m_nodes.size();
+  if (!soft.faces || num_nodes < cloth.positions.cols()) {
+    throw InvalidArgument(fmt::format("recorder: '{}' has {} nodes, expected {} as before{}",
+                                      cloth.name, num_nodes, cloth.positions.cols(),
+                                      soft.faces ? " or more" : ", or Wholeness::kMayTear"));
+  }
+  try {
+    cloth.topology = soft.faces->now(*soft.body);
+  } catch (const InvalidArgument& error) {
+    throw InvalidArgument(fmt::format("recorder: '{}' {}", cloth.name, error.what()));
+  }
+  cloth.positions.resize(3, num_nodes);
+  cloth.velocities.resize(3, num_nodes);
+}
+
 void Recorder::Impl::read_cloth(std::size_t index) {
-  const btSoftBody& body = *cloths[index];
+  const btSoftBody& body = *cloths[index].body;
   scenes::ClothState& cloth = state.cloths[index];
   const int num_nodes = body.m_nodes.size();
-  if (num_nodes != cloth.positions.cols()) {
-    throw InvalidArgument(
-        fmt::format("recorder: '{}' has {} nodes, expected {} as when it was added", cloth.name,
-                    num_nodes, cloth.positions.cols()));
-  }
+  if (num_nodes != cloth.positions.cols()) follow_tear(index);
   for (int i = 0; i < num_nodes; ++i) {
     cloth.positions.col(i) = from_bullet(body.m_nodes[i].m_x);
     cloth.velocities.col(i) = from_bullet(body.m_nodes[i].m_v);
@@ -206,8 +225,9 @@ void Recorder::Impl::begin() {
   if (cloths.empty()) {
     throw InvalidArgument("recorder: no soft body, expected at least one before the first frame");
   }
-  if (!options.gravity && cloths[0]->m_worldInfo != nullptr) {
-    scene.world.gravity = from_bullet(cloths[0]->m_worldInfo->m_gravity);
+  const btSoftBodyWorldInfo* const info = cloths[0].body->m_worldInfo;
+  if (!options.gravity && info != nullptr) {
+    scene.world.gravity = from_bullet(info->m_gravity);
   }
   for (std::size_t r = 0; r < rigids.size(); ++r) {
     scenes::Collider& collider = scene.colliders[r];
@@ -264,13 +284,18 @@ Recorder::~Recorder() {
   }
 }
 
-void Recorder::add(const btSoftBody& body, const std::string& name) {
+void Recorder::add(const btSoftBody& body, const std::string& name, Wholeness wholeness) {
   impl_->require_new(name);
   scenes::Cloth cloth;
   try {
     cloth = recorded_cloth(body, name);
   } catch (const InvalidArgument& error) {
     throw InvalidArgument(fmt::format("recorder: '{}': {}", name, error.what()));
+  }
+  std::optional<FollowedFaces> faces;
+  if (wholeness == Wholeness::kMayTear) {
+    faces.emplace(body, scenes::make_mesh(cloth).triangles);
+    cloth.tear.emplace();  // a recording has place for torn cloth only where the scene's may tear
   }
   scenes::Scene alone = empty_scene(impl_->options);
   alone.cloths.push_back(cloth);
@@ -279,12 +304,15 @@ void Recorder::add(const btSoftBody& body, const std::string& name) {
   impl_->state.cloths.push_back(
       {name, Matrix3X<double>(3, num_nodes), Matrix3X<double>(3, num_nodes)});
   impl_->scene.cloths.push_back(std::move(cloth));
-  impl_->cloths.push_back(&body);
+  impl_->cloths.push_back({&body, std::move(faces)});
 }
 
 void Recorder::add(const btCollisionObject& body, const std::string& name) {
   if (const btSoftBody* soft = btSoftBody::upcast(&body)) return add(*soft, name);
   impl_->require_new(name);
+  if (body.getCollisionShape() == nullptr) {
+    throw InvalidArgument(fmt::format("recorder: '{}' has no shape, expected one", name));
+  }
   const PlacedShape placed =
       placed_shape(*body.getCollisionShape(), fmt::format("recorder: '{}'", name));
   scenes::Collider collider;

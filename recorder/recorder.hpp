@@ -26,6 +26,12 @@ struct View {
   std::array<double, 3> target{0, 1, 0};     ///< [m] another point than position
 };
 
+/// Whether a soft body keeps its nodes.
+enum class Wholeness {
+  kStaysWhole,  ///< as many nodes and faces as when it is added, in their order
+  kMayTear,  ///< it may get nodes, to which faces are led, as by bridge::tear() and bridge::cut()
+};
+
 struct RecorderOptions {
   std::string name = "recording";      ///< of the scene: lower-case letters, digits and '_'
   std::string summary = {};            ///< one sentence for titles
@@ -61,7 +67,8 @@ class Recorder {
   /// name that is taken or has other characters than letters, digits, '_' and '-', and for a body
   /// whose faces make no surface: each node belongs to a face, each face has an area, and no edge
   /// belongs to three of them.
-  void add(const btSoftBody& body, const std::string& name);
+  void add(const btSoftBody& body, const std::string& name,
+           Wholeness wholeness = Wholeness::kStaysWhole);
   /// A rigid body or any other collision object, with a shape that is a sphere, box, capsule,
   /// cylinder, cone, convex hull of 4 to 128 points, static plane, or a compound of these without
   /// planes. Its shape now is the one that is drawn; a convex hull is drawn without its margin.
@@ -71,8 +78,8 @@ class Recorder {
   /// To be called after each step, with the program's own time [s]. Takes a frame at the first call
   /// and then whenever another frame interval has passed; returns whether it did. Throws
   /// InvalidArgument for a time that is not finite or before that of the last call, for a recorder
-  /// without a soft body, and for a body whose number of nodes has changed (tearing is not
-  /// recorded); Error if the frame cannot be stored. Positions and velocities may be anything, also
+  /// without a soft body, and for a body whose nodes or faces have changed in another way than it was
+  /// added for; Error if the frame cannot be stored. Positions and velocities may be anything, also
   /// not finite, but in the first frame those of rigid bodies are finite.
   bool record(double time);
 
