@@ -78,9 +78,9 @@ class Recorder {
   /// To be called after each step, with the program's own time [s]. Takes a frame at the first call
   /// and then whenever another frame interval has passed; returns whether it did. Throws
   /// InvalidArgument for a time that is not finite or before that of the last call, for a recorder
-  /// without a soft body, and for a body whose nodes or faces have changed in another way than it was
-  /// added for; Error if the frame cannot be stored. Positions and velocities may be anything, also
-  /// not finite, but in the first frame those of rigid bodies are finite.
+  /// without a soft body, and for a body whose nodes or faces have changed in another way than it
+  /// was added for; Error if the frame cannot be stored. Positions and velocities may be anything,
+  /// also not finite, but in the first frame those of rigid bodies are finite.
   bool record(double time);
 
   /// Gives the recording its name and returns its content hash. No frame may follow. Throws Error
