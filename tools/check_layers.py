@@ -23,12 +23,13 @@ MAY_INCLUDE = {
     "scenes": ("characters", "custom_forces", "mesh", "core"),
     "playback": ("scenes", "characters", "custom_forces", "mesh", "core"),
     "engines": ("scenes", "reference", "bridge", "characters", "custom_forces", "mesh", "core"),
+    "recorder": ("scenes", "bridge", "mesh", "core"),
     "validation": ("engines", "playback", "scenes", "reference", "characters", "custom_forces", "mesh", "core"),
     "apps": ("validation", "engines", "playback", "scenes", "characters", "custom_forces", "mesh", "core"),
     # Programs of their own, which nothing of the above includes.
     "bench": ("validation", "engines", "scenes", "bridge", "fast_solver", "custom_forces", "mesh", "core"),
     "fuzz": ("scenes", "characters", "mesh", "core"),
-    "tests": ("bench", "apps", "validation", "engines", "playback", "scenes", "characters", "reference", "bridge",
+    "tests": ("bench", "apps", "validation", "recorder", "engines", "playback", "scenes", "characters", "reference", "bridge",
               "fast_solver", "custom_forces", "mesh", "core"),
 }
 
@@ -36,9 +37,11 @@ MAY_INCLUDE = {
 BULLET_ALLOWED = (
     "bridge/",
     "engines/bullet/",
+    "recorder/",
     "bench/bullet/",
     "tests/bridge/",
     "tests/engines/bullet/",
+    "tests/recorder/",
     "tests/install/",  # a user's program with a Bullet world of its own
     "tests/docs/",  # the samples of the documentation, likewise
 )
@@ -52,7 +55,7 @@ def faults_of_include(path, target):
     if target.startswith("../") or "/../" in target:
         yield f"'{target}' climbs out of its folder, expected <weft/module/file.hpp>"
     if BULLET.match(target) and not path.startswith(BULLET_ALLOWED):
-        yield f"'{target}' is Bullet's; Bullet types stay in bridge/ and engines/bullet/"
+        yield f"'{target}' is Bullet's; Bullet types stay in bridge/, engines/bullet/ and recorder/"
     if not target.startswith("weft/"):
         return
     includer, included = path.split("/")[0], target.split("/")[1]

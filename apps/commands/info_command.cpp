@@ -13,6 +13,7 @@
 #include <weft/core/error.hpp>
 #include <weft/engines/engine_table.hpp>
 #include <weft/scenes/format/scene_words.hpp>
+#include <weft/scenes/recording/own_loop.hpp>
 #include <weft/scenes/recording/recording.hpp>
 #include <weft/scenes/recording/storage/format.hpp>
 #include <weft/validation/report/formats/json_text.hpp>
@@ -82,6 +83,11 @@ std::string engine_of(const scenes::RecordingReader& reader) {
   return engine == reader.provenance().end() ? "" : engine->second;
 }
 
+/// Such a scene has a time step and a duration only because each scene has them.
+bool is_own_loop(const scenes::RecordingReader& reader) {
+  return engine_of(reader) == scenes::kOwnLoop;
+}
+
 std::string shape_word(const scenes::Collider& collider) {
   return std::string(scenes::kShapeWords.at(collider.shape.index()));
 }
@@ -123,17 +129,19 @@ void print_info(const scenes::RecordingReader& reader, const Contents& contents)
     print("  no frame\n");
   } else {
     const int last = reader.num_frames() - 1;
-    print("  {} frames, t = {:.6g} s to {:.6g} s of {:.6g} s\n", reader.num_frames(),
-          reader.frame_time(0), reader.frame_time(last), scene.world.duration);
+    print("  {} frames, t = {:.6g} s to {:.6g} s{}\n", reader.num_frames(), reader.frame_time(0),
+          reader.frame_time(last),
+          is_own_loop(reader) ? "" : fmt::format(" of {:.6g} s", scene.world.duration));
   }
   if (const std::optional<scenes::BlowUp> blow_up = reader.blow_up()) {
     print("  blew up at step {}, t = {:.6g} s, body '{}', node {}: {}\n", blow_up->step,
           blow_up->time, blow_up->body, blow_up->node, blow_up->reason);
   }
   const std::string engine = engine_of(reader);
-  print("  engine {}, {}; time step {:.6g} s, frame interval {:.6g} s\n",
-        engine.empty() ? "unknown" : engine, scenes::to_string(reader.precision()),
-        scene.world.time_step, scene.world.frame_interval);
+  print("  engine {}, {}; {}frame interval {:.6g} s\n", engine.empty() ? "unknown" : engine,
+        scenes::to_string(reader.precision()),
+        is_own_loop(reader) ? "" : fmt::format("time step {:.6g} s, ", scene.world.time_step),
+        scene.world.frame_interval);
   print_bodies(scene, contents.cloths);
   for (const auto& [key, value] : reader.provenance()) {
     if (key != "engine" && key != "precision") print("  {}: {}\n", key, value);
@@ -177,6 +185,7 @@ Json json_of(const scenes::RecordingReader& reader, const Contents& contents) {
   const scenes::Scene& scene = reader.scene();
   const int last = reader.num_frames() - 1;
   const std::string engine = engine_of(reader);
+  const bool own = is_own_loop(reader);
   return {{"file", contents.file},
           {"size_bytes", contents.num_bytes},
           {"format_version", scenes::format_version(scene)},
@@ -184,9 +193,9 @@ Json json_of(const scenes::RecordingReader& reader, const Contents& contents) {
           {"is_finished", reader.finished()},
           {"engine", engine.empty() ? Json(nullptr) : Json(engine)},
           {"precision", scenes::to_string(reader.precision())},
-          {"time_step_s", scene.world.time_step},
+          {"time_step_s", own ? Json(nullptr) : Json(scene.world.time_step)},
           {"frame_interval_s", scene.world.frame_interval},
-          {"duration_s", scene.world.duration},
+          {"duration_s", own ? Json(nullptr) : Json(scene.world.duration)},
           {"frames", reader.num_frames()},
           {"first_time_s", last < 0 ? Json(nullptr) : Json(reader.frame_time(0))},
           {"last_time_s", last < 0 ? Json(nullptr) : Json(reader.frame_time(last))},

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <weft/bridge/bullet/precision.hpp>
+
+class btCollisionObject;
+class btSoftBody;
+
+namespace weft::recorder {
+inline namespace WEFT_BULLET_PRECISION {
+
+/// In which precision the frames are stored.
+enum class Precision {
+  kOfBullet,  ///< that of the program's Bullet: nothing is lost
+  kSingle,    ///< half the size for a Bullet in double precision, rounded to 24 bits
+};
+
+/// From where `weft render` and the playback page look at first.
+struct View {
+  std::array<double, 3> position{8, 6, 10};  ///< [m]
+  std::array<double, 3> target{0, 1, 0};     ///< [m] another point than position
+};
+
+/// Whether a soft body keeps its nodes.
+enum class Wholeness {
+  kStaysWhole,  ///< as many nodes and faces as when it is added, in their order
+  kMayTear,  ///< it may get nodes, to which faces are led, as by bridge::tear() and bridge::cut()
+};
+
+struct RecorderOptions {
+  std::string name = "recording";      ///< of the scene: lower-case letters, digits and '_'
+  std::string summary = {};            ///< one sentence for titles
+  double frame_interval = 1.0 / 60.0;  ///< [s] between two frames, > 0
+  Precision precision = Precision::kOfBullet;
+  /// [m/s^2], for the energies that the playback page shows. None: the soft bodies' m_worldInfo,
+  /// which is zero in a program whose gravity is a law of Weft.
+  std::optional<std::array<double, 3>> gravity = std::nullopt;
+  std::optional<View> view =
+      std::nullopt;          ///< none: the bodies of the first frame fill the picture
+  bool may_replace = false;  ///< a recording of this name may be replaced when this one is whole
+};
+
+/// Records the bodies of a program's own Bullet world into a file that `weft render`, `weft info`
+/// and `weft export --html` open. The world may have any soft-body solver, Weft's or Bullet's.
+///
+/// Bodies are only read. Each must live until the last record(). One thread at a time.
+class Recorder {
+ public:
+  /// The frames go to "x.partial.weftrec" beside path until the recording is whole. Throws
+  /// InvalidArgument for options out of their domain and for a path that is taken by something else
+  /// than a recording that may be replaced, and Error if another program records to it.
+  explicit Recorder(const std::filesystem::path& path, const RecorderOptions& options = {});
+  /// As finish(), but without a message: call finish() to learn of a full disk. While an exception
+  /// leaves the recorder's scope, the partial recording stays and says that it is unfinished. A
+  /// recording without a frame leaves nothing.
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// A soft body with its nodes and faces. The positions that it has now are its rest shape, which
+  /// strains refer to. Throws InvalidArgument, which names the body, after the first frame, for a
+  /// name that is taken or has other characters than letters, digits, '_' and '-', and for a body
+  /// whose faces make no surface: each node belongs to a face, each face has an area, and no edge
+  /// belongs to three of them.
+  void add(const btSoftBody& body, const std::string& name,
+           Wholeness wholeness = Wholeness::kStaysWhole);
+  /// A rigid body or any other collision object, with a shape that is a sphere, box, capsule,
+  /// cylinder, cone, convex hull of 4 to 128 points, static plane, or a compound of these without
+  /// planes. Its shape now is the one that is drawn; a convex hull is drawn without its margin.
+  /// Throws InvalidArgument as above, and for another shape.
+  void add(const btCollisionObject& body, const std::string& name);
+
+  /// To be called after each step, with the program's own time [s]. Takes a frame at the first call
+  /// and then whenever another frame interval has passed; returns whether it did. Throws
+  /// InvalidArgument for a time that is not finite or before that of the last call, for a recorder
+  /// without a soft body, and for a body whose nodes or faces have changed in another way than it
+  /// was added for; Error if the frame cannot be stored. Positions and velocities may be anything,
+  /// also not finite, but in the first frame those of rigid bodies are finite.
+  bool record(double time);
+
+  /// Gives the recording its name and returns its content hash. No frame may follow. Throws Error
+  /// for a recording without a frame, and one that says where the frames are if it cannot be
+  /// completed.
+  std::string finish();
+
+  [[nodiscard]] int num_frames() const;  ///< taken
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::recorder
