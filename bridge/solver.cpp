@@ -8,10 +8,10 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletSoftBody/btSoftBody.h>
 
+#include <weft/bridge/adoption/suitable_body.hpp>
 #include <weft/bridge/classic/attachment.hpp>
 #include <weft/bridge/classic/position_limits.hpp>
 #include <weft/bridge/classic/torn_laws.hpp>
-#include <weft/bridge/implicit/suitable_body.hpp>
 #include <weft/core/error.hpp>
 #include <weft/core/trace.hpp>
 #include <weft/mesh/cutting/tear.hpp>

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include <weft/scenes/recording/asset_table.hpp>
-#include <weft/scenes/recording/database.hpp>
-#include <weft/scenes/recording/format.hpp>
+#include <weft/scenes/recording/storage/asset_table.hpp>
+#include <weft/scenes/recording/storage/database.hpp>
+#include <weft/scenes/recording/storage/format.hpp>
 
 namespace weft::fuzz {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <weft/bridge/classic/body_mesh.hpp>
+#include <weft/bridge/adoption/body_mesh.hpp>
 #include <weft/core/error.hpp>
 
 namespace weft::recorder {

@@ -13,9 +13,9 @@
 #include <weft/core/error.hpp>
 #include <weft/engines/engine_table.hpp>
 #include <weft/scenes/format/scene_words.hpp>
-#include <weft/scenes/recording/format.hpp>
 #include <weft/scenes/recording/own_loop.hpp>
 #include <weft/scenes/recording/recording.hpp>
+#include <weft/scenes/recording/storage/format.hpp>
 #include <weft/validation/report/formats/json_text.hpp>
 
 #include "apps/app.hpp"

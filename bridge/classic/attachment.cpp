@@ -8,8 +8,8 @@
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 
+#include <weft/bridge/adoption/suitable_body.hpp>
 #include <weft/bridge/classic/node_state.hpp>
-#include <weft/bridge/implicit/suitable_body.hpp>
 #include <weft/core/trace.hpp>
 
 namespace weft::bridge {
@@ -119,7 +119,11 @@ void SoftBodySolver::Attachment::predict(btScalar time_step) {
   if (body->m_cfg.timescale != btScalar(1)) {
     return stop("m_cfg.timescale = " + std::to_string(body->m_cfg.timescale) + " [1], expected 1");
   }
-  const auto predict_fast = [&] { fast->predict(*body, time_step, positions, velocities); };
+  const bool is_measured_anew = body->m_bUpdateRtCst;
+  const auto predict_fast = [&] {
+    fast->predict(*body, time_step, positions, velocities);
+    if (is_measured_anew) links.restore(*body);
+  };
   const bool fits = masses().size() == body->m_nodes.size();  // if not, the laws say so
   if (fast && fits) {
     fast->apply_external_impulses(*body, time_step);

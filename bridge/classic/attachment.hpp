@@ -12,10 +12,10 @@
 
 #include <BulletSoftBody/btSoftBody.h>
 
+#include <weft/bridge/adoption/followed_links.hpp>
 #include <weft/bridge/classic/body_life.hpp>
 #include <weft/bridge/contact/rigid_response.hpp>
 #include <weft/bridge/implicit/fast_body.hpp>
-#include <weft/bridge/implicit/followed_links.hpp>
 #include <weft/bridge/solver.hpp>
 #include <weft/custom_forces/deferred_forces.hpp>
 

@@ -20,6 +20,9 @@ inline constexpr std::array<std::string_view, 6> kEngineWords = {"bullet_soft",
                                                                  "reference"};
 inline constexpr std::array<std::string_view, 3> kStencilWords = {"24-neighbour", "12-neighbour",
                                                                   "8-neighbour"};
+/// Both spellings are read; that of kStencilWords, which older versions know, is written.
+inline constexpr std::array<std::string_view, 6> kReadStencilWords = {
+    "24-neighbor", "12-neighbor", "8-neighbor", "24-neighbour", "12-neighbour", "8-neighbour"};
 inline constexpr std::array<std::string_view, 2> kLumpingWords = {"area", "uniform"};
 inline constexpr std::array<std::string_view, 10> kShapeWords = {
     "sphere", "box",         "plane", "capsule",  "cylinder",

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include <weft/core/error.hpp>
-#include <weft/scenes/recording/format.hpp>
+#include <weft/scenes/recording/storage/format.hpp>
 
 namespace weft::scenes {
 namespace {

@@ -9,10 +9,10 @@
 
 #include <weft/core/error.hpp>
 #include <weft/scenes/format/scene_file.hpp>
-#include <weft/scenes/recording/asset_table.hpp>
 #include <weft/scenes/recording/codec/chunk_codec.hpp>
-#include <weft/scenes/recording/open_recording.hpp>
 #include <weft/scenes/recording/recording.hpp>
+#include <weft/scenes/recording/storage/asset_table.hpp>
+#include <weft/scenes/recording/storage/open_recording.hpp>
 
 namespace weft::scenes {
 namespace {

@@ -13,12 +13,12 @@
 
 #include <weft/core/error.hpp>
 #include <weft/scenes/format/scene_file.hpp>
-#include <weft/scenes/recording/asset_table.hpp>
 #include <weft/scenes/recording/codec/chunk_codec.hpp>
 #include <weft/scenes/recording/codec/topology_writer.hpp>
-#include <weft/scenes/recording/database.hpp>
-#include <weft/scenes/recording/format.hpp>
 #include <weft/scenes/recording/recording.hpp>
+#include <weft/scenes/recording/storage/asset_table.hpp>
+#include <weft/scenes/recording/storage/database.hpp>
+#include <weft/scenes/recording/storage/format.hpp>
 
 namespace weft::scenes {
 namespace {

@@ -84,7 +84,8 @@ ClothGrid read_grid(const TomlTable& cloth) {
                            grid.nodes[1], kMaxNodes));
   }
   if (const auto value = table.find("stencil")) {
-    grid.stencil = static_cast<GridStencil>(value->choice(kStencilWords, "stencil"));
+    const std::size_t word = value->choice(kReadStencilWords, "stencil");
+    grid.stencil = static_cast<GridStencil>(word % kStencilWords.size());
   }
   read_frame(cloth, grid);
   return grid;

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <weft/scenes/recording/database.hpp>
-#include <weft/scenes/recording/format.hpp>
+#include <weft/scenes/recording/storage/database.hpp>
+#include <weft/scenes/recording/storage/format.hpp>
 
 namespace weft::scenes {
 

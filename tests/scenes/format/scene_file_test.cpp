@@ -34,7 +34,7 @@ duration = "1/3 s"
 frame_interval = "1/30 s"
 [[cloth]]
 name = "sheet-1"
-grid = { nodes = [5, 4], size = ["70 cm", "1/3 m"], stencil = "12-neighbour" }
+grid = { nodes = [5, 4], size = ["70 cm", "1/3 m"], stencil = "12-neighbor" }
 center = ["1 mm", "2 cm", "3 dm"]
 u_axis = [0.6, 0.0, 0.8]
 v_axis = [-0.8, 0, 0.6]

@@ -8,9 +8,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <weft/scenes/recording/database.hpp>
-#include <weft/scenes/recording/format.hpp>
 #include <weft/scenes/recording/recording.hpp>
+#include <weft/scenes/recording/storage/database.hpp>
+#include <weft/scenes/recording/storage/format.hpp>
 
 #include "tests/scenes/recording/recording_samples.hpp"
 

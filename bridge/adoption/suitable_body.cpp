@@ -1,4 +1,4 @@
-#include <weft/bridge/implicit/suitable_body.hpp>
+#include <weft/bridge/adoption/suitable_body.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {

@@ -1,13 +1,13 @@
 #pragma once
 
-// Tested by tests/bridge/adoption_test.cpp.
+// Tested by tests/bridge/adoption/adoption_test.cpp.
 
 #include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include <weft/bridge/adoption.hpp>
+#include <weft/bridge/adoption/adoption.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {

@@ -29,6 +29,9 @@ class FollowedLinks {
   void forget() { is_noted_ = false; }
   /// Changes since the last call, in the order of links. Valid until the next call.
   [[nodiscard]] const std::vector<Change>& changes(const btSoftBody& body);
+  /// The rest lengths that springs have, for a body whose links Bullet has just measured anew (m_bUpdateRtCst): after setMass()
+  /// alone it would take a stretched link to be at rest.
+  void restore(btSoftBody& body) const;
   /// Why springs do not stand in for the links any more; nothing if they do.
   [[nodiscard]] std::optional<std::string> reason_against(const btSoftBody& body) const;
 

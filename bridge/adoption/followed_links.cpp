@@ -1,4 +1,4 @@
-#include <weft/bridge/implicit/followed_links.hpp>
+#include <weft/bridge/adoption/followed_links.hpp>
 
 #include <cmath>
 
@@ -32,6 +32,14 @@ const std::vector<FollowedLinks::Change>& FollowedLinks::changes(const btSoftBod
                         static_cast<int>(link.m_n[1] - nodes), static_cast<double>(link.m_rl)});
   }
   return changes_;
+}
+
+void FollowedLinks::restore(btSoftBody& body) const {
+  if (!is_noted_ || rest_lengths_.size() != static_cast<std::size_t>(body.m_links.size())) return;
+  for (int l = 0; l < body.m_links.size(); ++l) {
+    body.m_links[l].m_rl = rest_lengths_[static_cast<std::size_t>(l)];
+  }
+  body.updateLinkConstants();
 }
 
 std::optional<std::string> FollowedLinks::reason_against(const btSoftBody& body) const {

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include <weft/scenes/recording/codec/topologies.hpp>
-#include <weft/scenes/recording/database.hpp>
-#include <weft/scenes/recording/format.hpp>
+#include <weft/scenes/recording/storage/database.hpp>
+#include <weft/scenes/recording/storage/format.hpp>
 
 namespace weft::scenes {
 

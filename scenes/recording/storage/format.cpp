@@ -1,4 +1,4 @@
-#include <weft/scenes/recording/format.hpp>
+#include <weft/scenes/recording/storage/format.hpp>
 
 #include <cmath>
 #include <limits>

@@ -88,6 +88,15 @@ TEST(FollowedLinks, OneSpringAloneIsFollowed) {
   EXPECT_NEAR(static_cast<double>(-body.m_nodes[1].m_x.y()), 0.5 + 9.81 / 1000, 1e-5);  // m g / k
 }
 
+// Bullet measures all links anew after setMass(): a cloth that hangs would take its stretch for its rest.
+TEST(FollowedLinks, MassesThatChangeLeaveRestLengthsAsTheyAre) {
+  LinkedSheet sheet;
+  for (int i = 0; i < sheet.body().m_nodes.size(); ++i) sheet.body().m_nodes[i].m_x *= 2;
+  sheet.body().setMass(35, 0.02F);
+  sheet.step(400);
+  EXPECT_NEAR(sheet.diagonal(), std::sqrt(2.0), 1e-3);
+}
+
 TEST(FollowedLinks, LinksThatComeLaterAreReported) {
   LinkedSheet sheet;
   const int num_links = sheet.body().m_links.size();

@@ -1,12 +1,12 @@
-#include <weft/bridge/adoption.hpp>
+#include <weft/bridge/adoption/adoption.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
 
-#include <weft/bridge/classic/body_mesh.hpp>
-#include <weft/bridge/implicit/suitable_body.hpp>
+#include <weft/bridge/adoption/body_mesh.hpp>
+#include <weft/bridge/adoption/suitable_body.hpp>
 #include <weft/bridge/link_stiffness.hpp>
 #include <weft/core/error.hpp>
 
@@ -38,7 +38,7 @@ std::string in_newtons_per_meter(double stiffness) {
 /// Stiffness of the springs in the place of the links of one material [N/m].
 double stiffness_of(const LinkedEdges& links, const btSoftBody& body, double largest,
                     const AdoptionSettings& settings) {
-  if (settings.stiffness) return *settings.stiffness;
+  if (settings.stiffness && !links.is_bending) return *settings.stiffness;
   const double factor = std::clamp(static_cast<double>(links.material->m_kLST), 0.0, 1.0);
   if (factor == 1 || !(links.mean_reduced_mass > 0)) return largest;
   const LinkContext context{links.mean_reduced_mass, std::max(1, body.m_cfg.piterations),
@@ -50,8 +50,7 @@ double stiffness_of(const LinkedEdges& links, const btSoftBody& body, double lar
 std::vector<forces::LawSpecification> map_links(const BodyMesh& mesh, const btSoftBody& body,
                                                 const AdoptionSettings& settings,
                                                 AdoptionReport& report) {
-  const double largest =
-      kStiffestLink * mesh.mesh.masses.mean() / (settings.time_step * settings.time_step);
+  const double unit = mesh.mesh.masses.mean() / (settings.time_step * settings.time_step);
   std::vector<forces::LawSpecification> laws;
   for (const LinkedEdges& links : mesh.links) {
     const std::string what = std::to_string(links.num_links) + " links of " + links.name;
@@ -61,12 +60,13 @@ std::vector<forces::LawSpecification> map_links(const BodyMesh& mesh, const btSo
                                    "between the same nodes as another link, or without a length"});
     }
     if (links.num_links == 0) continue;
+    const double largest = unit * (links.is_bending ? kStiffestBendingLink : kStiffestLink);
     const double stiffness = stiffness_of(links, body, largest, settings);
     std::string how = "springs of " + in_newtons_per_meter(stiffness);
-    if (settings.stiffness) {
+    if (settings.stiffness && !links.is_bending) {
       how += ", as asked";
     } else if (stiffness == largest) {
-      how += ", as stiff as the step carries";
+      how += links.is_bending ? ", as much as folds" : ", as stiff as cloth";
     } else {
       how += ", what kLST = " + std::to_string(links.material->m_kLST) + " in " +
              std::to_string(std::max(1, body.m_cfg.piterations)) + " iterations and " +

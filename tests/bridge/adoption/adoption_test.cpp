@@ -1,5 +1,5 @@
 // Bodies that Bullet's own calls have made, taken over as they are.
-#include <weft/bridge/adopting_solver.hpp>
+#include <weft/bridge/adoption/adopting_solver.hpp>
 
 #include <cmath>
 #include <functional>

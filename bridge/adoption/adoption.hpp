@@ -19,7 +19,7 @@ struct AdoptionSettings {
   /// The program's step [s], > 0. Bullet's kLST is the share of a link's stretch that one of m_cfg.piterations visits takes
   /// back in a step: it has a stiffness in N/m for a given step only (link_stiffness.hpp).
   double time_step = 1.0 / 60;
-  /// The stiffness of all links [N/m], in place of what kLST says.
+  /// The stiffness of all links but bending ones [N/m], in place of what kLST says.
   std::optional<double> stiffness = std::nullopt;
   /// Beside the tension of the links: bending (hinge_torsion), damping, wind. Gravity stays the world's.
   std::vector<forces::LawSpecification> laws = {};
@@ -50,9 +50,12 @@ struct AdoptionReport {
   [[nodiscard]] std::string text() const;
 };
 
-/// Stiffness of a link with kLST = 1, which has none of its own: k h^2 / m of the mean node [-]. As stiff as a sheet of some thousand
-/// nodes is solved within the default tolerance: a hundredth of the largest that a step is solved with.
-inline constexpr double kStiffestLink = 1e5;
+/// Largest stiffness of an adopted link, and that of kLST = 1, which has none of its own: k h^2 / m of the mean node [-]. A sheet of a
+/// thousand nodes that hangs by two corners stretches by a percent there; springs that are stiffer make paper of cloth.
+inline constexpr double kStiffestLink = 1e3;
+/// The same of links of generateBendingConstraints(), which Bullet's few visits hardly ever hold: a sheet falls over an edge, in
+/// folds. Real bending is a law of its own (hinge_torsion).
+inline constexpr double kStiffestBendingLink = 1;
 
 /// Gives a body of Bullet's own making (btSoftBodyHelpers, appendNode, appendLink, appendFace) implicit springs in the place of its links
 /// (SoftBodySolver::attach_fast): from then on it moves alike for any number of iterations, and stays a btSoftBody in every

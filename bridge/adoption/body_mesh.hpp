@@ -1,6 +1,6 @@
 #pragma once
 
-// Tested by tests/bridge/adoption_test.cpp.
+// Tested by tests/bridge/adoption/adoption_test.cpp.
 
 #include <string>
 #include <vector>
@@ -13,9 +13,10 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// The links of one material of a body.
+/// The links of one material of a body, those of generateBendingConstraints() (m_bbending) apart.
 struct LinkedEdges {
   const btSoftBody::Material* material = nullptr;
+  bool is_bending = false;
   std::string name;                ///< of the edge set
   int num_links = 0;               ///< that the edge set has
   int num_left_out = 0;            ///< links between the same nodes as another one, or of no length

@@ -1,4 +1,4 @@
-#include <weft/scenes/recording/database.hpp>
+#include <weft/scenes/recording/storage/database.hpp>
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include <weft/bridge/adopting_solver.hpp>
+#include <weft/bridge/adoption/adopting_solver.hpp>
 
 #include <algorithm>
 #include <exception>

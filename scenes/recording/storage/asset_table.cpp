@@ -1,4 +1,4 @@
-#include <weft/scenes/recording/asset_table.hpp>
+#include <weft/scenes/recording/storage/asset_table.hpp>
 
 #include <cstdint>
 #include <span>

@@ -1,4 +1,4 @@
-#include <weft/scenes/recording/open_recording.hpp>
+#include <weft/scenes/recording/storage/open_recording.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -9,7 +9,7 @@
 
 #include <weft/core/error.hpp>
 #include <weft/core/input_file.hpp>
-#include <weft/scenes/recording/asset_table.hpp>
+#include <weft/scenes/recording/storage/asset_table.hpp>
 
 namespace weft::scenes {
 namespace {
