@@ -135,6 +135,7 @@ struct Recorder::Impl {
   void read_cloth(std::size_t index);
   void read_rigid(std::size_t index);
   [[nodiscard]] bool is_due(double time) const;
+  void write_blow_up(double time);
   void begin();
   /// What to say of a recording that is not completed: why, and where its frames are.
   [[nodiscard]] std::string keep_frames(std::string why);
@@ -153,6 +154,9 @@ struct Recorder::Impl {
   double first_time = 0.0;                                      ///< [s] of the first frame
   double last_interval = 0.0;  ///< number of the interval that the last frame stands for
   int num_frames = 0;
+  int num_calls = 0;  ///< of record(): the program's steps
+  std::optional<scenes::BlowUp> blow_up;
+  bool is_blow_up_written = false;
 };
 
 void Recorder::Impl::require_new(const std::string& name) const {
@@ -218,7 +222,16 @@ void Recorder::Impl::read_state(double time) {
 
 bool Recorder::Impl::is_due(double time) const {
   if (num_frames == 0) return true;
+  if (blow_up && !is_blow_up_written && time > state.time) return true;
   return (time - first_time) / options.frame_interval + kEarlyShare >= last_interval + 1;
+}
+
+void Recorder::Impl::write_blow_up(double time) {
+  if (!blow_up || is_blow_up_written) return;
+  blow_up->step = num_calls;
+  blow_up->time = time;
+  writer->set_blow_up(*blow_up);
+  is_blow_up_written = true;
 }
 
 void Recorder::Impl::begin() {
@@ -252,6 +265,7 @@ std::string Recorder::Impl::keep_frames(std::string why) {
   scenes::RecordingWriter::Committed kept;
   if (writer) {
     try {
+      write_blow_up(last_call);
       writer->commit();
     } catch (const Error&) {
       why += "; what came after the last commit cannot be stored";
@@ -344,16 +358,39 @@ bool Recorder::record(double time) {
   }
   if (!impl.is_due(time)) {
     impl.last_call = time;
+    ++impl.num_calls;
     return false;
   }
   impl.read_state(time);
   if (!impl.writer) impl.begin();
   impl.writer->add_frame(impl.state);
   impl.last_call = time;
+  ++impl.num_calls;
   if (impl.num_frames++ == 0) impl.first_time = time;
   impl.last_interval =
       std::floor((time - impl.first_time) / impl.options.frame_interval + kEarlyShare);
+  impl.write_blow_up(time);
   return true;
+}
+
+void Recorder::blow_up(const btSoftBody& body, int node, const std::string& reason) {
+  Impl& impl = *impl_;
+  const auto soft = std::find_if(impl.cloths.begin(), impl.cloths.end(),
+                                 [&](const Impl::Soft& one) { return one.body == &body; });
+  if (soft == impl.cloths.end() || impl.blow_up) return;
+  scenes::BlowUp& blow_up = impl.blow_up.emplace();
+  blow_up.body = impl.state.cloths[static_cast<std::size_t>(soft - impl.cloths.begin())].name;
+  blow_up.node = node;
+  blow_up.reason = reason;
+}
+
+void Recorder::metric(const std::string& name, double value) {
+  if (!impl_->writer) {
+    throw InvalidArgument(fmt::format(
+        "recorder: metric '{}' comes before the first frame or after the end, expected it between",
+        name));
+  }
+  impl_->writer->add_metric(name, impl_->last_call, value);
 }
 
 std::string Recorder::finish() {
@@ -364,6 +401,7 @@ std::string Recorder::finish() {
   }
   std::string hash;
   try {
+    impl.write_blow_up(impl.last_call);
     hash = impl.writer->finish();
   } catch (const Error& error) {
     throw Error(impl.keep_frames(error.what()));

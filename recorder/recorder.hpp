@@ -83,6 +83,15 @@ class Recorder {
   /// also not finite, but in the first frame those of rigid bodies are finite.
   bool record(double time);
 
+  /// Says that a soft body has blown up in the step before the next record(), which then takes a
+  /// frame in any case. Made for SoftBodySolver::set_on_blow_up(): the first recorded body counts,
+  /// everything else is ignored. node is counted from 0.
+  void blow_up(const btSoftBody& body, int node, const std::string& reason);
+  /// A number at the time of the last record(), such as ("kinetic_energy_J", 1.25): its name ends
+  /// with its unit, and the playback page draws those in J. The value may be NaN. Throws
+  /// InvalidArgument before the first frame, after the end, and for an empty name.
+  void metric(const std::string& name, double value);
+
   /// Gives the recording its name and returns its content hash. No frame may follow. Throws Error
   /// for a recording without a frame, and one that says where the frames are if it cannot be
   /// completed.

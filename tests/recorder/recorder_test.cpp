@@ -184,6 +184,62 @@ TEST_F(RecorderTest, ValuesThatAreNotFiniteAreRecorded) {
   EXPECT_TRUE(std::isnan(reader.frame(1).cloths[0].positions(1, 7)));
 }
 
+TEST_F(RecorderTest, BlowUpIsRecordedWithAFrame) {
+  options.frame_interval = 1.0;
+  {
+    Recorder recorder(path, options);
+    add_all(recorder);
+    EXPECT_TRUE(recorder.record(0.0));
+    EXPECT_FALSE(recorder.record(0.1));
+    recorder.blow_up(world.add_patch(3, 9.0), 0, "a body that is not recorded");
+    recorder.blow_up(*cloth, 7, "speed 3e8 m/s is over 1e6 m/s");
+    recorder.blow_up(*cloth, 8, "a later one");
+    EXPECT_TRUE(recorder.record(0.2));
+    EXPECT_FALSE(recorder.record(0.3));
+    EXPECT_TRUE(recorder.record(1.0));
+  }
+  const RecordingReader reader(path);
+  EXPECT_EQ(reader.num_frames(), 3);
+  const scenes::BlowUp blow_up = reader.blow_up().value();
+  EXPECT_EQ(blow_up.body, "cape");
+  EXPECT_EQ(blow_up.node, 7);
+  EXPECT_EQ(blow_up.step, 3);
+  EXPECT_EQ(blow_up.time, 0.2);
+  EXPECT_EQ(blow_up.reason, "speed 3e8 m/s is over 1e6 m/s");
+}
+
+TEST_F(RecorderTest, BlowUpOfTheLastStepIsRecorded) {
+  {
+    Recorder recorder(path, options);
+    add_all(recorder);
+    EXPECT_TRUE(recorder.record(0.5));
+    recorder.blow_up(*cloth, 7, "position is not finite");
+  }
+  const RecordingReader reader(path);
+  EXPECT_TRUE(reader.finished());
+  EXPECT_EQ(reader.blow_up().value().time, 0.5);
+}
+
+TEST_F(RecorderTest, MetricsAreThoseOfTheLastCall) {
+  {
+    Recorder recorder(path, options);
+    add_all(recorder);
+    EXPECT_THAT(
+        [&] { recorder.metric("energy_J", 1); },
+        ThrowsMessage<InvalidArgument>(HasSubstr("'energy_J' comes before the first frame")));
+    EXPECT_TRUE(recorder.record(0.0));
+    recorder.metric("energy_J", 1.5);
+    EXPECT_FALSE(recorder.record(0.01));
+    recorder.metric("energy_J", 2.5);
+  }
+  const auto samples = RecordingReader(path).metric("energy_J");
+  ASSERT_EQ(samples.size(), 2u);
+  EXPECT_EQ(samples[0].time, 0.0);
+  EXPECT_EQ(samples[0].value, 1.5);
+  EXPECT_EQ(samples[1].time, 0.01);
+  EXPECT_EQ(samples[1].value, 2.5);
+}
+
 TEST_F(RecorderTest, SinglePrecisionRoundsEachValueOnce) {
   options.precision = Precision::kSingle;
   {
