@@ -156,10 +156,9 @@ std::string AdoptionReport::text() const {
 AdoptionReport adopt(SoftBodySolver& solver, btSoftBody& body, const AdoptionSettings& settings) {
   check(settings);
   AdoptionReport report;
-  if (auto reason = reason_against_implicit(body)) {
-    report.refusal = reason;
-    return report;
-  }
+  report.refusal = reason_against_implicit(body);
+  if (!report.refusal && body.m_links.size() == 0) report.refusal = "it has no links";
+  if (report.refusal) return report;
   if (body.m_bUpdateRtCst) {  // what Bullet would do first in the next step
     body.m_bUpdateRtCst = false;
     body.updateConstants();

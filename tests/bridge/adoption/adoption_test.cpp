@@ -331,6 +331,16 @@ TEST(Adoption, LinksWithoutLengthAndTwiceBetweenTheSameNodesAreLeftOut) {
   EXPECT_THAT(report.text(), HasSubstr("2 links of material 1: mapped"));
 }
 
+TEST(Adoption, ABodyWithoutLinksStaysBullets) {
+  SoftBodySolver solver;
+  PlainWorld world(&solver);
+  const btVector3 position = vector(0, 1, 0);
+  const btScalar mass = 1;
+  btSoftBody& body = *world.add(new btSoftBody(&world.world.getWorldInfo(), 1, &position, &mass));
+  EXPECT_EQ(adopt(solver, body).refusal, "it has no links");
+  EXPECT_FALSE(solver.has_laws(body));
+}
+
 TEST(Adoption, SettingsOutOfTheirDomainAreRefused) {
   SoftBodySolver solver;
   PlainWorld world(&solver);
