@@ -38,7 +38,7 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& tensor, double angle) {
   return strains.transpose() * tensor * strains;
 }
 
-/// What one strain meets while the two others take the values of least energy.
+/// The stiffness that one strain meets while the two others take the values of least energy.
 struct Relaxed {
   double modulus;           ///< [N/m]
   Eigen::Vector2d strains;  ///< the two others, in their order, over the one [-]

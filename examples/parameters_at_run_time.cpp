@@ -1,4 +1,4 @@
-// What a running program may change, and when it acts: in the next step.
+// A running program changes laws, masses and rest lengths, which act from the next step on.
 #include <cmath>
 #include <cstdio>
 

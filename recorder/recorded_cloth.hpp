@@ -24,7 +24,7 @@ class FollowedFaces {
   /// triangles: of the cloth's mesh, which may be wound in another way than the body's faces.
   FollowedFaces(const btSoftBody& body, Triangles triangles);
 
-  /// What the body consists of now, if it has more nodes than at first. Throws InvalidArgument if
+  /// The nodes and faces of the body now, if it has more nodes than at first. Throws InvalidArgument if
   /// it has other faces than torn cloth has: as many as before, and each corner at its node of the
   /// first mesh or at a later one, which belongs to one node of the first mesh.
   [[nodiscard]] std::shared_ptr<const scenes::ClothTopology> now(const btSoftBody& body) const;

@@ -137,7 +137,7 @@ struct Recorder::Impl {
   [[nodiscard]] bool is_due(double time) const;
   void write_blow_up(double time);
   void begin();
-  /// What to say of a recording that is not completed: why, and where its frames are.
+  /// The message about a recording that is not completed: why, and where its frames are.
   [[nodiscard]] std::string keep_frames(std::string why);
 
   RecorderOptions options;

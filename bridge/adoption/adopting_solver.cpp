@@ -21,11 +21,11 @@ void AdoptingSolver::adopt_one(btSoftBody& body) {
   const auto known = std::find_if(refused_.begin(), refused_.end(),
                                   [&](const Refused& one) { return one.body == &body; });
   if (known != refused_.end() && known->is_final) return;
-  const std::optional<AdoptionSettings> settings = policy_ ? policy_(body) : settings_;
-  if (!settings) return;
   AdoptionReport report;
   bool is_final = false;
   try {
+    const std::optional<AdoptionSettings> settings = policy_ ? policy_(body) : settings_;
+    if (!settings) return;
     report = adopt(*this, body, *settings);
   } catch (const std::exception& error) {
     report = {error.what(), {}};

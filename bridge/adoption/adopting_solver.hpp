@@ -18,7 +18,8 @@ inline namespace WEFT_BULLET_PRECISION {
 ///   weft::bridge::AdoptingSolver solver;
 ///   btSoftRigidDynamicsWorld world(dispatcher, broadphase, constraints, configuration, &solver);
 ///
-/// A body that cannot be adopted is stepped by Bullet, bit for bit, and adopted as soon as it can. One that is detached is adopted again,
+/// A body that cannot be adopted is stepped by Bullet, bit for bit, and adopted as soon as it can; one whose adoption or policy
+/// ends with an exception is not tried again. One that is detached is adopted again,
 /// unless the policy says otherwise.
 class AdoptingSolver : public SoftBodySolver {
  public:

@@ -159,10 +159,8 @@ AdoptionReport adopt(SoftBodySolver& solver, btSoftBody& body, const AdoptionSet
   report.refusal = reason_against_implicit(body);
   if (!report.refusal && body.m_links.size() == 0) report.refusal = "it has no links";
   if (report.refusal) return report;
-  if (body.m_bUpdateRtCst) {  // what Bullet would do first in the next step
-    body.m_bUpdateRtCst = false;
-    body.updateConstants();
-  }
+  // Bullet would do so first in the next step. It will, and builds the tree of faces then: the flag stays.
+  if (body.m_bUpdateRtCst) body.resetLinkRestLengths();
   const BodyMesh mesh = mesh_of(body);
   std::vector<forces::LawSpecification> laws = map_links(mesh, body, settings, report);
   if (laws.empty()) {

@@ -26,7 +26,7 @@ struct AdoptionSettings {
   FastSettings fast = {};
 };
 
-/// What has become of one of a body's properties.
+/// The fate of one of a body's properties.
 struct AdoptedProperty {
   enum class Fate {
     kKept,          ///< acts as before

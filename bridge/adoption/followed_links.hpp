@@ -11,7 +11,7 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// What a program does to the links of a body whose springs are solved for in place of its links. A new rest length
+/// Follows the program's changes to the links of a body whose springs are solved for in their place. A new rest length
 /// (btSoftBody::Link::m_rl) is followed by the spring between the same nodes. Links that come or go have no spring that
 /// could follow.
 class FollowedLinks {

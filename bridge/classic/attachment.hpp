@@ -76,7 +76,7 @@ struct SoftBodySolver::Attachment {
     }
   }
   [[nodiscard]] bool acts_after_projection(forces::LawTraits::Level level) const;
-  /// What the program has done to a fast body since the last step.
+  /// Begins a step of a fast body with what the program has done to it since the last one.
   void begin_fast_step();
   /// In a step: what the body's bounds meet. False for what is Bullet's to solve.
   bool collide(const btCollisionObjectWrapper& object, HullTable& hulls, btScalar time_step);

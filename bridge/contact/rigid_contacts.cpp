@@ -201,7 +201,7 @@ std::optional<RigidContact> find_in_field(const btSoftBody& body, const Collider
 /// The contacts of a body's nodes with a collider, by the kind of its shape.
 class ContactFinder {
  public:
-  /// What the nodes of a group have around them, and memory to work with.
+  /// The surroundings of the nodes of a group, and memory to work with.
   struct Nearby {
     std::vector<ConcaveSurface::Triangle> triangles;
     std::vector<ConcaveSurface::Plane> planes;

@@ -331,6 +331,45 @@ TEST(Adoption, LinksWithoutLengthAndTwiceBetweenTheSameNodesAreLeftOut) {
   EXPECT_THAT(report.text(), HasSubstr("2 links of material 1: mapped"));
 }
 
+// Bullet builds the tree of faces in the first step of a body, and its own contacts of cloth need it.
+TEST(Adoption, AnAdoptedSheetHoldsOneThatIsBullets) {
+  AdoptingSolver solver;
+  PlainWorld world(&solver);
+  btSoftBody& held = *world.add(make_patch(world.world.getWorldInfo(), 1 + 2 + 4 + 8));
+  btSoftBody& dropped = *world.add(btSoftBodyHelpers::CreatePatch(
+      world.world.getWorldInfo(), vector(-0.4, 2.5, -0.4), vector(0.4, 2.5, -0.4),
+      vector(-0.4, 2.5, 0.4), vector(0.4, 2.5, 0.4), 7, 7, 0, true));
+  for (btSoftBody* body : {&held, &dropped}) {
+    body->m_cfg.collisions |= btSoftBody::fCollision::VF_SS;
+    body->getCollisionShape()->setMargin(btScalar(0.05));
+  }
+  dropped.setTotalMass(1);
+  solver.set_policy([&](const btSoftBody& body) -> std::optional<AdoptionSettings> {
+    if (&body == &dropped) return std::nullopt;
+    return AdoptionSettings{};
+  });
+  run(world, 1);
+  EXPECT_FALSE(held.m_fdbvt.empty());
+  run(world, 240);
+  EXPECT_FALSE(solver.has_laws(dropped));
+  EXPECT_GT(height(dropped, 24), height(held, 84) - 0.02);  // its middle is not below the other's
+}
+
+TEST(Adoption, APolicyThatThrowsLeavesTheBodyToBullet) {
+  AdoptingSolver solver;
+  std::string refusal;
+  solver.set_on_adoption(
+      [&](btSoftBody&, const AdoptionReport& report) { refusal = report.refusal.value_or(""); });
+  solver.set_policy([](const btSoftBody&) -> std::optional<AdoptionSettings> {
+    throw InvalidArgument("no such costume");
+  });
+  PlainWorld world(&solver);
+  btSoftBody& body = *world.add(make_patch(world.world.getWorldInfo(), 1 + 2));
+  run(world, 3);
+  EXPECT_EQ(refusal, "no such costume");
+  EXPECT_FALSE(solver.has_laws(body));
+}
+
 TEST(Adoption, ABodyWithoutLinksStaysBullets) {
   SoftBodySolver solver;
   PlainWorld world(&solver);

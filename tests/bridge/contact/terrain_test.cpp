@@ -250,6 +250,53 @@ TEST(Terrain, ClothThatIsPutIntoAHeightFieldComesOut) {
   EXPECT_GT(nearest.minCoeff(), kMargin - 1e-3);
 }
 
+// A lift: kinematic ground, whose velocity Bullet derives from where it is put.
+TEST(Terrain, GroundThatMovesCarriesTheClothAlong) {
+  for (const Make make : {&make_mesh, &make_height_field}) {
+    Terrain terrain = make(flat);
+    SoftWorld world({});
+    const ClothMesh mesh = cloth(11, 1, 0.05);
+    btSoftBody& body = world.add(
+        make_cloth_body(world.info(), mesh, {.collision_margin = kMargin, .friction = 1}));
+    ASSERT_FALSE(world.solver().attach_fast(body, mesh, kLaws));
+    btRigidBody& lift = add_rigid(world, terrain.shape, 0, btTransform::getIdentity());
+    lift.setCollisionFlags(lift.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+    for (int step = 0; step < 30; ++step) world.step(kTimeStep);
+    constexpr double kSpeed = 0.5;  // [m/s] up and sideways
+    for (int step = 1; step <= 120; ++step) {
+      const double way = kSpeed * step * kTimeStep;
+      const btTransform next(btQuaternion::getIdentity(), vector(way, way, 0));
+      lift.setLinearVelocity((next.getOrigin() - lift.getWorldTransform().getOrigin()) /
+                             btScalar(kTimeStep));
+      lift.setWorldTransform(next);
+      world.step(kTimeStep);
+    }
+    Matrix3X<btScalar> positions;
+    Matrix3X<btScalar> velocities;
+    read_nodes(body, positions, velocities);
+    EXPECT_NEAR(static_cast<double>(positions.row(1).mean()), 1 + kMargin, 5e-3);
+    EXPECT_NEAR(static_cast<double>(velocities.row(0).mean()), kSpeed, 0.05);
+  }
+}
+
+TEST(Terrain, AHeightFieldMayHaveAnotherAxisUp) {
+  std::vector<btScalar> heights(25, btScalar(0));
+  const PHY_ScalarType type = sizeof(btScalar) == sizeof(double) ? PHY_DOUBLE : PHY_FLOAT;
+  auto field = std::make_shared<btHeightfieldTerrainShape>(
+      5, 5, heights.data(), btScalar(1), btScalar(-1), btScalar(1), 2, type, false);
+  SoftWorld world({});
+  const ClothMesh mesh = cloth(8, 0.8, 0.1);
+  btSoftBody& body = world.add(make_cloth_body(world.info(), mesh, {.collision_margin = kMargin}));
+  ASSERT_FALSE(world.solver().attach_fast(body, mesh, kLaws));
+  // Its z up becomes the world's y up.
+  add_rigid(world, field, 0,
+            btTransform(btQuaternion(vector(1, 0, 0), -SIMD_HALF_PI), vector(0, 0, 0)));
+  for (int step = 0; step < 120; ++step) world.step(kTimeStep);
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    EXPECT_NEAR(static_cast<double>(body.m_nodes[i].m_x.y()), kMargin, 1e-4);
+  }
+}
+
 TEST(Terrain, ExplicitLawsMeetItToo) {
   for (const Make make : kAll) {
     const Terrain terrain = make(flat);
