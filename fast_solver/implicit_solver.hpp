@@ -153,8 +153,8 @@ class ImplicitSolver : TeamLoops {
   void multiply(const Floats& displacements, Floats6 Body::*motion, Floats& product,
                 Floats6 Body::*body_product, const Next& and_then);
   void start_linear(const StepProblem<Scalar>& problem);
-  [[nodiscard]] LinearGain solve_linear(const StepProblem<Scalar>& problem, int iterations,
-                                        double least_gain);
+  [[nodiscard]] LinearGain solve_linear(const StepProblem<Scalar>& problem,
+                                        const NewtonIteration& iteration);
   /// The products of a correction c and the direction d before it: c . r, c . A d and c . A c.
   using Overlaps = VectorKernel::Products;
   [[nodiscard]] Overlaps precondition(Floats& correction, bool is_first);
@@ -237,6 +237,7 @@ class ImplicitSolver : TeamLoops {
   double work_done_ = 0;             ///< work_left_ before the step was taken [J]
   double residual_ = 0;
   LinearGain last_gain_;  ///< gain of the last iteration
+  LinearGains gains_;     ///< of the last linear solve
   SolverReport report_;
   double step_energy_ = 0;
   bool has_constraint_forces_ = false;
