@@ -32,7 +32,10 @@ void include_in_bounds(const Matrix3X<btScalar>& positions, btSoftBody& body) {
 
 FastBody::FastBody(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
                    VectorX<double> masses, const FastSettings& settings)
-    : network_(fast::make_network(mesh, laws)), masses_(std::move(masses)), settings_(settings) {
+    : network_(fast::make_network(mesh, laws)),
+      masses_(std::move(masses)),
+      wave_speed_(wave_speed(network_, masses_)),
+      settings_(settings) {
   check(settings);
   set_num_nodes(masses_.size());
 }

@@ -17,6 +17,7 @@
 #include <weft/bridge/implicit/force_history.hpp>
 #include <weft/bridge/implicit/node_team.hpp>
 #include <weft/bridge/implicit/stiffness_limit.hpp>
+#include <weft/bridge/implicit/substep_count.hpp>
 #include <weft/bridge/rigid/coupled_bodies.hpp>
 #include <weft/bridge/rigid/rigid_motion.hpp>
 #include <weft/bridge/rigid/rigid_substeps.hpp>
@@ -93,8 +94,7 @@ class FastBody : public NodeTeam {
   [[nodiscard]] bool detects_alone() const;
   /// After prepare(), once Bullet has moved rigid bodies.
   void detect_contacts(const btSoftBody& body, btScalar time_step);
-  /// How many substeps the step is to be divided into, after detect_contacts(): in a whole step the surface of a dynamic body
-  /// that comes far would have turned away from the nodes that it meets.
+  /// How many substeps the step is to be divided into, after detect_contacts() (SubstepCount).
   [[nodiscard]] int num_substeps(const btSoftBody& body, btScalar time_step) const;
   /// Appends the dynamic bodies that this one is near to or hangs on, each once.
   void list_dynamic(const btSoftBody& body, std::vector<btRigidBody*>& list) const;
@@ -186,6 +186,7 @@ class FastBody : public NodeTeam {
   fast::SpringNetwork network_;  ///< until solver_ has it
   LimitedStiffness limited_;
   VectorX<double> masses_;
+  btScalar wave_speed_;  ///< [m/s]
   FastSettings settings_;
   std::unique_ptr<fast::ImplicitSolver<btScalar>> solver_;
   std::vector<bool> is_free_;     ///< that solver_ knows

@@ -1,21 +1,15 @@
-// Substeps: a step is divided if a dynamic body moves so far in it that its surface turns away from the nodes that it met.
+// Substeps: why a step is divided is in substep_count.hpp.
 // Tested by tests/bridge/implicit/fast_body_impact_test.cpp.
 #include <algorithm>
-#include <cmath>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/implicit/fast_body.hpp>
+#include <weft/bridge/implicit/substep_count.hpp>
 #include <weft/bridge/rigid/rigid_substeps.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
-
-/// How far a shape may approach a node in one substep, as a share of its smallest half extent [-].
-constexpr btScalar kApproachShare = btScalar(0.2);
-/// Likewise: how far springs may push it back in one substep.
-constexpr btScalar kPushShare = btScalar(0.05);
-constexpr int kMostSubsteps = 32;
 
 btScalar smallest_half_extent(const btCollisionShape& shape) {
   btVector3 low;
@@ -28,25 +22,25 @@ btScalar smallest_half_extent(const btCollisionShape& shape) {
 }  // namespace
 
 int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
-  btScalar most = 1;
-  bool touches_dynamic = false;
+  SubstepCount substeps(time_step * wave_speed_);
   for (const RigidContact& contact : contacts_) {
     const btRigidBody* const rigid = movable(contact.object);
     if (rigid == nullptr) continue;
-    touches_dynamic = true;
     const Collider& collider = colliders_[static_cast<std::size_t>(contact.collider)];
     const btVector3 normal = collider.object_pose.getBasis() * contact.normal_by_object;
-    const btScalar approach = btDot(normal, body.m_nodes[contact.node].m_q - contact.met);
-    // By what cloth has done to it in the last solve: so it will go on.
-    const btScalar weight = 2 * time_step * time_step * rigid->getGravity().length();
-    const btScalar pushed = pushed_.push_in(*rigid, time_step) - weight;
-    const btScalar size =
-        std::max(smallest_half_extent(*collider.shape), body.getCollisionShape()->getMargin());
-    most = std::max({most, approach / (kApproachShare * size), pushed / (kPushShare * size)});
+    const auto mass = static_cast<btScalar>(masses_.sum());
+    const btVector3 lever_arm = contact.met - rigid->getCenterOfMassPosition();
+    const btVector3 velocity = rigid->getVelocityInLocalPoint(lever_arm) -
+                               to_bullet(start_velocities_.col(contact.node).eval());
+    substeps.include({.size = std::max(smallest_half_extent(*collider.shape),
+                                       body.getCollisionShape()->getMargin()),
+                      .approach = btDot(normal, body.m_nodes[contact.node].m_q - contact.met),
+                      .closing = time_step * btDot(normal, velocity),
+                      .pushed = pushed_.push_in(*rigid, time_step),
+                      .fall = time_step * time_step * rigid->getGravity().length(),
+                      .mass_share = mass / (mass + 1 / rigid->getInvMass())});
   }
-  // Not much fewer than before: what short steps have begun goes on.
-  if (touches_dynamic) most = std::max(most, static_cast<btScalar>(last_num_substeps_) / 2);
-  return std::min(kMostSubsteps, static_cast<int>(std::ceil(most)));
+  return substeps.count(last_num_substeps_);
 }
 
 void FastBody::list_dynamic(const btSoftBody& body, std::vector<btRigidBody*>& list) const {
