@@ -36,7 +36,7 @@ class SubstepCount {
   /// last: of the step before.
   [[nodiscard]] int count(int last) const;
 
-  static constexpr int kMost = 64;
+  static constexpr int kMost = 56;
 
  private:
   btScalar wave_distance_;
