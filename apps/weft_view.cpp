@@ -30,6 +30,7 @@ F1 in the window lists all keys. Ctrl and drag pulls at the cloth.)";
 struct Options {
   std::vector<std::string> files;
   std::string engine;
+  std::string precision;
   std::string style = "shaded";
   std::string size;
   std::string record;
@@ -72,7 +73,7 @@ void add_options(CLI::App& parser, Options& options) {
                   "Which engine simulates (default: the first that the scene names, else the "
                   "reference)")
       ->check(CLI::IsMember(engines));
-  parser.add_option("-p,--precision",
+  parser.add_option("-p,--precision", options.precision,
                     "float32 or float64, of Bullet (default float32); chooses the program");
   parser.add_option("--style", options.style, "How cloth looks at first")
       ->check(CLI::IsMember({"shaded", "wireframe", "strain"}))
@@ -95,6 +96,10 @@ void add_options(CLI::App& parser, Options& options) {
 }
 
 viewer::ViewerSettings settings_of(const Options& options) {
+  if (!options.precision.empty()) {
+    throw InvalidArgument("--precision " + options.precision +
+                          ": chooses the program, expected it after weft view");
+  }
   viewer::ViewerSettings settings;
   settings.session.files = options.files;
   settings.session.live.engine = options.engine;

@@ -60,6 +60,9 @@ void Session::show(const std::string& name) {
     settings_.live.engine.clear();
     settings_.live.is_running = true;
   }
+  if (live_ != nullptr && !live_->simulation().unfinished_recording().empty()) {
+    tell("recorded so far: " + live_->simulation().unfinished_recording());
+  }
   pull_.reset();
   drag_ = MouseDrag::kNone;
   source_ = std::move(source);

@@ -1,5 +1,7 @@
 #include <weft/viewer/live/run_recorder.hpp>
 
+#include <weft/core/error.hpp>
+
 namespace weft::viewer {
 
 RunRecorder::RunRecorder(const std::string& path, const scenes::Scene& scene,
@@ -8,7 +10,14 @@ RunRecorder::RunRecorder(const std::string& path, const scenes::Scene& scene,
       writer_(std::make_unique<scenes::RecordingWriter>(output_.partial(), scene, provenance,
                                                         precision)) {}
 
-RunRecorder::~RunRecorder() = default;
+RunRecorder::~RunRecorder() {
+  if (!writer_) return;
+  try {
+    writer_->commit();
+  } catch (const Error&) {
+    // Chunks that were committed before are there.
+  }
+}
 
 void RunRecorder::add_frame(const scenes::SceneState& state) {
   writer_->add_frame(state);

@@ -2,6 +2,7 @@
 
 // Tested by tests/viewer/live/simulation_test.cpp.
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -16,10 +17,13 @@ class RunRecorder {
   /// Throws as RecordingOutput and RecordingWriter.
   RunRecorder(const std::string& path, const scenes::Scene& scene,
               const scenes::Provenance& provenance, scenes::StoredPrecision precision);
-  /// Without finish() the partial recording stays.
+  /// Without finish() the partial recording stays, with all frames so far.
   ~RunRecorder();
   RunRecorder(const RunRecorder&) = delete;
   RunRecorder& operator=(const RunRecorder&) = delete;
+
+  /// Where the frames are until finish().
+  [[nodiscard]] const std::filesystem::path& partial() const { return output_.partial(); }
 
   void add_frame(const scenes::SceneState& state);
   void set_blow_up(const scenes::BlowUp& blow_up);

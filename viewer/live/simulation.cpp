@@ -54,6 +54,7 @@ class Simulation::Worker {
   FrameRing ring_;
   SnapshotPtr latest_;
   std::optional<std::string> failure_;
+  std::string unfinished_;  ///< path of a recording that is under way
   std::string refusal_;
   bool reached_end_ = false;
 
@@ -103,6 +104,7 @@ Simulation::Worker::Worker(SimulationSettings settings)
   if (!settings_.record.empty()) {
     recorder_ = std::make_unique<RunRecorder>(settings_.record, settings_.scene,
                                               settings_.provenance, settings_.engine->precision);
+    unfinished_ = recorder_->partial().string();
   }
   thread_ = std::thread([this] { run(); });
 }
@@ -179,7 +181,9 @@ void Simulation::Worker::step() {
   const Clock::time_point start = Clock::now();
   report_ = simulator_->step(settings_.scene.world.time_step);
   const double seconds = Seconds(Clock::now() - start).count();
-  step_time_ += (step_time_ > 0.0 ? kStepTimeWeight : 1.0) * (seconds - step_time_);
+  // The first step sets up what later ones use.
+  if (report_.step > 1)
+    step_time_ += (step_time_ > 0.0 ? kStepTimeWeight : 1.0) * (seconds - step_time_);
   const bool is_single = wanted_steps_ > 0;
   if (is_single) --wanted_steps_;
   const bool is_last = report_.step == num_steps_ || report_.blow_up.has_value();
@@ -199,6 +203,8 @@ void Simulation::Worker::record_frame(bool is_last) {
     if (is_last) {
       recorder_->finish();
       recorder_.reset();
+      const std::lock_guard lock(mutex_);
+      unfinished_.clear();
     }
   }
   if (!is_last) return;
@@ -298,6 +304,10 @@ std::string Simulation::take_refusal() {
 
 bool Simulation::reached_end() const {
   return worker_->read<bool>([](Worker& w) { return w.reached_end_; });
+}
+
+std::string Simulation::unfinished_recording() const {
+  return worker_->read<std::string>([](Worker& w) { return w.unfinished_; });
 }
 
 double Simulation::largest_pull(std::size_t cloth) const {

@@ -57,6 +57,8 @@ class Simulation {
   [[nodiscard]] std::string take_refusal();
   /// Whether the scene's duration has been simulated, and recorded if that was asked for.
   [[nodiscard]] bool reached_end() const;
+  /// Where the frames of a recording stay that has not reached the scene's duration; empty: there is none.
+  [[nodiscard]] std::string unfinished_recording() const;
   /// [N] that no pull on a cloth exceeds.
   [[nodiscard]] double largest_pull(std::size_t cloth) const;
   /// Whether the mouse can pull: some engines take no forces from outside.

@@ -12,8 +12,8 @@ using enum Action;
 // clang-format off
 constexpr std::array kTable = std::to_array<ActionInfo>({
     {kPause, "pause", "Time", "Space", "Run or pause"},
-    {kStepForward, "step_forward", "Time", "Right", "One frame forward; at the end of a live run: simulate one step"},
-    {kStepBack, "step_back", "Time", "Left", "One frame back; a live run looks back at kept frames and does not resimulate"},
+    {kStepForward, "step_forward", "Time", "Right", "One frame forward; live, at the end: simulate one step"},
+    {kStepBack, "step_back", "Time", "Left", "One frame back; live: look back, nothing is simulated again"},
     {kFirstFrame, "first_frame", "Time", "Home", "First frame that is kept"},
     {kLastFrame, "last_frame", "Time", "End", "Last frame"},
     {kFaster, "faster", "Time", "]", "Play faster"},
@@ -36,7 +36,7 @@ constexpr std::array kTable = std::to_array<ActionInfo>({
     {kGravityZMore, "gravity_z_more", "Gravity", "Ctrl+Z", "Gravity along z: 1 m/s^2 more"},
     {kGravityZLess, "gravity_z_less", "Gravity", "Ctrl+Shift+Z", "Gravity along z: 1 m/s^2 less"},
 
-    {kNextCloth, "next_cloth", "Cloth and laws", "C", "Next type of cloth: as written, handkerchief, cotton, denim, paper"},
+    {kNextCloth, "next_cloth", "Cloth and laws", "C", "Next cloth: as written, handkerchief, cotton, denim, paper"},
     {kPreviousCloth, "previous_cloth", "Cloth and laws", "Shift+C", "Type of cloth before"},
     {kLaws, "laws", "Cloth and laws", "K", "Show or hide the parameters of the laws"},
     {kNextParameter, "next_parameter", "Cloth and laws", "PageDown", "Choose the next parameter of a law"},
@@ -51,8 +51,8 @@ constexpr std::array kTable = std::to_array<ActionInfo>({
     {kShadow, "shadow", "Picture", "4", "Shadows on or off"},
     {kWorstNode, "worst_node", "Picture", "N", "Show the worst node: that of the largest strain"},
     {kGhosts, "ghosts", "Picture", "G", "Draw the other recordings as ghosts, or not at all"},
-    {kNextGhost, "next_ghost", "Picture", "Shift+G", "Draw the next recording solid, the others as ghosts"},
-    {kPlots, "plots", "Picture", "T", "Show or hide the plots of energy, strain and step time"},
+    {kNextGhost, "next_ghost", "Picture", "Shift+G", "Draw the next recording solid"},
+    {kPlots, "plots", "Picture", "T", "Show or hide the plots"},
 
     {kRotateLeft, "rotate_left", "View", "Shift+Left", "Turn to the left; or drag with the left button"},
     {kRotateRight, "rotate_right", "View", "Shift+Right", "Turn to the right"},
@@ -62,7 +62,7 @@ constexpr std::array kTable = std::to_array<ActionInfo>({
     {kMoveRight, "move_right", "View", "Ctrl+Right", "Move to the right"},
     {kMoveUp, "move_up", "View", "Ctrl+Up", "Move upwards"},
     {kMoveDown, "move_down", "View", "Ctrl+Down", "Move downwards"},
-    {kZoomIn, "zoom_in", "View", "=", "Nearer; or turn the wheel (the key has + on it)"},
+    {kZoomIn, "zoom_in", "View", "=", "Nearer; or the wheel (the key of +)"},
     {kZoomOut, "zoom_out", "View", "-", "Farther"},
     {kResetView, "reset_view", "View", "V", "The scene's own view"},
 
@@ -71,7 +71,7 @@ constexpr std::array kTable = std::to_array<ActionInfo>({
     {kListDown, "list_down", "Scene", "Down", "Row below in the list"},
     {kListOpen, "list_open", "Scene", "Enter", "Open the row of the list"},
     {kNextEngine, "next_engine", "Scene", "E", "Next engine, from the start of the scene"},
-    {kReload, "reload", "Scene", "F5", "Read the file again; a scene file that is saved is read by itself"},
+    {kReload, "reload", "Scene", "F5", "Read the file again; a saved scene is read by itself"},
 
     {kWindowLarger, "window_larger", "Window", "F7", "Next larger size of the window"},
     {kWindowSmaller, "window_smaller", "Window", "F6", "Next smaller size of the window"},

@@ -13,6 +13,9 @@ namespace {
 constexpr std::array<scenes::Rgb, 4> kGhostColors = {
     {{230, 120, 20}, {20, 150, 90}, {190, 60, 160}, {120, 100, 40}}};
 
+/// Half: of the four samples of a pixel two are drawn, and no pattern is seen.
+constexpr double kGhostOpacity = 0.5;
+
 bool may_move(const scenes::Collider& collider) {
   return collider.mass || collider.path || !collider.led_by.empty();
 }
@@ -91,7 +94,7 @@ void Comparison::rebuild() {
 }
 
 scenes::Ghosts Comparison::ghosts() const {
-  return {reader().scene().cloths.size(), reader().scene().colliders.size(), 0.45};
+  return {reader().scene().cloths.size(), reader().scene().colliders.size(), kGhostOpacity};
 }
 
 int Comparison::frame_at(double time) const {

@@ -89,6 +89,9 @@ void live_controls(Session& session, LiveSource& live, float width) {
 
 void draw_control_panel(const PanelFrame& frame) {
   Session& session = frame.session;
+  const float highest = frame.height - (kTimelineHeight + 3.0f * kMargin) * frame.scale;
+  ImGui::SetNextWindowSizeConstraints(ImVec2(0.0f, 0.0f),
+                                      ImVec2(kControlWidth * frame.scale, highest));
   begin_panel(frame, "controls", kMargin, kMargin, kControlWidth, 0.0f, false, false);
   const float width = ImGui::GetContentRegionAvail().x;
   const float gap = ImGui::GetStyle().ItemSpacing.x;
@@ -97,19 +100,22 @@ void draw_control_panel(const PanelFrame& frame) {
   ImGui::PushTextWrapPos(0.0f);
   ImGui::TextDisabled("%s", session.source().drawn_scene().summary.c_str());
   ImGui::PopTextWrapPos();
+  const bool is_live = session.live() != nullptr;
   const float half = 0.5f * (width - gap);
-  action_button(session, Action::kSceneList, "Scenes", half);
-  ImGui::SameLine();
-  action_button(session, Action::kReload, "Reload", half);
+  action_button(session, Action::kSceneList, "Scenes", is_live ? half : width);
+  if (is_live) {
+    ImGui::SameLine();
+    action_button(session, Action::kReload, "Reload", half);
+  }
   ImGui::Separator();
   style_buttons(session, width);
   toggle(session, Action::kShadow, "shadows", session.view().has_shadow);
   ImGui::SameLine(0.5f * width);
   toggle(session, Action::kWorstNode, "worst node", session.view().shows_worst);
   toggle(session, Action::kPlots, "plots", session.view().shows_plots);
-  ImGui::SameLine(0.5f * width);
-  toggle(session, Action::kLaws, "laws", session.view().shows_laws);
-  if (session.live() != nullptr) {
+  if (is_live) {
+    ImGui::SameLine(0.5f * width);
+    toggle(session, Action::kLaws, "laws", session.view().shows_laws);
     ImGui::Separator();
     live_controls(session, *session.live(), width);
   } else {

@@ -7,7 +7,8 @@
 namespace weft::viewer {
 namespace {
 
-constexpr float kKeyWidth = 118.0f;
+constexpr float kKeyWidth = 104.0f;
+constexpr int kNumColumns = 3;
 
 float height_of(const ActionInfo& info, float text_width) {
   const ImVec2 size =
@@ -15,7 +16,7 @@ float height_of(const ActionInfo& info, float text_width) {
   return size.y + ImGui::GetStyle().ItemSpacing.y;
 }
 
-/// The rows of one column, from the first group on that is not yet shown, until half of all is there.
+/// The rows of one column, from the first group on that is not yet shown, until its share of all is there.
 void draw_column(const PanelFrame& frame, float left, float text_width, std::size_t& next,
                  float limit) {
   float height = 0.0f;
@@ -43,12 +44,13 @@ void draw_column(const PanelFrame& frame, float left, float text_width, std::siz
 
 void draw_help(const PanelFrame& frame) {
   const float s = frame.scale;
-  const float width = std::min(frame.width - 4.0f * kMargin * s, 1010.0f * s);
+  const float width = std::min(frame.width - 2.0f * kMargin * s, 1240.0f * s);
   const float height = frame.height - 4.0f * kMargin * s;
   ImGui::SetNextWindowPos(ImVec2(0.5f * frame.width, 0.5f * frame.height), ImGuiCond_Always,
                           ImVec2(0.5f, 0.5f));
   ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0.0f), ImVec2(width, height));
   ImGui::SetNextWindowFocus();
+  ImGui::SetNextWindowBgAlpha(0.97f);
   ImGui::Begin("help", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
@@ -60,20 +62,24 @@ void draw_help(const PanelFrame& frame) {
       "pull at a node of the cloth.  Every control says its key when the mouse rests on it.");
   ImGui::PopTextWrapPos();
   ImGui::Separator();
-  const float column = 0.5f * (ImGui::GetContentRegionAvail().x - 2.0f * kMargin * s);
+  const float gap = 1.5f * kMargin * s;
+  const float column = (ImGui::GetContentRegionAvail().x - (kNumColumns - 1) * gap) / kNumColumns;
   const float text_width = column - kKeyWidth * s;
   float all = 0.0f;
   for (const ActionInfo& info : action_table()) all += height_of(info, text_width);
   std::size_t next = 0;
+  const float left = ImGui::GetCursorPosX();
   const float top = ImGui::GetCursorPosY();
-  draw_column(frame, kMargin * s, text_width, next, 0.45f * all);
-  const float bottom = ImGui::GetCursorPosY();
-  ImGui::SetCursorPosY(top);
-  draw_column(frame, column + 3.0f * kMargin * s, text_width, next, 1e9f);
-  if (ImGui::GetCursorPosY() < bottom) {
-    ImGui::SetCursorPosY(bottom);
-    ImGui::Dummy(ImVec2(1.0f, 1.0f));
+  float bottom = top;
+  for (int i = 0; i < kNumColumns; ++i) {
+    const bool is_last = i + 1 == kNumColumns;
+    ImGui::SetCursorPosY(top);
+    draw_column(frame, left + static_cast<float>(i) * (column + gap), text_width, next,
+                is_last ? 1e9f : 0.9f * all / kNumColumns);
+    bottom = std::max(bottom, ImGui::GetCursorPosY());
   }
+  ImGui::SetCursorPosY(bottom);
+  ImGui::Dummy(ImVec2(1.0f, 1.0f));
   ImGui::End();
 }
 

@@ -50,6 +50,10 @@ void Stage::resize(const WindowSize& size) {
   if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     throw Error("OpenGL: the framebuffer of the window's picture is not complete");
   }
+  gl_.ClearColor(0.80f, 0.83f, 0.87f, 1.0f);
+  gl_.Clear(GL_COLOR_BUFFER_BIT);
+  gl_.ClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+  drawn_.shown = nullptr;
 }
 
 void Stage::open_scene(Session& session) {
@@ -62,7 +66,7 @@ void Stage::open_scene(Session& session) {
 int Stage::samples_for(const Key& key) {
   if (!is_same(key, drawn_)) {
     still_since_ = now();
-    return picture_time_ > kSlowPicture ? 1 : kFineSamples;
+    return fine_time_ > kSlowPicture ? 1 : kFineSamples;
   }
   const bool is_still = now() - still_since_ > kStillTime;
   return is_still ? kFineSamples : drawn_.samples;
@@ -89,9 +93,7 @@ void Stage::paint(Session& session, const Key& key) {
   std::uint8_t pixel[4];
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
   gl_.ReadPixels(0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);
-  const double taken = now() - start;
-  if (key.samples == 1 || picture_time_ == 0.0) picture_time_ = taken;
-  if (key.samples > 1) picture_time_ = std::max(picture_time_, taken);
+  if (key.samples == kFineSamples) fine_time_ = now() - start;
 }
 
 void Stage::draw(Session& session) {

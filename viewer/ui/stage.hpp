@@ -29,9 +29,6 @@ class Stage {
   [[nodiscard]] scenes::Image read_window();
 
   [[nodiscard]] const StrainScale& strain_scale() const { return strain_scale_; }
-  [[nodiscard]] double picture_time() const {
-    return picture_time_;
-  }  ///< [s] wall time of the last picture
 
  private:
   /// What a picture depends on.
@@ -62,7 +59,7 @@ class Stage {
   GLuint texture_ = 0;
   WindowSize size_;
   Key drawn_;
-  double picture_time_ = 0.0;
+  double fine_time_ = 0.0;    ///< [s] wall time of the last picture with all samples
   double still_since_ = 0.0;  ///< [s] of the program's clock
 };
 

@@ -193,9 +193,18 @@ void run_viewer(ViewerSettings settings) {
     if (settings.exits_at_end && has_ended) break;
   }
   if (!settings.state_file.empty()) write_state(session, settings.state_file);
+  const std::string unfinished = session.live() != nullptr
+                                     ? session.live()->simulation().unfinished_recording()
+                                     : std::string();
   const auto failure = session.live() != nullptr ? session.live()->simulation().failure()
                                                  : std::optional<std::string>();
   if (failure) throw Error(*failure);
+  if (!unfinished.empty()) {
+    throw Error(
+        "--record: the window was closed before the scene's duration was over; the frames so far "
+        "are kept in " +
+        unfinished);
+  }
 }
 
 }  // namespace weft::viewer

@@ -10,6 +10,8 @@
 namespace weft::viewer {
 namespace {
 
+constexpr double kShortestPicture = 1.0 / 75.0;  // [s]
+
 class WindowContext final : public scenes::GlContext {
  public:
   explicit WindowContext(GLFWwindow* window) : window_(window) {}
@@ -119,7 +121,14 @@ void Window::set_title(const std::string& title) {
 
 void Window::present() {
   glfwSwapBuffers(window_);
-  glfwPollEvents();
+  // Where the display does not make swapping wait, more pictures would only take the simulation's time.
+  const double spare = presented_ + kShortestPicture - glfwGetTime();
+  if (spare > 0.0) {
+    glfwWaitEventsTimeout(spare);
+  } else {
+    glfwPollEvents();
+  }
+  presented_ = glfwGetTime();
 }
 
 }  // namespace weft::viewer

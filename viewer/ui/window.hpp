@@ -43,6 +43,7 @@ class Window {
  private:
   GLFWwindow* window_ = nullptr;
   std::function<void(const std::string&)> on_key_;
+  double presented_ = 0.0;  ///< [s] of GLFW's clock
   bool is_full_ = false;
   int left_ = 0;  ///< place of the window before it was full screen
   int top_ = 0;
