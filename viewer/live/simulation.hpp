@@ -20,6 +20,9 @@ struct SimulationSettings {
   double speed = 1.0;       ///< simulated over wall time, at most
   std::string record = {};  ///< a recording of the scene's duration to write; empty: none
   scenes::Provenance provenance = {};
+
+  /// Whether the engine takes forces from outside: Bullet's deformable world does not.
+  [[nodiscard]] bool takes_forces() const;
 };
 
 /// A scene that an engine simulates on a thread of its own. The picture never waits for a step: it takes

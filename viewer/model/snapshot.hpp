@@ -1,5 +1,7 @@
 #pragma once
 
+// Tested by tests/viewer/model/frame_ring_test.cpp, tests/viewer/live/simulation_test.cpp.
+
 #include <memory>
 #include <optional>
 

@@ -2,10 +2,21 @@
 
 #include <imgui.h>
 
+#include <cstdio>
+#include <cstdlib>
+
 #include <weft/viewer/ui/panels.hpp>
 
 namespace weft::viewer {
 namespace {
+
+/// Dear ImGui takes digits after the point from the format, and treats smaller values of a logarithmic
+/// slider as zero; nine reach down to rigidities of silk. Nobody wants to read as many.
+double four_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.4g", value);
+  return std::strtod(text, nullptr);
+}
 
 /// A slider with the range that belongs to the value it starts from: the range must not move away under
 /// the mouse.
@@ -21,11 +32,11 @@ void parameter_slider(Session& session, const Parameter& parameter, std::size_t 
   static SliderRange active_range;
   const SliderRange range =
       active == ImGui::GetID("##value") ? active_range : slider_range(parameter);
-  double value = parameter.value;
+  double value = four_digits(parameter.value);
   ImGui::SetNextItemWidth(width);
   const int flags = range.is_logarithmic ? ImGuiSliderFlags_Logarithmic : 0;
   const bool is_changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &range.low,
-                                              &range.high, "%.4g", flags);
+                                              &range.high, "%.9g", flags);
   if (ImGui::IsItemActivated()) {
     active = ImGui::GetID("##value");
     active_range = range;
@@ -39,7 +50,9 @@ void parameter_slider(Session& session, const Parameter& parameter, std::size_t 
                       info_of(Action::kLargerParameter).key.data(),
                       info_of(Action::kSmallerParameter).key.data());
   }
-  if (is_changed && value != parameter.value) session.live()->set_parameter(parameter, value);
+  if (is_changed && four_digits(value) != parameter.value) {
+    session.live()->set_parameter(parameter, four_digits(value));
+  }
   ImGui::PopID();
 }
 

@@ -37,6 +37,11 @@ Range range_of(const std::vector<PlotPoint>& points, const std::vector<Curve>& c
   return range;
 }
 
+bool is_known(const std::vector<PlotPoint>& points, const std::vector<Curve>& curves) {
+  return std::any_of(curves.begin(), curves.end(),
+                     [&](const Curve& curve) { return std::isfinite(curve.value(points.back())); });
+}
+
 /// A curve through the middle of each column of pixels: at most one point for each.
 void draw_curve(ImDrawList& list, const std::vector<PlotPoint>& points, const Curve& curve,
                 const Range& range, ImVec2 from, ImVec2 to, float thickness) {
@@ -78,6 +83,11 @@ void plot(const PanelFrame& frame, const char* title, const char* format,
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(from, to, IM_COL32(255, 255, 255, 12), 3.0f * frame.scale);
   if (points.size() < 2) return;
+  if (!is_known(points, curves)) {
+    const ImVec2 place(from.x + 6.0f * frame.scale, from.y + 4.0f * frame.scale);
+    list.AddText(place, IM_COL32(255, 255, 255, 150), "not known once a cloth has torn");
+    return;
+  }
   const Range range = range_of(points, curves);
   const ImVec2 inset(3.0f * frame.scale, 3.0f * frame.scale);
   const ImVec2 inner_from(from.x + inset.x, from.y + inset.y);

@@ -7,16 +7,18 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <utility>
 
 #include <weft/core/error.hpp>
 #include <weft/playback/rendering/image.hpp>
+#include <weft/scenes/output/output_file.hpp>
 #include <weft/viewer/ui/panels.hpp>
 #include <weft/viewer/ui/theme.hpp>
 
 namespace weft::viewer {
 namespace {
+
+constexpr double kRoomForPanels = 1000.0;  // [pixel] of the window's width at scale 1
 
 /// Dear ImGui for one window.
 class PanelContext {
@@ -149,10 +151,29 @@ class WindowFollower {
   std::string title_;
 };
 
-void write_state(Session& session, const std::string& path) {
-  std::ofstream file(path);
-  file << session.describe();
-  if (!file.flush()) throw Error(path + ": the state cannot be written");
+bool begins_as_state(std::string_view beginning) {
+  return beginning.starts_with("{\n  \"camera\": {");
+}
+
+constexpr output::FileKind kStateKind{"the state of a window", begins_as_state};
+
+/// Throws Error for a run that did not come to the end that was asked for.
+void check_run(Session& session) {
+  if (session.live() == nullptr) return;
+  const Simulation& simulation = session.live()->simulation();
+  if (const auto failure = simulation.failure()) throw Error(*failure);
+  const std::string unfinished = simulation.unfinished_recording();
+  if (unfinished.empty()) return;
+  throw Error(
+      "--record: the window was closed before the scene's duration was over; the frames so far are "
+      "kept in " +
+      unfinished);
+}
+
+bool has_ended(Session& session) {
+  if (session.live() == nullptr) return false;
+  const Simulation& simulation = session.live()->simulation();
+  return simulation.reached_end() || simulation.failure();
 }
 
 }  // namespace
@@ -166,6 +187,10 @@ void run_viewer(ViewerSettings settings) {
     if (!ImGui::GetIO().WantTextInput) (void)session.press(key);
   });
   PanelContext panels(window);
+  const double first_scale = settings.scale > 0.0 ? settings.scale : window.content_scale();
+  // In a small window they would leave no room for the picture.
+  session.view().shows_laws = session.view().shows_plots =
+      settings.size.width >= kRoomForPanels * first_scale;
   WindowFollower follower(session.view());
   using Clock = std::chrono::steady_clock;
   Clock::time_point last = Clock::now();
@@ -187,24 +212,12 @@ void run_viewer(ViewerSettings settings) {
     PanelContext::end();
     if (session.view().wants_screenshot) save_screenshot(session, stage);
     window.present();
-    LiveSource* const live = session.live();
-    const bool has_ended =
-        live != nullptr && (live->simulation().reached_end() || live->simulation().failure());
-    if (settings.exits_at_end && has_ended) break;
+    if (settings.exits_at_end && has_ended(session)) break;
   }
-  if (!settings.state_file.empty()) write_state(session, settings.state_file);
-  const std::string unfinished = session.live() != nullptr
-                                     ? session.live()->simulation().unfinished_recording()
-                                     : std::string();
-  const auto failure = session.live() != nullptr ? session.live()->simulation().failure()
-                                                 : std::optional<std::string>();
-  if (failure) throw Error(*failure);
-  if (!unfinished.empty()) {
-    throw Error(
-        "--record: the window was closed before the scene's duration was over; the frames so far "
-        "are kept in " +
-        unfinished);
+  if (!settings.state_file.empty()) {
+    output::write_file(settings.state_file, kStateKind, session.describe());
   }
+  check_run(session);
 }
 
 }  // namespace weft::viewer

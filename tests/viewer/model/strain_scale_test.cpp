@@ -11,16 +11,26 @@ std::vector<Eigen::VectorXd> strains(double value) {
   return {Eigen::VectorXd::Constant(3, value)};
 }
 
-TEST(StrainScale, IsRoundAndOnlyGrows) {
+TEST(StrainScale, IsRoundGrowsAtOnceAndShrinksLater) {
   StrainScale scale;
   scale.include(strains(-0.013));
   EXPECT_NEAR(scale.limit(), 0.02, 1e-12);
-  scale.include(strains(0.001));
-  EXPECT_NEAR(scale.limit(), 0.02, 1e-12);
   scale.include(strains(0.31));
   EXPECT_NEAR(scale.limit(), 0.5, 1e-12);
+  for (int i = 1; i < StrainScale::kPatience; ++i) scale.include(strains(0.013));
+  EXPECT_NEAR(scale.limit(), 0.5, 1e-12);
+  scale.include(strains(0.013));
+  EXPECT_NEAR(scale.limit(), 0.02, 1e-12);
   scale.reset();
   EXPECT_NEAR(scale.limit(), 0.01, 1e-12);
+}
+
+TEST(StrainScale, AFewNodesDoNotBleachTheOthers) {
+  Eigen::VectorXd values = Eigen::VectorXd::Constant(1000, 0.013);
+  values[17] = 5.0;
+  StrainScale scale;
+  scale.include({values});
+  EXPECT_NEAR(scale.limit(), 0.02, 1e-12);
 }
 
 TEST(StrainScale, LeavesOutWhatIsNotFinite) {
