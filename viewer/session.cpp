@@ -242,6 +242,7 @@ std::string Session::describe() {
   if (shown) {
     json["time"] = shown->state.time;
     json["step"] = shown->step;
+    json["parts"] = shown->num_parts;
     json["kinetic_energy"] = shown->measures.kinetic_energy;
     json["largest_strain"] = shown->measures.largest_strain;
     if (shown->measures.worst) json["worst_node"] = shown->measures.worst->id.node;

@@ -40,6 +40,7 @@ bool LiveSource::perform_time(Action action) {
       return true;
     case Action::kRestartAsWritten:
       scene_ = written_;
+      has_other_laws_ = false;
       cloth_type_ = 0;
       start(true);
       message_ = "laws as written";

@@ -53,6 +53,7 @@ void LiveSource::start(bool is_running) {
   settings.engine = engine_named(settings_.engine);
   settings.is_running = is_running;
   settings.speed = settings_.speed;
+  settings.has_other_laws = has_other_laws_;
   settings.record = std::exchange(settings_.record, {});
   settings.provenance = settings_.provenance;
   settings.provenance["engine"] = settings_.engine;
@@ -121,6 +122,7 @@ void LiveSource::reload() {
     return;
   }
   scene_ = written_;
+  has_other_laws_ = false;
   cloth_type_ = 0;
   start(is_playing_);
   message_ = settings_.name + ": read again";
@@ -145,9 +147,8 @@ void LiveSource::set_engine(const std::string& name) {
 
 void LiveSource::set_cloth_type(std::size_t type) {
   cloth_type_ = type;
-  const bool is_implicit =
-      settings_.engine == "bullet_weft" || settings_.engine == "bullet_deformable_implicit";
-  const std::string note = apply_cloth_type(scene_, written_, type, is_implicit);
+  const bool is_held = settings_.engine == "bullet_soft" || settings_.engine == "bullet_deformable";
+  const std::string note = apply_cloth_type(scene_, written_, type, is_held);
   message_ = note.empty() ? "cloth: " + std::string(cloth_types()[type].name) : note;
   send_laws();
 }
@@ -159,10 +160,12 @@ void LiveSource::set_parameter(const Parameter& parameter, double value) {
     message_ = error.what();
     return;
   }
+  has_other_laws_ = true;
   simulation_->set_laws(parameter.cloth, scene_.cloths[parameter.cloth].laws);
 }
 
 void LiveSource::send_laws() {
+  has_other_laws_ = true;
   for (std::size_t c = 0; c < scene_.cloths.size(); ++c) {
     simulation_->set_laws(c, scene_.cloths[c].laws);
   }

@@ -63,7 +63,8 @@ class LiveSource final : public Source {
   std::unique_ptr<Simulation> simulation_;
   int version_ = 0;
   bool is_playing_;
-  SnapshotPtr looked_back_;  ///< a kept frame that is shown in place of the newest state
+  bool has_other_laws_ = false;  ///< than the file
+  SnapshotPtr looked_back_;      ///< a kept frame that is shown in place of the newest state
   std::size_t cloth_type_ = 0;
   std::string message_;
 };

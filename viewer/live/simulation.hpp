@@ -17,8 +17,9 @@ struct SimulationSettings {
   scenes::Scene scene;
   const scenes::EngineInfo* engine = nullptr;
   bool is_running = true;
-  double speed = 1.0;       ///< simulated over wall time, at most
-  std::string record = {};  ///< a recording of the scene's duration to write; empty: none
+  bool has_other_laws = false;  ///< than those that the scene's time step is made for
+  double speed = 1.0;           ///< simulated over wall time, at most
+  std::string record = {};      ///< a recording of the scene's duration to write; empty: none
   scenes::Provenance provenance = {};
 
   /// Whether the engine takes forces from outside: Bullet's deformable world does not.

@@ -28,10 +28,12 @@ Simulation::Worker::Worker(SimulationSettings settings)
       settings_(std::move(settings)),
       forces_(std::make_shared<WindowForces>(settings_.scene, settings_.scene.world.time_step)),
       meter_(settings_.scene),
-      measured_scene_(settings_.scene) {
+      measured_scene_(settings_.scene),
+      parts_(settings_.engine->name) {
   const scenes::World& world = settings_.scene.world;
   steps_per_frame_ = std::max(1L, std::lround(world.frame_interval / world.time_step));
   num_steps_ = std::lround(world.duration / world.time_step);
+  if (settings_.has_other_laws) parts_.set_laws(settings_.scene);
   if (!settings_.record.empty()) {
     recorder_ = std::make_unique<RunRecorder>(settings_.record, settings_.scene,
                                               settings_.provenance, settings_.engine->precision);
@@ -110,15 +112,19 @@ bool Simulation::Worker::wait() {
 
 void Simulation::Worker::step() {
   const Clock::time_point start = Clock::now();
-  report_ = simulator_->step(settings_.scene.world.time_step);
+  const double time_step = settings_.scene.world.time_step;
+  num_parts_ = parts_.count(simulator_->state(), time_step);
+  for (int part = 0; part < num_parts_ && !report_.blow_up; ++part) {
+    report_ = simulator_->step(time_step / num_parts_);
+  }
+  ++step_;
   const double seconds = Seconds(Clock::now() - start).count();
   // The first step sets up what later ones use.
-  if (report_.step > 1)
-    step_time_ += (step_time_ > 0.0 ? kStepTimeWeight : 1.0) * (seconds - step_time_);
+  if (step_ > 1) step_time_ += (step_time_ > 0.0 ? kStepTimeWeight : 1.0) * (seconds - step_time_);
   const bool is_single = wanted_steps_ > 0;
   if (is_single) --wanted_steps_;
-  const bool is_last = report_.step == num_steps_ || report_.blow_up.has_value();
-  const bool is_frame = report_.step % steps_per_frame_ == 0;
+  const bool is_last = step_ == num_steps_ || report_.blow_up.has_value();
+  const bool is_frame = step_ % steps_per_frame_ == 0;
   if (is_frame || is_last) record_frame(is_last);
   if (is_frame || is_last || is_single || Clock::now() - published_ > kPublishInterval) {
     publish(is_frame || is_last || is_single);
@@ -126,7 +132,7 @@ void Simulation::Worker::step() {
 }
 
 void Simulation::Worker::record_frame(bool is_last) {
-  if (recorder_ && report_.step <= num_steps_) {
+  if (recorder_ && step_ <= num_steps_) {
     scenes::SceneState state = simulator_->state();
     state.time = report_.time;
     recorder_->add_frame(state);
@@ -148,7 +154,8 @@ void Simulation::Worker::publish(bool is_frame) {
   snapshot->state = simulator_->state();
   snapshot->state.time = report_.time;
   snapshot->measures = meter_.measure(snapshot->state);
-  snapshot->step = report_.step;
+  snapshot->step = step_;
+  snapshot->num_parts = num_parts_;
   snapshot->step_time = step_time_;
   snapshot->pull_force = forces_->pull_force();
   snapshot->blow_up = report_.blow_up;
@@ -169,6 +176,7 @@ void Simulation::Worker::set_laws(std::size_t cloth,
     live->replace_laws(cloth, laws);
     measured_scene_.cloths.at(cloth).laws = laws;
     meter_ = Meter(measured_scene_);
+    parts_.set_laws(measured_scene_);
   } catch (const InvalidArgument& error) {
     const std::lock_guard lock(mutex_);
     refusal_ = error.what();

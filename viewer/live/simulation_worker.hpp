@@ -10,6 +10,7 @@
 
 #include <weft/viewer/live/run_recorder.hpp>
 #include <weft/viewer/live/simulation.hpp>
+#include <weft/viewer/live/step_parts.hpp>
 #include <weft/viewer/model/frame_ring.hpp>
 
 namespace weft::viewer {
@@ -63,6 +64,9 @@ class Simulation::Worker {
   std::unique_ptr<RunRecorder> recorder_;
   Meter meter_;
   scenes::Scene measured_scene_;
+  StepParts parts_;
+  int num_parts_ = 1;  ///< of the last step
+  int step_ = 0;       ///< whole steps so far
   scenes::StepReport report_;
   double step_time_ = 0.0;  ///< [s]
   long steps_per_frame_ = 1;

@@ -55,7 +55,7 @@ std::span<const ClothType> cloth_types() {
 }
 
 std::string apply_cloth_type(scenes::Scene& scene, const scenes::Scene& written, std::size_t type,
-                             bool is_implicit) {
+                             bool is_held) {
   const ClothType& chosen = kTypes.at(type);
   std::string note;
   for (std::size_t c = 0; c < scene.cloths.size(); ++c) {
@@ -71,7 +71,7 @@ std::string apply_cloth_type(scenes::Scene& scene, const scenes::Scene& written,
     const Sheet sheet = sheet_of(cloth);
     double rigidity = sheet.density * kStandardGravity * std::pow(chosen.bending_length, 3);
     const double largest = largest_rigidity(sheet, scene.world.time_step);
-    if (!is_implicit && rigidity > largest) {
+    if (is_held && rigidity > largest) {
       rigidity = largest;
       note = fmt::format(
           "{}: rigidity held at {:.3g} N m, the most that an explicit step of {:.3g} s takes; "

@@ -23,10 +23,10 @@ struct ClothType {
 [[nodiscard]] std::span<const ClothType> cloth_types();
 
 /// Gives every cloth with triangles the bending of a type, in place of the laws torsion and
-/// hinge_torsion that it has; the first type, those of `written`. Where the step is explicit
-/// (is_implicit false) the rigidity stays below what the scene's time step can take. Returns what to
-/// tell the user about that; empty if there is nothing.
+/// hinge_torsion that it has; the first type, those of `written`. Where the engine steps explicitly
+/// and its step cannot be divided (is_held) the rigidity stays below what the scene's time step can take.
+/// Returns what to tell the user about that; empty if there is nothing.
 [[nodiscard]] std::string apply_cloth_type(scenes::Scene& scene, const scenes::Scene& written,
-                                           std::size_t type, bool is_implicit);
+                                           std::size_t type, bool is_held);
 
 }  // namespace weft::viewer

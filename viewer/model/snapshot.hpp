@@ -15,6 +15,7 @@ struct Snapshot {
   scenes::SceneState state;
   Measures measures;
   int step = 0;             ///< of a live run; number of the frame of a recording
+  int num_parts = 1;        ///< into which the last step was divided
   double step_time = 0.0;   ///< [s] wall time that a step took lately; 0 for a recording
   double pull_force = 0.0;  ///< [N] with which the mouse pulls
   std::optional<scenes::BlowUp> blow_up;

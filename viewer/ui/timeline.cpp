@@ -49,6 +49,13 @@ void status(Session& session) {
                             !session.source().is_playing();
     ImGui::Text("t = %.3f s   step %d   %.2f ms/step%s", shown->state.time, shown->step,
                 1e3 * shown->step_time, looks_back ? "   looks back" : "");
+    if (shown->num_parts > 1) {
+      ImGui::SameLine();
+      ImGui::TextDisabled("in %d parts", shown->num_parts);
+      if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("The laws as they are set now need a shorter step than the scene's");
+      }
+    }
   } else {
     ImGui::Text("t = %.3f s   frame %d of %d", shown->state.time, shown->step + 1,
                 session.source().num_frames());
