@@ -81,6 +81,7 @@ constexpr std::array kTable = std::to_array<ActionInfo>({
     {kPanels, "panels", "Window", "Tab", "Show or hide all panels"},
     {kScreenshot, "screenshot", "Window", "P", "Save the window as a PNG file; without panels after Tab"},
     {kHelp, "help", "Window", "F1", "This list"},
+    {kClose, "close", "Window", "Escape", "Close this list, or that of the scenes"},
     {kQuit, "quit", "Window", "Ctrl+Q", "Close the window"},
 });
 // clang-format on

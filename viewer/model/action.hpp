@@ -72,6 +72,7 @@ enum class Action {
   kLaws,
   kPlots,
   kHelp,
+  kClose,
   kScreenshot,
   kQuit,
 };

@@ -124,6 +124,9 @@ bool perform(ViewState& view, Action action, const scenes::Camera& home) {
     case Action::kScreenshot:
       view.wants_screenshot = true;
       return true;
+    case Action::kClose:
+      view.shows_help = view.shows_list = false;
+      return true;
     case Action::kQuit:
       view.wants_to_quit = true;
       return true;

@@ -35,6 +35,13 @@ TEST(ViewStates, EveryFlagHasItsKey) {
   toggles(Action::kQuit, &ViewState::wants_to_quit);
 }
 
+TEST(ViewStates, EscapeClosesWhatIsOverThePicture) {
+  ViewState view;
+  view.shows_help = view.shows_list = true;
+  EXPECT_TRUE(perform(view, Action::kClose, {}));
+  EXPECT_FALSE(view.shows_help || view.shows_list);
+}
+
 TEST(ViewStates, SizesGoThroughTheListAndStopAtItsEnds) {
   ViewState view;
   view.size = {1300, 700};  // as a user has drawn it
