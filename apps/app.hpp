@@ -40,6 +40,7 @@ struct CommandLine {
 [[nodiscard]] Action add_diff_command(CLI::App& parser);
 [[nodiscard]] Action add_trim_command(CLI::App& parser);
 [[nodiscard]] Action add_verify_command(CLI::App& parser);
+[[nodiscard]] Action add_view_command(CLI::App& parser, const CommandLine& command_line);
 [[nodiscard]] Action add_render_command(CLI::App& parser);
 [[nodiscard]] Action add_contact_sheet_command(CLI::App& parser);
 [[nodiscard]] Action add_export_command(CLI::App& parser);

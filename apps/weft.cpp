@@ -21,6 +21,7 @@ constexpr const char* kFooter = R"(Examples:
   weft diff drape.weftrec other.weftrec      are they equal bit for bit, and if not, how far apart?
   weft trim drape.weftrec -o part.weftrec --from "1 s" --to "2 s"
   weft verify drape.weftrec                  is every frame readable, every hash right?
+  weft view drape_sphere                     a window: simulate, look, pull; recordings too
   weft render drape.weftrec -o drape.png     a picture of the last frame
   weft export --html d.html drape.weftrec    a page that plays it in any browser
   weft check my_scene.toml                   is this scene file right?
@@ -64,6 +65,7 @@ int run(int argc, char** argv) {
   actions["diff"] = add_diff_command(parser);
   actions["trim"] = add_trim_command(parser);
   actions["verify"] = add_verify_command(parser);
+  actions["view"] = add_view_command(parser, command_line);
   actions["render"] = add_render_command(parser);
   actions["contact-sheet"] = add_contact_sheet_command(parser);
   actions["export"] = add_export_command(parser);

@@ -11,18 +11,20 @@
 #include <weft/scenes/characters/start_state.hpp>
 #include <weft/scenes/controllers/director.hpp>
 #include <weft/scenes/format/scene_words.hpp>
+#include <weft/scenes/live_laws.hpp>
 #include <weft/scenes/shape_surface.hpp>
 
 namespace weft::scenes {
 namespace {
 
-class ReferenceSimulator final : public Simulator {
+class ReferenceSimulator final : public Simulator, public LiveLaws {
  public:
   explicit ReferenceSimulator(LawFilter filter) : filter_(std::move(filter)) {}
 
   void load(const Scene& scene) override;
   [[nodiscard]] StepReport step(double time_step) override;
   [[nodiscard]] const SceneState& state() const override { return state_; }
+  void replace_laws(std::size_t cloth, const std::vector<forces::LawSpecification>& laws) override;
 
  private:
   void begin_step(const Steering& steering, double time_step);
@@ -30,6 +32,7 @@ class ReferenceSimulator final : public Simulator {
   void read_state();
 
   LawFilter filter_;
+  std::vector<Cloth> cloths_;  ///< as loaded
   std::unique_ptr<reference::SpringSolver> solver_;
   ReferenceTears tears_;
   SceneState state_;
@@ -176,10 +179,28 @@ void ReferenceSimulator::load(const Scene& scene) {
     return make_laws(cloth, mesh, this->filter_);
   });
   tears_.make_first_cuts(*solver_);
+  cloths_ = scene.cloths;
   state_ = {};
   report_ = {};
   read_state();
   director_ = Director(scene, controllers());
+}
+
+void ReferenceSimulator::replace_laws(std::size_t cloth,
+                                      const std::vector<forces::LawSpecification>& laws) {
+  const Cloth& loaded = cloths_.at(cloth);
+  if (loaded.tear) {
+    throw InvalidArgument("reference: cloth '" + loaded.name +
+                          "' tears, expected other laws for it at the start of a run only");
+  }
+  Cloth changed = loaded;
+  changed.laws = laws;
+  const reference::Body& now = solver_->system().bodies[cloth];
+  reference::Body body = make_body(changed, now.face_contact, filter_);
+  body.positions = now.positions;
+  body.velocities = now.velocities;
+  solver_->replace_body(cloth, std::move(body));
+  cloths_[cloth] = std::move(changed);
 }
 
 void ReferenceSimulator::begin_step(const Steering& steering, double time_step) {

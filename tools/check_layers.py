@@ -23,13 +23,14 @@ MAY_INCLUDE = {
     "scenes": ("characters", "custom_forces", "mesh", "core"),
     "playback": ("scenes", "characters", "custom_forces", "mesh", "core"),
     "engines": ("scenes", "reference", "bridge", "characters", "custom_forces", "mesh", "core"),
+    "viewer": ("engines", "playback", "scenes", "characters", "custom_forces", "mesh", "core"),
     "recorder": ("scenes", "bridge", "mesh", "core"),
     "validation": ("engines", "playback", "scenes", "reference", "characters", "custom_forces", "mesh", "core"),
-    "apps": ("validation", "engines", "playback", "scenes", "characters", "custom_forces", "mesh", "core"),
+    "apps": ("validation", "viewer", "engines", "playback", "scenes", "characters", "custom_forces", "mesh", "core"),
     # Programs of their own, which nothing of the above includes.
     "bench": ("validation", "engines", "scenes", "bridge", "fast_solver", "custom_forces", "mesh", "core"),
     "fuzz": ("scenes", "characters", "mesh", "core"),
-    "tests": ("bench", "apps", "validation", "recorder", "engines", "playback", "scenes", "characters", "reference", "bridge",
+    "tests": ("bench", "apps", "validation", "viewer", "recorder", "engines", "playback", "scenes", "characters", "reference", "bridge",
               "fast_solver", "custom_forces", "mesh", "core"),
 }
 
@@ -91,6 +92,7 @@ def self_test():
         "scenes/up.hpp": ("<weft/engines/engine_table.hpp>", "scenes may not include engines"),
         "reference/up.cpp": ("<weft/bridge/solver.hpp>", "may not include bridge"),
         "bridge/up.cpp": ("<weft/reference/solver.hpp>", "may not include reference"),
+        "playback/window.cpp": ("<weft/viewer/session.hpp>", "playback may not include viewer"),
         "apps/relative.cpp": ('"../scenes/scene.hpp"', "climbs out"),
         "playback/bullet.cpp": ("<LinearMath/btVector3.h>", "is Bullet's"),
         "engines/reference.cpp": ("<btBulletDynamicsCommon.h>", "is Bullet's"),

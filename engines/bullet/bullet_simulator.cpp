@@ -1,5 +1,6 @@
 #include <weft/engines/bullet/bullet_simulator.hpp>
 
+#include <algorithm>
 #include <utility>
 
 #include <weft/bridge/cloth_body.hpp>
@@ -11,19 +12,21 @@
 #include <weft/engines/bullet/bullet_shapes.hpp>
 #include <weft/engines/bullet/bullet_tears.hpp>
 #include <weft/scenes/controllers/director.hpp>
+#include <weft/scenes/live_laws.hpp>
 
 namespace weft::scenes {
 namespace {
 
 enum class Tension { kLinks, kLaws, kImplicit };
 
-class BulletSimulator final : public Simulator {
+class BulletSimulator final : public Simulator, public LiveLaws {
  public:
   explicit BulletSimulator(Tension tension) : tension_(tension) {}
 
   void load(const Scene& scene) override;
   [[nodiscard]] StepReport step(double time_step) override;
   [[nodiscard]] const SceneState& state() const override { return bodies_.state(); }
+  void replace_laws(std::size_t cloth, const std::vector<forces::LawSpecification>& laws) override;
 
  private:
   void add_cloth(const Cloth& cloth, const Scene& scene);
@@ -34,6 +37,7 @@ class BulletSimulator final : public Simulator {
   [[nodiscard]] SolveReport solve_report() const;
 
   Tension tension_;
+  std::vector<Cloth> cloths_;  ///< as loaded
   double links_time_step_ = 0.0;
   std::unique_ptr<bridge::SoftWorld> world_;
   BulletBodies bodies_;
@@ -47,6 +51,7 @@ void BulletSimulator::load(const Scene& scene) {
   bodies_ = {};
   tears_ = {};
   report_ = {};
+  cloths_ = scene.cloths;
   reach_ = distance_field_reach(scene);
   links_time_step_ = scene.world.time_step;
   world_ = std::make_unique<bridge::SoftWorld>(
@@ -112,6 +117,38 @@ void BulletSimulator::add_cloth(const Cloth& cloth, const Scene& scene) {
     tears_.add(bodies_.cloths().size() - 1, *cloth.tear, mesh, std::move(settings),
                std::move(laws));
   }
+}
+
+void BulletSimulator::replace_laws(std::size_t cloth,
+                                   const std::vector<forces::LawSpecification>& laws) {
+  const Cloth& loaded = cloths_.at(cloth);
+  if (loaded.tear) {
+    throw InvalidArgument("cloth '" + loaded.name +
+                          "' tears, expected other laws for it at the start of a run only");
+  }
+  std::vector<forces::LawSpecification> attached;
+  std::vector<forces::LawSpecification> links;
+  for (const forces::LawSpecification& given : laws) {
+    const forces::LawSpecification law = forces::checked(given);
+    const bool is_link = law.law == "tension" && tension_ == Tension::kLinks;
+    (is_link ? links : attached).push_back(law);
+  }
+  std::vector<forces::LawSpecification> loaded_links;
+  for (const forces::LawSpecification& given : loaded.laws) {
+    if (given.law == "tension" && tension_ == Tension::kLinks)
+      loaded_links.push_back(forces::checked(given));
+  }
+  const auto is_same = [](const forces::LawSpecification& a, const forces::LawSpecification& b) {
+    return a.sets == b.sets && a.parameters == b.parameters;
+  };
+  if (!std::equal(links.begin(), links.end(), loaded_links.begin(), loaded_links.end(), is_same)) {
+    throw InvalidArgument("bullet_soft: cloth '" + loaded.name +
+                          "': tension belongs to Bullet's links, expected another one at the start "
+                          "of a run only");
+  }
+  btSoftBody& body = *bodies_.cloths()[cloth];
+  world_->solver().replace_laws(body, make_mesh(loaded), attached);
+  cloths_[cloth].laws = laws;
 }
 
 void BulletSimulator::set_freedom(const Steering& steering) {

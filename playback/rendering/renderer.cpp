@@ -70,28 +70,46 @@ void check_scalar(const std::vector<ClothMesh>& meshes, const SceneState& state,
 }  // namespace
 
 struct Renderer::Impl {
-  explicit Impl(const Scene& scene) : painter(scene) {}
+  Impl(const Scene& scene, std::unique_ptr<GlContext> context)
+      : painter(scene, std::move(context)) {}
+
+  void check(const SceneState& state, const RenderOptions& options, const ScalarField* scalar) {
+    check_between("width", options.width, 1, kMaxSize, "pixel");
+    check_between("height", options.height, 1, kMaxSize, "pixel");
+    check_between("samples", options.samples, 1, kMaxSamples, "-");
+    check_state(painter.scene(), painter.meshes(), state);
+    if (options.style == SurfaceStyle::kScalar) check_scalar(painter.meshes(), state, scalar);
+  }
+
   ScenePainter painter;
 };
 
-Renderer::Renderer(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
+Renderer::Renderer(const Scene& scene, std::unique_ptr<GlContext> context)
+    : impl_(std::make_unique<Impl>(scene, std::move(context))) {}
 
 Renderer::~Renderer() = default;
 
 Image Renderer::render(const SceneState& state, const RenderOptions& options,
                        const ScalarField* scalar) {
-  check_between("width", options.width, 1, kMaxSize, "pixel");
-  check_between("height", options.height, 1, kMaxSize, "pixel");
-  check_between("samples", options.samples, 1, kMaxSamples, "-");
   ScenePainter& painter = impl_->painter;
-  check_state(painter.scene(), painter.meshes(), state);
+  impl_->check(state, options, scalar);
   if (options.style != SurfaceStyle::kScalar)
     return painter.paint(state, options, nullptr, nullptr);
-  check_scalar(painter.meshes(), state, scalar);
   const ColorMap map(scalar->minimum, scalar->maximum);
   Image image = painter.paint(state, options, scalar, &map);
   draw_color_bar(image, map, scalar->label);
   return image;
+}
+
+void Renderer::render_into(unsigned framebuffer, const SceneState& state,
+                           const RenderOptions& options, const ScalarField* scalar) {
+  impl_->check(state, options, scalar);
+  if (options.style != SurfaceStyle::kScalar) {
+    impl_->painter.paint_into(framebuffer, state, options, nullptr, nullptr);
+    return;
+  }
+  const ColorMap map(scalar->minimum, scalar->maximum);
+  impl_->painter.paint_into(framebuffer, state, options, scalar, &map);
 }
 
 }  // namespace weft::scenes

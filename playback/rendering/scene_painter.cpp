@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <weft/playback/rendering/meshes/collider_mesh.hpp>
 
@@ -70,10 +71,10 @@ struct ScenePainter::Picture {
   Eigen::Matrix4f clip_from_world;  ///< of the tile
 };
 
-ScenePainter::ScenePainter(const Scene& scene)
+ScenePainter::ScenePainter(const Scene& scene, std::unique_ptr<GlContext> context)
     : scene_(scene),
       stage_(make_stage(scene)),
-      context_(open_offscreen_context()),
+      context_(std::move(context)),
       gl_((context_->make_current(), load_gl_functions(*context_))),
       backdrop_program_(gl_, {"screen.vert"}, {"backdrop.frag"}),
       ground_program_(gl_, {"scene.vert"}, {"key_light.glsl", "ground.frag"}),
@@ -97,15 +98,44 @@ ScenePainter::ScenePainter(const Scene& scene)
   gl_.GenTextures(1, &scale_);
 }
 
+ScenePainter::~ScenePainter() {
+  // Members delete their objects in the current context.
+  context_->make_current();
+  for (const std::vector<BodyPaint>* paints : {&body_paints_, &cloth_paints_}) {
+    for (const BodyPaint& paint : *paints) gl_.DeleteTextures(1, &paint.texture);
+  }
+  gl_.DeleteTextures(1, &scale_);
+  gl_.DeleteVertexArrays(1, &screen_);
+}
+
 Image ScenePainter::paint(const SceneState& state, const RenderOptions& options,
                           const ScalarField* scalar, const ColorMap* map) {
+  Image image{options.width, options.height, {}};
+  image.rgb.resize(std::size_t{3} * static_cast<std::size_t>(options.width) *
+                   static_cast<std::size_t>(options.height));
+  draw(state, options, scalar, map, image);
+  return image;
+}
+
+void ScenePainter::paint_into(GLuint framebuffer, const SceneState& state,
+                              const RenderOptions& options, const ScalarField* scalar,
+                              const ColorMap* map) {
+  draw(state, options, scalar, map, framebuffer);
+}
+
+template <class Output>
+void ScenePainter::draw(const SceneState& state, const RenderOptions& options,
+                        const ScalarField* scalar, const ColorMap* map, Output& output) {
   context_->make_current();
+  // A window's panels leave these on.
+  gl_.Disable(GL_BLEND);
+  gl_.Disable(GL_SCISSOR_TEST);
   // Near and far planes must not cut the ground.
   gl_.Enable(GL_DEPTH_CLAMP);
   upload_cloths(state, options, scalar, map);
   if (map != nullptr) upload_scale(*map);
   const Vector3<double> shift = camera_shift(scene_, meshes_, state);
-  Camera camera = scene_.camera;
+  Camera camera = options.camera.value_or(scene_.camera);
   camera.position += shift;
   camera.target += shift;
   Picture picture{state, options, shift, {}, studio_lights(camera), Eigen::Matrix4f::Identity()};
@@ -115,9 +145,6 @@ Image ScenePainter::paint(const SceneState& state, const RenderOptions& options,
                      [&](const ShaderProgram& program) {
                        if (options.show_shadow) draw_casters(program, state);
                      });
-  Image image{options.width, options.height, {}};
-  image.rgb.resize(std::size_t{3} * static_cast<std::size_t>(options.width) *
-                   static_cast<std::size_t>(options.height));
   const int step = SampleTarget::kMaxSamples / options.samples;
   for (int y = 0; y < options.height; y += step) {
     for (int x = 0; x < options.width; x += step) {
@@ -125,10 +152,9 @@ Image ScenePainter::paint(const SceneState& state, const RenderOptions& options,
       picture.clip_from_world = tile_matrix(tile, options) * picture.view.clip_from_world;
       target_.begin(tile, options.samples);
       draw_tile(picture, tile);
-      target_.finish(tile, options.samples, image);
+      target_.finish(tile, options.samples, output);
     }
   }
-  return image;
 }
 
 void ScenePainter::upload_cloths(const SceneState& state, const RenderOptions& options,
@@ -230,7 +256,8 @@ void ScenePainter::draw_backdrop(const Picture& picture, const Tile& tile) {
 
 void ScenePainter::draw_ground(const Picture& picture, const Tile& tile) {
   const Vector3<double> normal = stage_.ground_orientation * Vector3<double>::UnitY();
-  const double height = normal.dot(scene_.camera.position + picture.shift - stage_.ground_position);
+  const Camera& camera = picture.options.camera ? *picture.options.camera : scene_.camera;
+  const double height = normal.dot(camera.position + picture.shift - stage_.ground_position);
   if (!stage_.ground_is_visible || (!stage_.ground_is_collider && height <= 0.0)) return;
   // A ground that is only decoration writes no depth: what falls through it stays visible.
   gl_.Enable(GL_DEPTH_TEST);
@@ -263,10 +290,17 @@ void ScenePainter::draw_colliders(const Picture& picture) const {
     const SurfaceMode mode = paint.is_two_tone ? SurfaceMode::kTwoTone : SurfaceMode::kSolid;
     surface_program_.set("u_mode", static_cast<int>(mode));
     paint.set(gl_, surface_program_, kTextureUnit);
+    const auto& ghosts = picture.options.ghosts;
+    set_opacity(picture, ghosts && i >= ghosts->first_collider);
     surface_program_.set("u_world_from_body",
                          pose(rigid.position - stage_.center, rigid.orientation, kBodyScale));
     bodies_[i].draw();
   }
+}
+
+void ScenePainter::set_opacity(const Picture& picture, bool is_ghost) const {
+  const double opacity = is_ghost ? picture.options.ghosts->opacity : 1.0;
+  surface_program_.set("u_opacity", static_cast<float>(opacity));
 }
 
 void ScenePainter::draw_cloths(const Picture& picture) const {
@@ -291,6 +325,7 @@ void ScenePainter::draw_cloths(const Picture& picture) const {
     const bool has_inside = layouts_[i].whole().is_closed || layouts_[i].whole().rope.cols() > 0;
     surface_program_.set("u_is_thin", has_inside || mode == SurfaceMode::kWireframe ? 0 : 1);
     paint.set(gl_, surface_program_, kTextureUnit);
+    set_opacity(picture, options.ghosts && i >= options.ghosts->first_cloth);
     cloths_[i].draw();
   }
 }

@@ -19,7 +19,10 @@ namespace weft::scenes {
 /// Draws checked states of a scene: what goes into a picture, and in which order.
 class ScenePainter {
  public:
-  explicit ScenePainter(const Scene& scene);
+  ScenePainter(const Scene& scene, std::unique_ptr<GlContext> context);
+  ~ScenePainter();
+  ScenePainter(const ScenePainter&) = delete;
+  ScenePainter& operator=(const ScenePainter&) = delete;
 
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const std::vector<ClothMesh>& meshes() const { return meshes_; }
@@ -27,11 +30,17 @@ class ScenePainter {
   /// scalar and map are given for SurfaceStyle::kScalar only.
   [[nodiscard]] Image paint(const SceneState& state, const RenderOptions& options,
                             const ScalarField* scalar, const ColorMap* map);
+  void paint_into(GLuint framebuffer, const SceneState& state, const RenderOptions& options,
+                  const ScalarField* scalar, const ColorMap* map);
 
  private:
   /// What is the same for all tiles of a picture.
   struct Picture;
 
+  /// Draws the picture in tiles; Output is an image or a framebuffer.
+  template <class Output>
+  void draw(const SceneState& state, const RenderOptions& options, const ScalarField* scalar,
+            const ColorMap* map, Output& output);
   void upload_cloths(const SceneState& state, const RenderOptions& options,
                      const ScalarField* scalar, const ColorMap* map);
   void upload_scale(const ColorMap& map);
@@ -43,13 +52,14 @@ class ScenePainter {
   void draw_ground(const Picture& picture, const Tile& tile);
   void draw_colliders(const Picture& picture) const;
   void draw_cloths(const Picture& picture) const;
+  void set_opacity(const Picture& picture, bool is_ghost) const;
   [[nodiscard]] bool is_drawn(std::size_t collider, const SceneState& state) const;
   void set_common(const ShaderProgram& program, const Picture& picture, const Tile& tile) const;
 
   Scene scene_;
   std::vector<ClothMesh> meshes_;
   Stage stage_;
-  std::unique_ptr<OffscreenContext> context_;
+  std::unique_ptr<GlContext> context_;
   GlFunctions gl_;
   ShaderProgram backdrop_program_;
   ShaderProgram ground_program_;

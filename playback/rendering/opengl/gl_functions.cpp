@@ -7,18 +7,18 @@
 namespace weft::scenes {
 namespace {
 
-OffscreenContext::Function find_or_throw(const OffscreenContext& context, const char* name) {
-  const OffscreenContext::Function function = context.find_function(name);
+GlContext::Function find_or_throw(const GlContext& context, const char* name) {
+  const GlContext::Function function = context.find_function(name);
   if (function == nullptr) {
-    throw Error(fmt::format("off-screen OpenGL: function = {}, expected it in {}", name,
-                            context.description()));
+    throw Error(
+        fmt::format("OpenGL: function = {}, expected it in {}", name, context.description()));
   }
   return function;
 }
 
 }  // namespace
 
-GlFunctions load_gl_functions(const OffscreenContext& context) {
+GlFunctions load_gl_functions(const GlContext& context) {
   GlFunctions gl;
 #define WEFT_GL_LOAD(type, name) \
   gl.name = reinterpret_cast<type>(find_or_throw(context, "gl" #name));

@@ -4,7 +4,7 @@
 
 #include <GL/glcorearb.h>
 
-#include <weft/playback/rendering/opengl/offscreen_context.hpp>
+#include <weft/playback/rendering/opengl/gl_context.hpp>
 
 namespace weft::scenes {
 
@@ -16,6 +16,7 @@ namespace weft::scenes {
   X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                 \
   X(PFNGLBINDTEXTUREPROC, BindTexture)                         \
   X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                 \
+  X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer)                 \
   X(PFNGLBUFFERDATAPROC, BufferData)                           \
   X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)   \
   X(PFNGLCLEARPROC, Clear)                                     \
@@ -23,7 +24,12 @@ namespace weft::scenes {
   X(PFNGLCOMPILESHADERPROC, CompileShader)                     \
   X(PFNGLCREATEPROGRAMPROC, CreateProgram)                     \
   X(PFNGLCREATESHADERPROC, CreateShader)                       \
+  X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                     \
+  X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)           \
+  X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                     \
   X(PFNGLDELETESHADERPROC, DeleteShader)                       \
+  X(PFNGLDELETETEXTURESPROC, DeleteTextures)                   \
+  X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)           \
   X(PFNGLDEPTHMASKPROC, DepthMask)                             \
   X(PFNGLDISABLEPROC, Disable)                                 \
   X(PFNGLDRAWARRAYSPROC, DrawArrays)                           \
@@ -72,6 +78,6 @@ struct GlFunctions {
 };
 
 /// Throws Error that names the first missing function.
-[[nodiscard]] GlFunctions load_gl_functions(const OffscreenContext& context);
+[[nodiscard]] GlFunctions load_gl_functions(const GlContext& context);
 
 }  // namespace weft::scenes

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <iterator>
+#include <utility>
 
 namespace weft::scenes {
 
@@ -25,6 +26,19 @@ GpuMesh::GpuMesh(const GlFunctions& gl) : gl_(&gl) {
     gl.VertexAttribPointer(i, attributes[i].size, GL_FLOAT, GL_FALSE, sizeof(SurfaceVertex),
                            reinterpret_cast<const void*>(attributes[i].offset));
   }
+}
+
+GpuMesh::GpuMesh(GpuMesh&& other) noexcept
+    : gl_(other.gl_),
+      array_(std::exchange(other.array_, 0)),
+      vertices_(std::exchange(other.vertices_, 0)),
+      indices_(std::exchange(other.indices_, 0)),
+      num_indices_(std::exchange(other.num_indices_, 0)) {}
+
+GpuMesh::~GpuMesh() {
+  gl_->DeleteBuffers(1, &indices_);
+  gl_->DeleteBuffers(1, &vertices_);
+  gl_->DeleteVertexArrays(1, &array_);
 }
 
 void GpuMesh::upload(const SurfaceMesh& mesh) {

@@ -7,10 +7,15 @@
 
 namespace weft::scenes {
 
-/// A surface in the buffers of a context. It lives as long as its context.
+/// A surface in the buffers of a context, which must be the current one when it is deleted.
 class GpuMesh {
  public:
   explicit GpuMesh(const GlFunctions& gl);
+  ~GpuMesh();
+  GpuMesh(GpuMesh&& other) noexcept;
+  GpuMesh& operator=(GpuMesh&&) = delete;
+  GpuMesh(const GpuMesh&) = delete;
+  GpuMesh& operator=(const GpuMesh&) = delete;
 
   void upload(const SurfaceMesh& mesh);
   void draw() const;

@@ -82,6 +82,12 @@ LightMaps::LightMaps(const GlFunctions& gl)
   set_comparing(gl, GL_TEXTURE_2D_ARRAY);
 }
 
+LightMaps::~LightMaps() {
+  gl_.DeleteTextures(1, &key_map_);
+  gl_.DeleteTextures(1, &sky_maps_);
+  gl_.DeleteFramebuffers(1, &framebuffer_);
+}
+
 void LightMaps::update(const Eigen::Vector3f& key_direction, const Eigen::Vector3f& center,
                        double radius,
                        const std::function<void(const ShaderProgram&)>& draw_casters) {

@@ -14,6 +14,9 @@ namespace weft::scenes {
 class LightMaps {
  public:
   explicit LightMaps(const GlFunctions& gl);
+  ~LightMaps();
+  LightMaps(const LightMaps&) = delete;
+  LightMaps& operator=(const LightMaps&) = delete;
 
   /// Draws the maps again for casters within the radius [m] around the centre. draw_casters gets
   /// the program of the depth pass to set "u_world_from_body" of each body.

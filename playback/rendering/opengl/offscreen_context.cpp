@@ -15,7 +15,7 @@ namespace {
 /// renderer owns framebuffer objects of the size that it needs.
 constexpr int kBufferSize = 16;
 
-class OsmesaContext final : public OffscreenContext {
+class OsmesaContext final : public GlContext {
  public:
   explicit OsmesaContext(GlVersion version) : version_(version) {
     const std::array<int, 13> attributes = {OSMESA_FORMAT,
@@ -64,7 +64,7 @@ class OsmesaContext final : public OffscreenContext {
 
 }  // namespace
 
-std::unique_ptr<OffscreenContext> open_offscreen_context(GlVersion version) {
+std::unique_ptr<GlContext> open_offscreen_context(GlVersion version) {
   return std::make_unique<OsmesaContext>(version);
 }
 

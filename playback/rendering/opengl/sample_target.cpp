@@ -18,7 +18,7 @@ void make_texture(const GlFunctions& gl, GLuint texture, GLint format, GLenum da
 
 void check_complete(const GlFunctions& gl) {
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    throw Error("off-screen OpenGL: the framebuffer of a picture is not complete");
+    throw Error("OpenGL: the framebuffer of a picture is not complete");
   }
 }
 
@@ -32,6 +32,12 @@ SampleTarget::SampleTarget(const GlFunctions& gl)
   gl.GenTextures(1, &samples_);
   gl.GenTextures(1, &depth_);
   gl.GenTextures(1, &pixels_);
+}
+
+SampleTarget::~SampleTarget() {
+  for (const GLuint* texture : {&samples_, &depth_, &pixels_}) gl_.DeleteTextures(1, texture);
+  for (const GLuint* buffer : {&sample_buffer_, &pixel_buffer_}) gl_.DeleteFramebuffers(1, buffer);
+  gl_.DeleteVertexArrays(1, &screen_);
 }
 
 void SampleTarget::resize(int width, int height) {
@@ -60,7 +66,7 @@ void SampleTarget::begin(const Tile& tile, int samples) {
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-void SampleTarget::finish(const Tile& tile, int samples, Image& image) {
+void SampleTarget::resolve(const Tile& tile, int samples) {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, pixel_buffer_);
   gl_.Viewport(0, 0, tile.width, tile.height);
   gl_.Disable(GL_DEPTH_TEST);
@@ -71,6 +77,18 @@ void SampleTarget::finish(const Tile& tile, int samples, Image& image) {
   resolve_.set("u_num_samples", samples);
   gl_.BindVertexArray(screen_);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void SampleTarget::finish(const Tile& tile, int samples, GLuint framebuffer) {
+  resolve(tile, samples);
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, pixel_buffer_);
+  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+  gl_.BlitFramebuffer(0, 0, tile.width, tile.height, tile.x, tile.y, tile.x + tile.width,
+                      tile.y + tile.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void SampleTarget::finish(const Tile& tile, int samples, Image& image) {
+  resolve(tile, samples);
   const std::size_t row_size = std::size_t{3} * static_cast<std::size_t>(tile.width);
   std::vector<std::uint8_t> bytes(row_size * static_cast<std::size_t>(tile.height));
   gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);

@@ -23,14 +23,20 @@ class SampleTarget {
   static constexpr int kMaxSamples = 2048;
 
   explicit SampleTarget(const GlFunctions& gl);
+  ~SampleTarget();
+  SampleTarget(const SampleTarget&) = delete;
+  SampleTarget& operator=(const SampleTarget&) = delete;
 
   /// Makes the target the current one, empty, with the size of the tile.
   void begin(const Tile& tile, int samples);
   /// Averages the samples of the tile and stores them in the picture.
   void finish(const Tile& tile, int samples, Image& image);
+  /// The same into a framebuffer of the context, whose lower left corner is that of the picture.
+  void finish(const Tile& tile, int samples, GLuint framebuffer);
 
  private:
   void resize(int width, int height);
+  void resolve(const Tile& tile, int samples);
 
   const GlFunctions& gl_;
   ShaderProgram resolve_;

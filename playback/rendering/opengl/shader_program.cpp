@@ -25,7 +25,7 @@ GLuint compile(const GlFunctions& gl, GLenum kind, const ShaderProgram::Files& f
     std::array<GLchar, kLogSize> log{};
     gl.GetShaderInfoLog(shader, kLogSize, nullptr, log.data());
     const std::string text(log.data());
-    throw Error(fmt::format("off-screen OpenGL: shader '{}' does not compile: {}", files.back(),
+    throw Error(fmt::format("OpenGL: shader '{}' does not compile: {}", files.back(),
                             text.substr(0, text.find('\n'))));
   }
   return shader;
@@ -49,10 +49,13 @@ ShaderProgram::ShaderProgram(const GlFunctions& gl, const Files& vertex_files,
     std::array<GLchar, kLogSize> log{};
     gl.GetProgramInfoLog(program_, kLogSize, nullptr, log.data());
     const std::string text(log.data());
-    throw Error(fmt::format("off-screen OpenGL: shaders '{}' and '{}' do not link: {}",
-                            vertex_files.back(), fragment_files.back(),
-                            text.substr(0, text.find('\n'))));
+    throw Error(fmt::format("OpenGL: shaders '{}' and '{}' do not link: {}", vertex_files.back(),
+                            fragment_files.back(), text.substr(0, text.find('\n'))));
   }
+}
+
+ShaderProgram::~ShaderProgram() {
+  gl_.DeleteProgram(program_);
 }
 
 void ShaderProgram::use() const {

@@ -11,7 +11,7 @@
 
 namespace weft::scenes {
 
-/// A linked pair of shaders from playback/rendering/shaders. It lives as long as its context.
+/// A linked pair of shaders from playback/rendering/shaders. Its context must be the current one when it is deleted.
 class ShaderProgram {
  public:
   using Files = std::vector<std::string>;
@@ -19,6 +19,10 @@ class ShaderProgram {
   /// A shader is "prelude.glsl" and then the given files, one after the other.
   /// Throws Error with the compiler's first line.
   ShaderProgram(const GlFunctions& gl, const Files& vertex_files, const Files& fragment_files);
+
+  ~ShaderProgram();
+  ShaderProgram(const ShaderProgram&) = delete;
+  ShaderProgram& operator=(const ShaderProgram&) = delete;
 
   void use() const;
 

@@ -31,6 +31,7 @@ uniform int u_mapping;
 uniform vec2 u_repeat;
 uniform int u_texture_on_back;
 uniform int u_is_thin;  // light comes through from the other side
+uniform float u_opacity;  // below 1: a part of the samples is left out
 uniform int u_is_flat;  // triangles without smooth normals
 
 out vec4 o_color;
@@ -83,7 +84,15 @@ float wire() {
   return clamp(0.5 * u_line_width + 0.5 - nearest, 0.0, 1.0);
 }
 
+// Bayer's matrix of 4 x 4: translucent without sorting triangles, and smooth once samples are averaged.
+float threshold() {
+  ivec2 place = ivec2(gl_FragCoord.xy);
+  const float kBayer[16] = float[16](0.0, 8.0, 2.0, 10.0, 12.0, 4.0, 14.0, 6.0, 3.0, 11.0, 1.0, 9.0, 15.0, 7.0, 13.0, 5.0);
+  return (kBayer[(place.x & 3) + 4 * (place.y & 3)] + 0.5) / 16.0;
+}
+
 void main() {
+  if (u_opacity < 1.0 && threshold() > u_opacity) discard;
   bool front = gl_FrontFacing;
   vec3 normal = u_is_flat != 0 ? normalize(cross(dFdx(v_position), dFdy(v_position)))
                                : normalize(front ? v_normal : -v_normal);

@@ -13,7 +13,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-class EmptyContext final : public OffscreenContext {
+class EmptyContext final : public GlContext {
  public:
   void make_current() override {}
   [[nodiscard]] Function find_function(const char*) const override { return nullptr; }

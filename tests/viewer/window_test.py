@@ -1,0 +1,323 @@
+#!/usr/bin/env python3
+"""The window of `weft view` on a display of its own: keys and mouse through X, pictures through a script.
+
+usage: window_test.py PATH_OF_WEFT
+Skipped with exit code 77 where Xvfb or xdotool is not there, or where the display has no OpenGL 3.3.
+"""
+import json
+import os
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import zlib
+from pathlib import Path
+
+SKIPPED = 77
+PATIENCE = 60.0  # [s] for something that must come
+SCENE = """schema = "weft-scene/1"
+name = "small"
+summary = "Shows a small cloth that hangs"
+engines = ["reference", "bullet_forces"]
+[world]
+gravity = ["0 m/s^2", "-9.81 m/s^2", "0 m/s^2"]
+time_step = "1/500 s"
+duration = "0.4 s"
+frame_interval = "1/50 s"
+[[cloth]]
+name = "cloth"
+grid = { nodes = [13, 13], size = ["1 m", "1 m"] }
+center = ["0 m", "1.2 m", "0 m"]
+u_axis = [1, 0, 0]
+v_axis = [0, 0, -1]
+mass = "0.25 kg"
+pin = [{ corner = "-u-v" }, { corner = "+u-v" }]
+[[cloth.law]]
+law = "gravity"
+[[cloth.law]]
+law = "tension"
+stiffness = "20 N/m"
+[[cloth.law]]
+law = "velocity_damping"
+rate = "2 1/s"
+[camera]
+position = ["1.5 m", "1.5 m", "3.5 m"]
+target = ["0 m", "0.6 m", "0 m"]
+"""
+
+
+def skip(reason):
+    print(f"skipped: {reason}")
+    sys.exit(SKIPPED)
+
+
+class Display:
+    """An X server of this test."""
+
+    def __enter__(self):
+        read, write = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", "2000x1300x24", "-nolisten", "tcp"],
+            pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            number = pipe.readline().strip()
+        if not number:
+            skip("Xvfb does not start")
+        self.environment = dict(os.environ, DISPLAY=":" + number, LIBGL_ALWAYS_SOFTWARE="1")
+        return self
+
+    def __exit__(self, *_):
+        self.server.terminate()
+        self.server.wait()
+
+    def xdotool(self, *words):
+        return subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True,
+                              capture_output=True, text=True, timeout=PATIENCE).stdout.strip()
+
+
+class Window:
+    """A `weft view` that runs until it is told to quit."""
+
+    def __init__(self, weft, display, folder, *words):
+        self.display = display
+        self.state_file = folder / "state.json"
+        self.state_file.unlink(missing_ok=True)
+        self.process = subprocess.Popen([weft, "view", *words, "--state", str(self.state_file)],
+                                        env=display.environment, cwd=folder, stderr=subprocess.PIPE, text=True)
+        name = "Weft: " + words[0]
+        end = time.monotonic() + PATIENCE
+        while True:
+            found = subprocess.run(["xdotool", "search", "--name", name], env=display.environment,
+                                   capture_output=True, text=True, check=False).stdout.split()
+            if found:
+                break
+            if self.process.poll() is not None or time.monotonic() > end:
+                raise AssertionError(f"no window '{name}': {self.process.communicate()[1]}")
+            time.sleep(0.1)
+        self.window = found[0]
+        display.xdotool("windowfocus", "--sync", self.window)
+        time.sleep(1.0)  # the first picture compiles shaders
+
+    def keys(self, *names):
+        for name in names:
+            self.display.xdotool("key", name)
+            time.sleep(0.15)
+
+    def drag(self, button, start, end, hold=0.0):
+        """From and to in pixels of the window, in steps, as a hand moves."""
+        self.display.xdotool("mousemove", "--window", self.window, *start)
+        time.sleep(0.3)
+        self.display.xdotool("mousedown", button)
+        for i in range(1, 9):
+            time.sleep(0.1)
+            self.display.xdotool("mousemove", "--window", self.window,
+                                 *(round(a + i / 8 * (b - a)) for a, b in zip(start, end)))
+        time.sleep(0.3 + hold)
+        self.display.xdotool("mouseup", button)
+        time.sleep(0.3)
+
+    def quit(self):
+        self.keys("ctrl+q")
+        try:
+            _, errors = self.process.communicate(timeout=PATIENCE)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            raise
+        assert self.process.returncode == 0, errors
+        return json.loads(self.state_file.read_text(encoding="utf-8"))
+
+
+def read_png(path):
+    """Width, height and the RGB bytes of a picture that Weft wrote."""
+    data = path.read_bytes()
+    place, packed, width, height = 8, b"", 0, 0
+    while place < len(data):
+        length, kind = struct.unpack(">I4s", data[place:place + 8])
+        body = data[place + 8:place + 8 + length]
+        if kind == b"IHDR":
+            width, height, depth, color = struct.unpack(">IIBB", body[:10])
+            assert (depth, color) == (8, 2), "expected 8 bits of red, green and blue"
+        if kind == b"IDAT":
+            packed += body
+        place += 12 + length
+    raw, row_size = zlib.decompress(packed), 3 * width
+    above, rows = bytearray(row_size), []
+    for y in range(height):
+        kind, row = raw[y * (row_size + 1)], bytearray(raw[y * (row_size + 1) + 1:(y + 1) * (row_size + 1)])
+        for i in range(row_size):
+            left, up, corner = (row[i - 3] if i > 2 else 0), above[i], (above[i - 3] if i > 2 else 0)
+            if kind == 1:
+                row[i] = (row[i] + left) & 255
+            elif kind == 2:
+                row[i] = (row[i] + up) & 255
+            elif kind == 3:
+                row[i] = (row[i] + (left + up) // 2) & 255
+            elif kind == 4:
+                guess = left + up - corner
+                nearest = min((abs(guess - left), 0, left), (abs(guess - up), 1, up), (abs(guess - corner), 2, corner))
+                row[i] = (row[i] + nearest[2]) & 255
+        rows.append(bytes(row))
+        above = row
+    return width, height, b"".join(rows)
+
+
+def mean_difference(a, b):
+    assert a[:2] == b[:2], f"sizes {a[:2]} and {b[:2]}"
+    return sum(abs(p - q) for p, q in zip(a[2], b[2])) / len(a[2])
+
+
+def test_keys_through_x(weft, display, folder):
+    window = Window(weft, display, folder, "hang", "--paused", "--size", "1024x640")
+    window.keys("x", "x", "shift+z", "ctrl+y", "2", "n", "4", "t", "F1", "c", "bracketright", "Page_Down", "ctrl+equal",
+                "Right", "Right", "Right", "Left", "o", "Down", "o", "F7")
+    state = window.quit()
+    assert state["wind"] == [1.0, 0.0, -0.5], state["wind"]
+    assert abs(state["gravity"][1] + 8.81) < 1e-9, state["gravity"]
+    assert state["style"] == "wireframe" and state["worst_shown"] and state["help"], state
+    assert not state["shadow"] and not state["plots"], state
+    assert state["cloth_type"] == "handkerchief" and state["speed"] == 2.0, state
+    assert state["chosen"] == 1 and state["text_scale"] == 1.25, state
+    assert state["step"] == 2 and state["looks_back"] and not state["playing"], state
+    assert state["row"] == 1 and not state["list"], state
+    assert state["window"] == [1280, 800], state["window"]
+
+
+def test_mouse_through_x(weft, display, folder):
+    still = Window(weft, display, folder, "hang", "--paused", "--size", "1024x640").quit()
+    assert still["camera"]["position"] == [1.5, 1.5, 3.5], still["camera"]
+
+    window = Window(weft, display, folder, "hang", "--paused", "--size", "1024x640")
+    window.drag(1, (620, 300), (700, 260))
+    turned = window.quit()
+    assert turned["camera"]["position"] != still["camera"]["position"]
+    assert turned["camera"]["target"] == still["camera"]["target"]
+
+    window = Window(weft, display, folder, "hang", "--paused", "--size", "1024x640")
+    window.drag(3, (620, 300), (700, 260))
+    moved = window.quit()
+    assert moved["camera"]["target"] != still["camera"]["target"]
+
+    window = Window(weft, display, folder, "hang", "--paused", "--size", "1024x640")
+    display.xdotool("mousemove", "--window", window.window, 620, 300)
+    time.sleep(0.3)
+    display.xdotool("click", 4)
+    time.sleep(0.3)
+    nearer = window.quit()
+
+    def distance(state):
+        camera = state["camera"]
+        return sum((a - b) ** 2 for a, b in zip(camera["position"], camera["target"])) ** 0.5
+    assert distance(nearer) < distance(still)
+
+
+def test_pull_and_buttons_through_x(weft, display, folder):
+    # The panels are hidden, so that the cloth is under the mouse.
+    window = Window(weft, display, folder, "hang", "--size", "1024x640")
+    window.keys("Tab")
+    time.sleep(4.0)  # until it hangs
+    window.drag(2, (420, 330), (560, 120), hold=0.5)
+    pulled = window.quit()
+    assert pulled["largest_pull_N"] > 0.05, pulled["largest_pull_N"]
+    assert pulled["playing"] and not pulled["panels"], pulled
+    # The first button of the timeline.
+    window = Window(weft, display, folder, "hang", "--size", "1024x640")
+    window.display.xdotool("mousemove", "--window", window.window, 50, 603)
+    time.sleep(0.5)
+    window.display.xdotool("mousedown", 1)
+    time.sleep(0.3)
+    window.display.xdotool("mouseup", 1)
+    time.sleep(0.5)
+    assert not window.quit()["playing"]
+
+
+def test_pictures(weft, display, folder):
+    """Every function that changes the picture does; without one it stays the same, byte for byte."""
+    actions = ["wireframe", "strain", "shaded", "shadow", "rotate_left", "zoom_in", "move_up", "worst_node", "panels", "help",
+               "help", "scene_list", "scene_list", "plots", "laws", "larger_text", "window_larger"]
+    lines = ["do panels", "do window_smaller", "do window_smaller", "wait_time 0", *["do step_forward"] * 5, "wait 1.5", "screenshot p0.png", "wait 0.6",
+             "screenshot same.png"]
+    for i, action in enumerate(actions, 1):
+        lines += [f"do {action}", "wait 1", f"screenshot p{i}.png"]
+    (folder / "script.txt").write_text("\n".join([*lines, "quit"]), encoding="utf-8")
+    subprocess.run([weft, "view", "small.toml", "--paused", "--script", "script.txt"], env=display.environment, cwd=folder,
+                   check=True, timeout=5 * PATIENCE)
+    pictures = [(folder / f"p{i}.png").read_bytes() for i in range(len(actions) + 1)]
+    assert (folder / "same.png").read_bytes() == pictures[0], "a picture changes by itself"
+    for i, action in enumerate(actions, 1):
+        assert pictures[i] != pictures[i - 1], f"{action} changes nothing"
+    # From strain to shaded and back to the looks of the first picture.
+    assert pictures[3] == pictures[0], "shaded is not what it was"
+
+
+def test_picture_is_that_of_render(weft, display, folder):
+    subprocess.run([weft, "run", "small.toml", "-o", "small.weftrec"], cwd=folder, check=True, capture_output=True)
+    subprocess.run([weft, "render", "small.weftrec", "-o", "render.png", "--size", "400x300"], cwd=folder, check=True,
+                   capture_output=True)
+    (folder / "script.txt").write_text("do panels\ndo last_frame\nwait 2\nscreenshot window.png\nquit\n", encoding="utf-8")
+    subprocess.run([weft, "view", "small.weftrec", "--size", "400x300", "--script", "script.txt"], env=display.environment,
+                   cwd=folder, check=True, timeout=PATIENCE)
+    difference = mean_difference(read_png(folder / "window.png"), read_png(folder / "render.png"))
+    assert difference < 0.5, f"mean difference {difference} of 255"
+    # Negative control: another frame.
+    subprocess.run([weft, "render", "small.weftrec", "-o", "first.png", "--size", "400x300", "--time", "0 s"], cwd=folder,
+                   check=True, capture_output=True)
+    other = mean_difference(read_png(folder / "window.png"), read_png(folder / "first.png"))
+    assert other > 2.0, f"the test would not notice another frame: {other}"
+
+
+def test_untouched_run_has_the_bits_of_run(weft, display, folder):
+    for engine in ("reference", "bullet_forces"):
+        if subprocess.run([weft, "run", "small.toml", "-e", engine, "-o", f"run_{engine}.weftrec"], cwd=folder, check=False,
+                          capture_output=True).returncode != 0:
+            continue  # a build without Bullet
+        subprocess.run([weft, "view", "small.toml", "-e", engine, "--record", f"view_{engine}.weftrec", "--exit-at-end"],
+                       env=display.environment, cwd=folder, check=True, timeout=PATIENCE)
+        told = subprocess.run([weft, "diff", f"run_{engine}.weftrec", f"view_{engine}.weftrec"], cwd=folder, check=False,
+                              capture_output=True, text=True)
+        assert told.returncode == 0 and "equal bit for bit, 21 frames" in told.stdout, told.stdout + told.stderr
+
+
+def test_mistakes_are_told(weft, display, folder):
+    def told(*words, environment=display.environment):
+        result = subprocess.run([weft, "view", *words], env=environment, cwd=folder, check=False, capture_output=True, text=True,
+                                timeout=PATIENCE)
+        assert result.returncode == 2 and result.stderr.count("\n") <= 2, result
+        return result.stderr
+    assert "expected pixels" in told("small.toml", "--size", "3")
+    assert "'nonsense'" in told("nonsense")
+    assert "missing.txt" in told("small.toml", "--script", "missing.txt")
+    (folder / "bad.txt").write_text("wait 1\nfly\n", encoding="utf-8")
+    assert "bad.txt:2" in told("small.toml", "--script", "bad.txt")
+    nowhere = {key: value for key, value in display.environment.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    assert "there is no display" in told("small.toml", environment=nowhere)
+    assert "expected float32 or float64" in told("small.toml", "-p", "float16")
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit("usage: window_test.py PATH_OF_WEFT")
+    weft = str(Path(sys.argv[1]).resolve())
+    for tool in ("Xvfb", "xdotool"):
+        if shutil.which(tool) is None:
+            skip(f"{tool} is not installed (tools/packages.txt, group test)")
+    tests = [test for name, test in globals().items() if name.startswith("test_")]
+    with tempfile.TemporaryDirectory() as name, Display() as display:
+        folder = Path(name)
+        (folder / "small.toml").write_text(SCENE, encoding="utf-8")
+        (folder / "probe.txt").write_text("quit\n", encoding="utf-8")
+        probe = subprocess.run([weft, "view", "small.toml", "--script", "probe.txt"], env=display.environment, cwd=folder,
+                               check=False, capture_output=True, text=True, timeout=PATIENCE)
+        if "no OpenGL 3.3" in probe.stderr:
+            skip("the display has no OpenGL 3.3")
+        assert probe.returncode == 0, probe.stderr
+        for test in tests:
+            start = time.monotonic()
+            test(weft, display, folder)
+            print(f"{test.__name__}: ok, {time.monotonic() - start:.1f} s", flush=True)
+
+
+if __name__ == "__main__":
+    main()

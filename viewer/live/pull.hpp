@@ -1,0 +1,48 @@
+#pragma once
+
+// Tested by tests/viewer/live/pull_test.cpp.
+
+#include <mutex>
+#include <optional>
+
+#include <weft/scenes/steering.hpp>
+#include <weft/viewer/model/picking.hpp>
+
+namespace weft::viewer {
+
+/// A node that the mouse pulls to a point.
+struct Pull {
+  NodeId id;
+  Vector3<double> target{0, 0, 0};  ///< [m]
+};
+
+/// What the window does to a run beside its laws: the pull of the mouse, and a change of the gravity of
+/// rigid bodies. Without either it asks for nothing, so that the run keeps its bits.
+class WindowForces final : public scenes::Controller {
+ public:
+  /// time_step [s] of the engine.
+  WindowForces(const scenes::Scene& scene, double time_step);
+
+  void set_pull(const std::optional<Pull>& pull);
+  /// [m/s^2] beyond that of the scene as it was loaded.
+  void set_added_gravity(const Vector3<double>& acceleration);
+  /// [N] with which the last step was pulled.
+  [[nodiscard]] double pull_force() const;
+  /// [N] that no pull on a cloth exceeds: three times its weight on Earth.
+  [[nodiscard]] double largest_force(std::size_t cloth) const;
+
+  void steer(const scenes::SceneState& state, double end_time, scenes::Steering& steering) override;
+
+ private:
+  void pull(const Pull& pull, const scenes::SceneState& state, scenes::Steering& steering);
+
+  std::vector<ClothMesh> meshes_;
+  std::vector<double> rigid_masses_;  ///< [kg]; 0 for those without
+  double time_step_;
+  mutable std::mutex mutex_;
+  std::optional<Pull> pull_;
+  Vector3<double> added_gravity_{0, 0, 0};
+  double pull_force_ = 0.0;
+};
+
+}  // namespace weft::viewer

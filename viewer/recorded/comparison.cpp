@@ -1,0 +1,140 @@
+#include <weft/viewer/recorded/comparison.hpp>
+
+#include <array>
+#include <chrono>
+#include <utility>
+
+#include <weft/core/error.hpp>
+
+namespace weft::viewer {
+namespace {
+
+/// Colors of ghosts, one for each recording: far from one another, also for the color-blind.
+constexpr std::array<scenes::Rgb, 4> kGhostColors = {
+    {{230, 120, 20}, {20, 150, 90}, {190, 60, 160}, {120, 100, 40}}};
+
+/// Half: of the four samples of a pixel two are drawn, and no pattern is seen.
+constexpr double kGhostOpacity = 0.5;
+
+bool may_move(const scenes::Collider& collider) {
+  return collider.mass || collider.path || !collider.led_by.empty();
+}
+
+void make_ghost(scenes::Appearance& appearance, const scenes::Rgb& color) {
+  const bool is_visible = appearance.visible;
+  appearance = {};
+  appearance.visible = is_visible;
+  appearance.color = color;
+  appearance.back_color = color;
+}
+
+int last_not_after(const scenes::RecordingReader& reader, double time) {
+  // Times of two engines may differ by a rounding.
+  const double limit = time + 1e-9;
+  int low = 0;
+  int high = reader.num_frames() - 1;
+  while (low < high) {
+    const int middle = (low + high + 1) / 2;
+    if (reader.frame_time(middle) <= limit) {
+      low = middle;
+    } else {
+      high = middle - 1;
+    }
+  }
+  return low;
+}
+
+}  // namespace
+
+Comparison::Comparison(std::vector<std::filesystem::path> paths) : paths_(std::move(paths)) {
+  for (const std::filesystem::path& path : paths_) {
+    readers_.push_back(std::make_unique<scenes::RecordingReader>(path));
+    if (readers_.back()->num_frames() == 0) {
+      throw Error(path.string() + ": has no frame, expected a recording with at least one");
+    }
+    std::vector<std::size_t>& moving = moving_.emplace_back();
+    const auto& colliders = readers_.back()->scene().colliders;
+    for (std::size_t k = 0; k < colliders.size(); ++k) {
+      if (may_move(colliders[k])) moving.push_back(k);
+    }
+  }
+  rebuild();
+}
+
+void Comparison::next() {
+  solid_ = (solid_ + 1) % readers_.size();
+  rebuild();
+}
+
+void Comparison::show_ghosts(bool are_shown) {
+  are_shown_ = are_shown;
+  rebuild();
+}
+
+void Comparison::rebuild() {
+  drawn_scene_ = reader().scene();
+  for (std::size_t r = 0; has_ghosts() && r < readers_.size(); ++r) {
+    if (r == solid_) continue;
+    const scenes::Rgb& color = kGhostColors[r % kGhostColors.size()];
+    const scenes::Scene& scene = readers_[r]->scene();
+    for (scenes::Cloth cloth : scene.cloths) {
+      make_ghost(cloth.appearance, color);
+      drawn_scene_.cloths.push_back(std::move(cloth));
+    }
+    for (const std::size_t k : moving_[r]) {
+      scenes::Collider collider = scene.colliders[k];
+      make_ghost(collider.appearance, color);
+      drawn_scene_.colliders.push_back(std::move(collider));
+    }
+  }
+  meter_ = std::make_unique<Meter>(reader().scene());
+  measures_.assign(static_cast<std::size_t>(num_frames()), std::nullopt);
+  num_measured_ = 0;
+  last_frame_ = -1;
+}
+
+scenes::Ghosts Comparison::ghosts() const {
+  return {reader().scene().cloths.size(), reader().scene().colliders.size(), kGhostOpacity};
+}
+
+int Comparison::frame_at(double time) const {
+  return last_not_after(reader(), time);
+}
+
+SnapshotPtr Comparison::frame(int frame) {
+  if (frame == last_frame_) return last_;
+  auto snapshot = std::make_shared<Snapshot>();
+  snapshot->state = reader().frame(frame);
+  snapshot->state.time = frame_time(frame);
+  std::optional<Measures>& measures = measures_.at(static_cast<std::size_t>(frame));
+  if (!measures) measures = meter_->measure(snapshot->state);
+  snapshot->measures = *measures;
+  snapshot->step = frame;
+  const auto blow_up = reader().blow_up();
+  if (blow_up && blow_up->time <= snapshot->state.time) snapshot->blow_up = blow_up;
+  for (std::size_t r = 0; has_ghosts() && r < readers_.size(); ++r) {
+    if (r == solid_) continue;
+    scenes::SceneState other =
+        readers_[r]->frame(last_not_after(*readers_[r], snapshot->state.time));
+    for (scenes::ClothState& cloth : other.cloths)
+      snapshot->state.cloths.push_back(std::move(cloth));
+    for (const std::size_t k : moving_[r]) snapshot->state.rigids.push_back(other.rigids[k]);
+  }
+  last_ = snapshot;
+  last_frame_ = frame;
+  return last_;
+}
+
+bool Comparison::measure_more(double seconds) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  while (num_measured_ < measures_.size() &&
+         std::chrono::duration<double>(Clock::now() - start).count() < seconds) {
+    std::optional<Measures>& measures = measures_[num_measured_];
+    if (!measures) measures = meter_->measure(reader().frame(static_cast<int>(num_measured_)));
+    ++num_measured_;
+  }
+  return num_measured_ == measures_.size();
+}
+
+}  // namespace weft::viewer

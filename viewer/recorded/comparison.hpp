@@ -1,0 +1,66 @@
+#pragma once
+
+// Tested by tests/viewer/recorded/comparison_test.cpp.
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include <weft/playback/rendering/renderer.hpp>
+#include <weft/scenes/recording/recording.hpp>
+#include <weft/viewer/model/snapshot.hpp>
+
+namespace weft::viewer {
+
+/// Recordings that are shown over one another: the first one solid, with its times; the others as ghosts
+/// at the same time.
+class Comparison {
+ public:
+  /// Throws Error for a file that is no recording or has no frame.
+  explicit Comparison(std::vector<std::filesystem::path> paths);
+
+  [[nodiscard]] std::size_t size() const { return readers_.size(); }
+  /// The recording that is solid, counted as the paths.
+  [[nodiscard]] std::size_t solid() const { return solid_; }
+  [[nodiscard]] const std::filesystem::path& path() const { return paths_[solid_]; }
+  /// Makes the next recording the solid one.
+  void next();
+  /// With ghosts or without; there are none of a single recording.
+  void show_ghosts(bool are_shown);
+  [[nodiscard]] bool has_ghosts() const { return are_shown_ && size() > 1; }
+
+  /// What is drawn: bodies of the solid recording, then those of the ghosts that may move.
+  [[nodiscard]] const scenes::Scene& drawn_scene() const { return drawn_scene_; }
+  [[nodiscard]] scenes::Ghosts ghosts() const;
+  [[nodiscard]] const scenes::RecordingReader& reader() const { return *readers_[solid_]; }
+
+  [[nodiscard]] int num_frames() const { return reader().num_frames(); }
+  [[nodiscard]] double frame_time(int frame) const { return reader().frame_time(frame); }
+  /// The last frame that is not after a time [s].
+  [[nodiscard]] int frame_at(double time) const;
+  /// The state that is drawn, and the measures of the solid recording. Frames that were read last are
+  /// kept.
+  [[nodiscard]] SnapshotPtr frame(int frame);
+  /// Measures of frames that have not been asked for, for plots, within a wall time [s]. True once all
+  /// are there.
+  bool measure_more(double seconds);
+  /// Of each frame of the solid recording; none where it was not measured yet.
+  [[nodiscard]] const std::vector<std::optional<Measures>>& measures() const { return measures_; }
+
+ private:
+  void rebuild();
+
+  std::vector<std::filesystem::path> paths_;
+  std::vector<std::unique_ptr<scenes::RecordingReader>> readers_;
+  std::size_t solid_ = 0;
+  bool are_shown_ = true;
+  scenes::Scene drawn_scene_;
+  std::vector<std::vector<std::size_t>> moving_;  ///< colliders of each recording that may move
+  std::unique_ptr<Meter> meter_;                  ///< of the solid recording
+  std::vector<std::optional<Measures>> measures_;
+  std::size_t num_measured_ = 0;
+  SnapshotPtr last_;
+  int last_frame_ = -1;
+};
+
+}  // namespace weft::viewer
