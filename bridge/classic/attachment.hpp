@@ -110,9 +110,9 @@ struct ContactEntry {
 
 struct SoftBodySolver::Attachments {
   std::vector<std::unique_ptr<Attachment>> list;
-  std::vector<Attachment*> stepped;        ///< fast bodies of the present step
-  std::vector<Attachment*> asked;          ///< of those, that contacts are still looked for
-  std::vector<const btRigidBody*> pushed;  ///< once for each of those that may push it, in order
+  std::vector<Attachment*> stepped;  ///< fast bodies of the present step
+  std::vector<Attachment*> asked;    ///< of those, that contacts are still looked for
+  std::vector<const void*> pushed;   ///< owners of inertia, once for each cloth that may push it
   std::vector<std::unique_ptr<ContactEntry>> contacts;
   std::function<void(btSoftBody&, const BodyBlowUp&)> on_blow_up;
   HullTable hulls;  ///< of rigid objects that bodies have met

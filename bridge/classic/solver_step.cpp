@@ -138,7 +138,7 @@ void SoftBodySolver::solve_in_substeps() {
     const auto first = std::find_if(bodies.begin(), bodies.end(), wants_substeps);
     if (first == bodies.end()) return;
     std::vector<Attachment*> group{*first};
-    std::vector<btRigidBody*> reached;
+    std::vector<MovableObject> reached;
     int num_substeps = 1;
     for (std::size_t g = 0; g < group.size(); ++g) {
       num_substeps =
@@ -146,10 +146,10 @@ void SoftBodySolver::solve_in_substeps() {
       group[g]->fast->list_dynamic(*group[g]->body, reached);
       for (Attachment* other : bodies) {
         if (std::find(group.begin(), group.end(), other) != group.end()) continue;
-        std::vector<btRigidBody*> of_other;
+        std::vector<MovableObject> of_other;
         other->fast->list_dynamic(*other->body, of_other);
-        const bool shares = std::any_of(of_other.begin(), of_other.end(), [&](const auto* rigid) {
-          return std::find(reached.begin(), reached.end(), rigid) != reached.end();
+        const bool shares = std::any_of(of_other.begin(), of_other.end(), [&](const auto& one) {
+          return std::find(reached.begin(), reached.end(), one) != reached.end();
         });
         if (shares) group.push_back(other);
       }
@@ -166,7 +166,7 @@ void SoftBodySolver::solve_in_substeps() {
 void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_substeps) {
   const TraceScope trace("step in parts");
   const btScalar substep_time = time_step_ / static_cast<btScalar>(num_substeps);
-  std::vector<btRigidBody*> dynamic;
+  std::vector<MovableObject> dynamic;
   for (const Attachment* one : group) one->fast->list_dynamic(*one->body, dynamic);
   RigidSubsteps rigid(dynamic, time_step_, num_substeps);
   std::vector<Attachment*>& bodies = attachments_->stepped;
@@ -195,7 +195,7 @@ bool SoftBodySolver::may_meet_cloth() const {
 
 void SoftBodySolver::solve_listed_bodies(btScalar time_step) {
   std::vector<Attachment*>& bodies = attachments_->stepped;
-  std::vector<const btRigidBody*>& pushed = attachments_->pushed;
+  std::vector<const void*>& pushed = attachments_->pushed;
   const auto list_coupled = [&] {
     pushed.clear();
     for (const Attachment* one : bodies) one->fast->list_coupled(*one->body, pushed);

@@ -50,7 +50,7 @@ void RigidResponse::collide(btSoftBody& body, const btCollisionObjectWrapper& ob
                             HullTable& hulls, btScalar time_step) {
   auto& collision_object = *const_cast<btCollisionObject*>(object.getCollisionObject());
   btRigidBody* const moving = btRigidBody::upcast(&collision_object);
-  btRigidBody* const dynamic = movable(&collision_object);
+  btRigidBody* const dynamic = MovableObject(&collision_object).rigid();
   swept_.update(body);
   found_.clear();
   // At once what a cloth that lies with all its nodes needs, and nothing later on.

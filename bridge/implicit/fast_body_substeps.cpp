@@ -5,6 +5,7 @@
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/implicit/fast_body.hpp>
+#include <weft/bridge/implicit/node_anchors.hpp>
 #include <weft/bridge/rigid/rigid_substeps.hpp>
 
 namespace weft::bridge {
@@ -31,15 +32,15 @@ int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
   btScalar most = 1;
   bool touches_dynamic = false;
   for (const RigidContact& contact : contacts_) {
-    const btRigidBody* const rigid = movable(contact.object);
-    if (rigid == nullptr) continue;
+    const MovableObject object{contact.object};
+    if (!object || object.is_articulated()) continue;
     touches_dynamic = true;
     const Collider& collider = colliders_[static_cast<std::size_t>(contact.collider)];
     const btVector3 normal = collider.object_pose.getBasis() * contact.normal_by_object;
     const btScalar approach = btDot(normal, body.m_nodes[contact.node].m_q - contact.met);
     // By what cloth has done to it in the last solve: so it will go on.
-    const btScalar weight = 2 * time_step * time_step * rigid->getGravity().length();
-    const btScalar pushed = pushed_.push_in(*rigid, time_step) - weight;
+    const btScalar weight = 2 * time_step * time_step * object.gravity().length();
+    const btScalar pushed = pushed_.push_in(object, time_step) - weight;
     const btScalar size =
         std::max(smallest_half_extent(*collider.shape), body.getCollisionShape()->getMargin());
     most = std::max({most, approach / (kApproachShare * size), pushed / (kPushShare * size)});
@@ -49,15 +50,15 @@ int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
   return std::min(kMostSubsteps, static_cast<int>(std::ceil(most)));
 }
 
-void FastBody::list_dynamic(const btSoftBody& body, std::vector<btRigidBody*>& list) const {
-  const auto add = [&](const btCollisionObject* object) {
-    btRigidBody* const rigid = movable(object);
-    if (rigid != nullptr && std::find(list.begin(), list.end(), rigid) == list.end()) {
-      list.push_back(rigid);
+void FastBody::list_dynamic(const btSoftBody& body, std::vector<MovableObject>& list) const {
+  const auto add = [&](const btCollisionObject* one) {
+    const MovableObject object{one};
+    if (object && std::find(list.begin(), list.end(), object) == list.end()) {
+      list.push_back(object);
     }
   };
   for (const Collider& collider : colliders_) add(collider.object);
-  for (int a = 0; a < body.m_anchors.size(); ++a) add(body.m_anchors[a].m_body);
+  for_anchors(body, [&](const NodeAnchor& anchor) { add(anchor.object); });
 }
 
 void FastBody::begin_substeps(const btSoftBody& body, btScalar time_step) {
@@ -98,9 +99,9 @@ void FastBody::begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int s
   is_support_missing_ = false;
   swept_.invalidate();
   for (Collider& collider : colliders_) {
-    const btRigidBody* const dynamic = movable(collider.object);
-    if (dynamic == nullptr) continue;
-    const btTransform start = rigid.start_of(*dynamic);
+    const MovableObject dynamic{collider.object};
+    if (!dynamic) continue;
+    const btTransform start = rigid.start_of(dynamic);
     collider.pose = start * collider.object_pose.inverse() * collider.pose;
     collider.object_pose = start;
   }
