@@ -42,6 +42,8 @@ struct PlaneContact {
   Scalar offset = 0;  ///< [m] normal . x >= offset at the end of the step
   Vector3<Scalar> motion = Vector3<Scalar>::Zero();  ///< for the surface there during the step [m]
   Scalar friction = 0;                               ///< Coulomb coefficient [-], >= 0
+  /// By which another surface presses the node onto this one [N]. If it is not zero, the node stays on the plane whatever pulls.
+  Scalar squeeze = 0;
   /// The collider among the step's rigid bodies, or -1: nothing moves it. Offset and motion are those without the cloth.
   int body = -1;
   Vector3<Scalar> lever_arm = Vector3<Scalar>::Zero();  ///< from the body's center to the node [m]

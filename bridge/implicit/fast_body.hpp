@@ -10,6 +10,7 @@
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/classic/node_normals.hpp>
+#include <weft/bridge/contact/pinch.hpp>
 #include <weft/bridge/contact/rigid_contacts.hpp>
 #include <weft/bridge/fast_settings.hpp>
 #include <weft/bridge/implicit/bending_forces.hpp>
@@ -238,6 +239,7 @@ class FastBody : public NodeTeam {
   std::vector<fast::PlaneContact<btScalar>> plane_contacts_;
   std::vector<fast::KinematicNode<btScalar>> kinematic_;
   CoupledBodies pushed_;
+  Pinches pinches_;
   StickingPoints sticking_points_;
   LedLinks led_links_;
   std::vector<int> scratch_;  ///< kept for its memory

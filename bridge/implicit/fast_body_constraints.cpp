@@ -14,6 +14,8 @@ Vector3<btScalar> lever_arm(const MovableObject& object, const btVector3& point)
   return from_bullet<btScalar>(point - object.center());
 }
 
+/// [m] Behind which a plane holds nothing.
+constexpr btScalar kFarAway = 1000;
 /// How far below its plane a node may end a step, as a share of the margin [-].
 constexpr btScalar kDepthShare = btScalar(0.5);
 /// By how much a plane may be wrong where the node has come to, as a share of the margin [-].
@@ -98,6 +100,7 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
   const std::size_t num_known = contacts_.size();
   bool is_any_wrong = false;
   for (RigidContact& found : found_) {
+    if (pinches_.has(found.node)) continue;
     const btVector3& position = body.m_nodes[found.node].m_x;
     const btScalar gap = btDot(found.normal, position) - found.offset;
     const MovableObject object{found.object};
@@ -129,7 +132,7 @@ void FastBody::project_out_of_missed_colliders(btSoftBody& body, btScalar time_s
   const std::size_t num_solved = contacts_.size();
   for (int look = 0; look <= kMostRedetections && find_missed_contacts(body, time_step); ++look) {
     for (const RigidContact& contact : contacts_) {
-      if (MovableObject(contact.object)) continue;
+      if (MovableObject(contact.object) || pinches_.has(contact.node)) continue;
       is_projected_ = true;
       if (look == kMostRedetections && &contact >= &contacts_[num_solved]) {  // between two facets
         positions_.col(contact.node) =
@@ -160,7 +163,7 @@ void FastBody::project_out_of_planes() {
 // Other cloth may have pushed nodes into what does not move.
 void FastBody::project_out_of_colliders(btSoftBody& body) const {
   for (const RigidContact& contact : contacts_) {
-    if (MovableObject(contact.object)) continue;
+    if (MovableObject(contact.object) || pinches_.has(contact.node)) continue;
     btSoftBody::Node& node = body.m_nodes[contact.node];
     const btScalar gap = btDot(contact.normal, node.m_x) - contact.offset;
     if (gap < 0 && node.m_im > 0) node.m_x -= gap * contact.normal;
@@ -187,14 +190,19 @@ void FastBody::list_coupled(const btSoftBody& body, std::vector<const void*>& li
 void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool is_again) {
   pushed_.clear();
   plane_contacts_.clear();
-  for (const RigidContact& contact : contacts_) {
+  pinches_.find(contacts_, body, body.m_sst.sdt);
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const RigidContact& contact = contacts_[c];
     fast::PlaneContact<btScalar> plane;
     plane.node = contact.node;
     plane.normal = from_bullet<btScalar>(contact.normal);
     plane.offset = contact.offset - plane.normal.dot(origin_);
     plane.motion = from_bullet<btScalar>(contact.motion);
-    plane.friction = body.m_cfg.kDF * contact.object->getFriction();
-    if (const MovableObject object{contact.object}) {
+    plane.friction = body.m_cfg.kDF * (contact.object->getFriction() + pinches_.other_friction(c));
+    plane.squeeze = pinches_.squeeze_of(c);
+    plane.offset -= pinches_.is_replaced(c) ? kFarAway : pinches_.depth_of(c);
+    const MovableObject object{contact.object};
+    if (object && !pinches_.has(contact.node)) {
       plane.body = pushed_.number_of(object, body.m_worldInfo->m_dispatcher, time_step, is_again);
       // Where the surface holds the node, which is predicted to be deep inside.
       const btVector3& point = body.m_nodes[contact.node].m_x;
@@ -232,11 +240,15 @@ void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
   for (std::size_t c = 0; c < plane_contacts_.size(); ++c) {
     const MovableObject object{contacts_[c].object};
     const auto [active, state] = solver_->contact_of(static_cast<std::size_t>(contacts_[c].node));
-    if (!object || active != static_cast<int>(c)) continue;
+    if (plane_contacts_[c].body < 0 || active != static_cast<int>(c)) continue;
     sticking_points_.add(contacts_[c].node, object, state == fast::ContactState::kFixed,
                          solved_pose(object), in_world(contacts_[c].node));
   }
   sticking_points_.end_update();
+  pinches_.push_back(
+      contacts_,
+      [&](int node) -> btVector3 { return time_step * to_bullet(solver_->constraint_force(node)); },
+      [&](int node) { return in_world(node); });
   given_to_bodies_ = -pushed_.kinetic_energy();
   pushed_.exchange_impulses(time_step);
   for (int a = 0; a < body.m_anchors.size(); ++a) {  // that push with a share only

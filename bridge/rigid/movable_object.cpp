@@ -1,5 +1,8 @@
 #include <weft/bridge/rigid/movable_object.hpp>
 
+#include <algorithm>
+
+#include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/rigid/multibody_inertia.hpp>
 
 namespace weft::bridge {
@@ -90,6 +93,38 @@ bool MovableObject::is_placeable() const {
   if (object_->getActivationState() == DISABLE_SIMULATION) return false;
   if (rigid_ != nullptr) return rigid_->getNumConstraintRefs() == 0;
   return !is_articulated() && link_->m_link < 0;
+}
+
+void WrenchSum::add(const btCollisionObject* object, const btVector3& impulse,
+                    const btVector3& point) {
+  const MovableObject movable{object};
+  if (!movable) return;
+  auto entry = std::find_if(entries_.begin(), entries_.end(),
+                            [&](const Entry& one) { return one.object == movable; });
+  if (entry == entries_.end()) {
+    entry = entries_.insert(entry, {movable, btVector3(0, 0, 0), btVector3(0, 0, 0)});
+  }
+  entry->impulse += impulse;
+  entry->angular += (point - movable.center()).cross(impulse);
+}
+
+void WrenchSum::apply() const {
+  for (const Entry& entry : entries_) {
+    entry.object.activate();
+    if (btRigidBody* const rigid = entry.object.rigid()) {
+      rigid->applyCentralImpulse(entry.impulse);
+      rigid->applyTorqueImpulse(entry.angular);
+      continue;
+    }
+    btMultiBody& multibody = *entry.object.link()->m_multiBody;
+    const MultiBodyInertia inertia(multibody);
+    Eigen::Matrix<double, 6, 1> wrench;
+    wrench << from_bullet(entry.impulse), from_bullet(entry.angular);
+    const VectorX<btScalar> change =
+        inertia.response_to(inertia.jacobian_of(entry.object.link()->m_link).transpose() * wrench)
+            .cast<btScalar>();
+    multibody.applyDeltaVeeMultiDof(change.data(), 1);
+  }
 }
 
 }  // namespace WEFT_BULLET_PRECISION

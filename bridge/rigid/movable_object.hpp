@@ -2,6 +2,8 @@
 
 // Tested by tests/bridge/rigid/multibody_test.cpp.
 
+#include <vector>
+
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
@@ -70,6 +72,22 @@ class MovableObject {
   const btCollisionObject* object_ = nullptr;
   btRigidBody* rigid_ = nullptr;
   btMultiBodyLinkCollider* link_ = nullptr;
+};
+
+/// Impulses on some objects, which are applied at once: the response of a multibody takes long to find.
+class WrenchSum {
+ public:
+  /// impulse [N s] at a point; nothing for objects that no impulse moves.
+  void add(const btCollisionObject* object, const btVector3& impulse, const btVector3& point);
+  void apply() const;
+
+ private:
+  struct Entry {
+    MovableObject object;
+    btVector3 impulse;
+    btVector3 angular;  ///< about the center
+  };
+  std::vector<Entry> entries_;
 };
 
 }  // namespace WEFT_BULLET_PRECISION
