@@ -1,5 +1,6 @@
 // Links of multibodies and fast cloth: each moves the other.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -103,6 +104,30 @@ TEST(MultiBody, KeepsMomentumWhenClothMeetsAFreeBox) {
   }
   EXPECT_GT(box.getBaseVel().y(), -4);  // they have met
   EXPECT_LT(momentum_of(sheet).y(), -0.1);
+}
+
+// Each of two cloths is solved with half of the box.
+TEST(MultiBody, TwoClothsPushOneBoxAndMomentumStays) {
+  RobotWorld world(0);
+  std::array<btSoftBody*, 2> sheets{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    ClothMesh mesh = cloth(13, 0.4, 0, 0.1);
+    mesh.rest_positions.row(0).array() += k == 0 ? -0.22 : 0.22;
+    sheets[k] = &world.add_cloth(mesh, {law("tension", "stiffness", 2000)});
+  }
+  btMultiBody& box = free_box(world, 0.3, btVector3(btScalar(0.3), btScalar(0.1), btScalar(0.1)),
+                              btVector3(0, btScalar(0.25), 0));
+  box.setBaseVel(btVector3(0, -3, 0));
+  for (int step = 0; step < 20; ++step) {
+    world.step();
+    const Vector3<double> sum =
+        momentum_of(*sheets[0]) + momentum_of(*sheets[1]) + 0.3 * from_bullet(box.getBaseVel());
+    EXPECT_NEAR(sum.y(), -0.9, 1e-4) << step;
+    EXPECT_NEAR(sum.x(), 0, 1e-4) << step;
+  }
+  EXPECT_GT(box.getBaseVel().y(), -2.5);  // they have met
+  EXPECT_LT(momentum_of(*sheets[0]).y(), -0.05);
+  EXPECT_LT(momentum_of(*sheets[1]).y(), -0.05);
 }
 
 /// A sled: a free base with an arm on a hinge, in flight without gravity.
