@@ -88,7 +88,8 @@ void report_rest(const btSoftBody& body, AdoptionReport& report) {
       "masses, pins, velocities, forces and gravity act as before, changes in the next step");
   add(body.m_faces.size() > 0, std::to_string(body.m_faces.size()) + " faces", Fate::kKept,
       "drawing, contact with cloth, air");
-  add(body.m_anchors.size() > 0, std::to_string(body.m_anchors.size()) + " anchors", Fate::kMapped,
+  const int num_anchors = body.m_anchors.size() + body.m_deformableAnchors.size();
+  add(num_anchors > 0, std::to_string(num_anchors) + " anchors", Fate::kMapped,
       "solved with the springs; influence is the part of the pull that the object gets");
   add(config.kPR != 0 || config.kVC != 0, "pressure kPR and volume kVC", Fate::kLeftToBullet,
       "forces of the start of the step");
@@ -164,7 +165,7 @@ AdoptionReport adopt(SoftBodySolver& solver, btSoftBody& body, const AdoptionSet
   const BodyMesh mesh = mesh_of(body);
   std::vector<forces::LawSpecification> laws = map_links(mesh, body, settings, report);
   if (laws.empty()) {
-    report = {"it has no link that a spring could stand in for", {}};
+    report = {.refusal = "it has no link that a spring could stand in for", .properties = {}};
     return report;
   }
   laws.insert(laws.end(), settings.laws.begin(), settings.laws.end());
@@ -177,6 +178,7 @@ AdoptionReport adopt(SoftBodySolver& solver, btSoftBody& body, const AdoptionSet
     return report;
   }
   report_rest(body, report);
+  report.cloth = solver.cloth(body);
   return report;
 }
 

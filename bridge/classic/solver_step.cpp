@@ -13,6 +13,7 @@
 
 #include <weft/bridge/classic/attachment.hpp>
 #include <weft/bridge/classic/position_limits.hpp>
+#include <weft/bridge/cloth.hpp>
 #include <weft/bridge/rigid/rigid_substeps.hpp>
 #include <weft/core/trace.hpp>
 
@@ -320,21 +321,33 @@ void SoftBodySolver::updateSoftBodies() {
   tell_of_blow_ups();
 }
 
-// The step that is about to end is no place for an exception: one that the callback lets go ends the program.
+// The step that is about to end is no place for an exception: one that a callback lets go ends the program.
 void SoftBodySolver::tell_of_blow_ups() noexcept {
-  if (!attachments_->on_blow_up) return;
   struct News {
-    btSoftBody* body;
+    Cloth cloth;
     BodyBlowUp blow_up;
+    std::function<void(const BodyBlowUp&)> callback;
   };
-  std::vector<News> news;  // the callback may attach and detach
+  std::vector<News> news;  // callbacks may attach, detach and set others
+  std::vector<std::pair<Cloth, std::function<void(const std::vector<ClothContactPoint>&)>>> touched;
+  const auto callback = attachments_->on_blow_up;
   for (const auto& attachment : attachments_->list) {
+    if (attachment->on_contact && attachment->was_in_world && !attachment->blow_up) {
+      touched.emplace_back(cloth(*attachment->body), attachment->on_contact);
+    }
     if (!attachment->blow_up || attachment->is_reported) continue;
+    if (!callback && !attachment->on_blow_up) continue;
     attachment->is_reported = true;
-    news.push_back({attachment->body, *attachment->blow_up});
+    news.push_back({cloth(*attachment->body), *attachment->blow_up, attachment->on_blow_up});
   }
-  const auto callback = attachments_->on_blow_up;  // which may set another one
-  for (const News& one : news) callback(*one.body, one.blow_up);
+  for (const News& one : news) {
+    if (one.callback) one.callback(one.blow_up);
+    if (callback && one.cloth.body() != nullptr) callback(*one.cloth.body(), one.blow_up);
+  }
+  for (const auto& [cloth, tell] : touched) {
+    const std::vector<ClothContactPoint> contacts = cloth.contacts();
+    if (!contacts.empty()) tell(contacts);
+  }
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -33,6 +33,9 @@ struct RigidContact {
   btVector3 met_by_object{0, 0, 0};
   btVector3 normal_by_object{0, 0, 0};
   btScalar gap = 0;  ///< of that position in front of the plane [m]
+  // What the last solution says:
+  btVector3 impulse{0, 0, 0};  ///< on the node [N s]
+  bool is_sticking = false;
 };
 
 /// What a body's bounds meet: a whole object, or a part of it.

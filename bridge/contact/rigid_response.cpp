@@ -108,6 +108,7 @@ btScalar RigidResponse::visit(const btSoftBody& body, Contact& contact) {
   btVector3 hold = impulse - btDot(impulse, normal) * normal;
   const btScalar most = contact.friction * push;
   const btScalar length = hold.length();
+  contact.is_sticking = length <= most;
   if (length > most) hold *= most / length;
   impulse = push * normal + hold;
   const btVector3 change = impulse - contact.impulse;

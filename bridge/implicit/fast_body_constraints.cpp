@@ -236,11 +236,17 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
 }
 
 void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
+  // Forces that act with the whole step.
+  const btScalar whole_step = inertia_step_ * inertia_step_ / time_step;
   sticking_points_.begin_update();
   for (std::size_t c = 0; c < plane_contacts_.size(); ++c) {
-    const MovableObject object{contacts_[c].object};
+    RigidContact& contact = contacts_[c];
+    const MovableObject object{contact.object};
     const auto [active, state] = solver_->contact_of(static_cast<std::size_t>(contacts_[c].node));
-    if (plane_contacts_[c].body < 0 || active != static_cast<int>(c)) continue;
+    if (active != static_cast<int>(c)) continue;
+    contact.impulse = whole_step * to_bullet(solver_->constraint_force(contact.node));
+    contact.is_sticking = state == fast::ContactState::kFixed;
+    if (plane_contacts_[c].body < 0) continue;
     sticking_points_.add(contacts_[c].node, object, state == fast::ContactState::kFixed,
                          solved_pose(object), in_world(contacts_[c].node));
   }

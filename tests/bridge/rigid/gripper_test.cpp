@@ -108,7 +108,7 @@ class Gripper {
 struct Outcome {
   double lifted;   ///< [m] that the gripper has gone up
   double carried;  ///< [m] that the held node has gone up with it
-  double load;     ///< [N] on the lift, while it stands
+  double load;     ///< [N] on the lift, mean while it stands
   double slip;     ///< [m] of the held node after that, in the time that was asked for
   double fallen;   ///< [m] in half a second after the fingers have opened
 };
@@ -154,8 +154,11 @@ Outcome hold(double force, double seconds, unsigned seed) {
   outcome.carried = height() - start;
   outcome.lifted = gripper.height() - gripper_start;
   const double offset = height() - gripper.height();
-  world.step(static_cast<int>(seconds / RobotWorld::kStep));
-  outcome.load = gripper.load();
+  const int num_steps = static_cast<int>(seconds / RobotWorld::kStep);
+  for (int step = 0; step < num_steps; ++step) {
+    world.step();
+    outcome.load += gripper.load() / num_steps;
+  }
   outcome.slip = std::abs(height() - gripper.height() - offset);
   const double before = height();
   gripper.open();
