@@ -23,6 +23,9 @@ bool may_pinch(const btCollisionObject& one, const btCollisionObject& other) {
   return &one != &other && (has_link || (is_led(one) && is_led(other)));
 }
 
+/// The part of the force that all nodes share alike: what has borne nothing so far must be able to begin [-].
+constexpr btScalar kEvenShare = btScalar(0.1);
+
 /// [m] For a node between two planes, its margins taken off.
 btScalar room_between(const RigidContact& one, const RigidContact& other, const btSoftBody& body) {
   const btVector3& position = body.m_nodes[one.node].m_x;
@@ -80,7 +83,9 @@ void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& bod
     // Both surfaces bear their share of what nodes pull with: every other node.
     const bool by_first = a.node % 2 == 0;
     found.emplace_back(by_first ? other : c, by_first ? c : other);
-    ++pair_of(a.object, b.object).num_nodes;
+    Pair& pair = pair_of(a.object, b.object);
+    ++pair.num_nodes;
+    pair.load += load_of(a.node);
   }
   for (Pair& pair : pairs_) {
     const bool yields = MovableObject(pair.first) || MovableObject(pair.second);
@@ -95,7 +100,9 @@ void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& bod
     if (!(pair.force > 0)) continue;
     if (nodes_.empty()) nodes_.assign(static_cast<std::size_t>(body.m_nodes.size()), 0);
     nodes_[static_cast<std::size_t>(contact.node)] = 1;
-    held_[holding].squeeze = pair.force / static_cast<btScalar>(pair.num_nodes);
+    const btScalar even = 1 / static_cast<btScalar>(pair.num_nodes);
+    const btScalar share = pair.load > 0 ? load_of(contact.node) / pair.load : even;
+    held_[holding].squeeze = pair.force * (kEvenShare * even + (1 - kEvenShare) * share);
     held_[holding].depth = -room_between(contact, other, body) / 2;
     held_[holding].other_friction = other.object->getFriction();
     held_[replaced].is_replaced = true;

@@ -170,7 +170,7 @@ Outcome hold(double force, double seconds, unsigned seed) {
 
 TEST(Gripper, HoldsATowelAboveTheThresholdOfFriction) {
   for (unsigned seed = 1; seed <= WEFT_NUM_SEEDS; ++seed) {
-    const Outcome outcome = hold(1.5 * kThreshold, 10, seed);
+    const Outcome outcome = hold(1.25 * kThreshold, 10, seed);
     EXPECT_LT(outcome.slip, 1e-3) << seed;
     EXPECT_GT(outcome.lifted, 0.15) << seed;
     EXPECT_NEAR(outcome.carried, outcome.lifted, 0.01) << seed;
@@ -181,7 +181,7 @@ TEST(Gripper, HoldsATowelAboveTheThresholdOfFriction) {
 
 TEST(Gripper, ATowelSlipsBelowTheThreshold) {
   for (unsigned seed = 1; seed <= WEFT_NUM_SEEDS; ++seed) {
-    const Outcome outcome = hold(0.6 * kThreshold, 1, seed);
+    const Outcome outcome = hold(0.8 * kThreshold, 1, seed);
     EXPECT_LT(outcome.carried, outcome.lifted - 0.1) << seed;
   }
 }
