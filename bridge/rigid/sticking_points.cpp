@@ -36,9 +36,10 @@ void LedLinks::follow(Collider& collider) {
     const RigidVelocity by_pose = mean_velocity(start, end, time_step_);
     *link = {collider.object, end, by_pose.is_zero() ? collider.led : by_pose, true};
   }
+  collider.led = link->velocity;
+  if (collider.object_pose == end) return;  // no rounding for what stands where it is
   collider.pose = end * collider.object_pose.inverse() * collider.pose;
   collider.object_pose = end;
-  collider.led = link->velocity;
 }
 
 }  // namespace WEFT_BULLET_PRECISION
