@@ -131,6 +131,7 @@ void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body:
     if (!is_linked) finish(parts_[part], part);
   });
   for (Body& body : bodies_) body.*body_product = body.inertia * (body.*motion);
+  couplings_.add_forces(bodies_, motion, body_product);
   if (!is_linked) return;
   gather(product, body_product);
   team_->run(parts_.count(), [this, finish](int part) { finish(parts_[part], part); });

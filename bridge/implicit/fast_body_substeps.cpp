@@ -4,7 +4,7 @@
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/implicit/fast_body.hpp>
-#include <weft/bridge/implicit/substep_count.hpp>
+#include <weft/bridge/implicit/node_anchors.hpp>
 #include <weft/bridge/rigid/rigid_substeps.hpp>
 
 namespace weft::bridge {
@@ -24,34 +24,33 @@ btScalar smallest_half_extent(const btCollisionShape& shape) {
 int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
   SubstepCount substeps(time_step * wave_speed_);
   for (const RigidContact& contact : contacts_) {
-    const btRigidBody* const rigid = movable(contact.object);
-    if (rigid == nullptr) continue;
+    const MovableObject object{contact.object};
+    if (!object || object.is_articulated()) continue;
     const Collider& collider = colliders_[static_cast<std::size_t>(contact.collider)];
     const btVector3 normal = collider.object_pose.getBasis() * contact.normal_by_object;
     const auto mass = static_cast<btScalar>(masses_.sum());
-    const btVector3 lever_arm = contact.met - rigid->getCenterOfMassPosition();
-    const btVector3 velocity = rigid->getVelocityInLocalPoint(lever_arm) -
-                               to_bullet(start_velocities_.col(contact.node).eval());
+    const btVector3 velocity =
+        object.velocity().at(contact.met) - to_bullet(start_velocities_.col(contact.node).eval());
     substeps.include({.size = std::max(smallest_half_extent(*collider.shape),
                                        body.getCollisionShape()->getMargin()),
                       .approach = btDot(normal, body.m_nodes[contact.node].m_q - contact.met),
                       .closing = time_step * btDot(normal, velocity),
-                      .pushed = pushed_.push_in(*rigid, time_step),
-                      .fall = time_step * time_step * rigid->getGravity().length(),
-                      .mass_share = mass / (mass + 1 / rigid->getInvMass())});
+                      .pushed = pushed_.push_in(object, time_step),
+                      .fall = time_step * time_step * object.gravity().length(),
+                      .mass_share = mass / (mass + 1 / object.inverse_mass())});
   }
   return substeps.count(last_num_substeps_);
 }
 
-void FastBody::list_dynamic(const btSoftBody& body, std::vector<btRigidBody*>& list) const {
-  const auto add = [&](const btCollisionObject* object) {
-    btRigidBody* const rigid = movable(object);
-    if (rigid != nullptr && std::find(list.begin(), list.end(), rigid) == list.end()) {
-      list.push_back(rigid);
+void FastBody::list_dynamic(const btSoftBody& body, std::vector<MovableObject>& list) const {
+  const auto add = [&](const btCollisionObject* one) {
+    const MovableObject object{one};
+    if (object && std::find(list.begin(), list.end(), object) == list.end()) {
+      list.push_back(object);
     }
   };
   for (const Collider& collider : colliders_) add(collider.object);
-  for (int a = 0; a < body.m_anchors.size(); ++a) add(body.m_anchors[a].m_body);
+  for_anchors(body, [&](const NodeAnchor& anchor) { add(anchor.object); });
 }
 
 void FastBody::begin_substeps(const btSoftBody& body, btScalar time_step) {
@@ -92,9 +91,9 @@ void FastBody::begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int s
   is_support_missing_ = false;
   swept_.invalidate();
   for (Collider& collider : colliders_) {
-    const btRigidBody* const dynamic = movable(collider.object);
-    if (dynamic == nullptr) continue;
-    const btTransform start = rigid.start_of(*dynamic);
+    const MovableObject dynamic{collider.object};
+    if (!dynamic) continue;
+    const btTransform start = rigid.start_of(dynamic);
     collider.pose = start * collider.object_pose.inverse() * collider.pose;
     collider.object_pose = start;
   }
