@@ -154,8 +154,7 @@ class ImplicitSolver : TeamLoops {
   void multiply(const Floats& displacements, Floats6 Body::*motion, Floats& product,
                 Floats6 Body::*body_product, const Next& and_then);
   void start_linear(const StepProblem<Scalar>& problem);
-  [[nodiscard]] LinearGain solve_linear(const StepProblem<Scalar>& problem,
-                                        const NewtonIteration& iteration);
+  [[nodiscard]] LinearGain solve_linear(const StepProblem<Scalar>&, const NewtonIteration&);
   /// The products of a correction c and the direction d before it: c . r, c . A d and c . A c.
   using Overlaps = VectorKernel::Products;
   [[nodiscard]] Overlaps precondition(Floats& correction, bool is_first);

@@ -28,7 +28,6 @@ int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
     if (!object || object.is_articulated()) continue;
     const Collider& collider = colliders_[static_cast<std::size_t>(contact.collider)];
     const btVector3 normal = collider.object_pose.getBasis() * contact.normal_by_object;
-    const auto mass = static_cast<btScalar>(masses_.sum());
     const btVector3 velocity =
         object.velocity().at(contact.met) - to_bullet(start_velocities_.col(contact.node).eval());
     substeps.include({.size = std::max(smallest_half_extent(*collider.shape),
@@ -37,7 +36,7 @@ int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
                       .closing = time_step * btDot(normal, velocity),
                       .pushed = pushed_.push_in(object, time_step),
                       .fall = time_step * time_step * object.gravity().length(),
-                      .mass_share = mass / (mass + 1 / object.inverse_mass())});
+                      .mass_share = object.share_of(static_cast<btScalar>(masses_.sum()))});
   }
   return substeps.count(last_num_substeps_);
 }

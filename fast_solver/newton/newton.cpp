@@ -43,6 +43,12 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
+LinearAccuracy accuracy_of(int iteration, double asked) {
+  LinearAccuracy accuracy = iteration < kRoughIterations ? kRough : kAccurate;
+  accuracy.least_gain = kLastShare * asked;
+  return accuracy;
+}
+
 }  // namespace
 
 template <class Scalar>
@@ -92,10 +98,8 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
        ++iteration) {
     report_.newton_iterations = iteration + 1;
     save_positions();
-    LinearAccuracy accuracy = iteration < kRoughIterations ? kRough : kAccurate;
-    accuracy.least_gain = kLastShare * asked;
     iterate_once(problem, {.iterations = solver_settings.linear_iterations,
-                           .accuracy = accuracy,
+                           .accuracy = accuracy_of(iteration, asked),
                            .is_first = iteration == 0,
                            .decides = decides,
                            .continues = problem.continues,
