@@ -12,6 +12,7 @@
 #include <weft/bridge/classic/attachment.hpp>
 #include <weft/bridge/classic/position_limits.hpp>
 #include <weft/bridge/classic/torn_laws.hpp>
+#include <weft/bridge/cloth.hpp>
 #include <weft/core/error.hpp>
 #include <weft/core/trace.hpp>
 #include <weft/mesh/cutting/tear.hpp>
@@ -78,6 +79,7 @@ void SoftBodySolver::attach(btSoftBody& body, const ClothMesh& mesh,
   check_topology("soft body solver", body, mesh);
   LawSet set = make_laws(mesh, laws);
   attach(body, std::move(set), mesh.masses.cast<btScalar>(), damping);
+  find(body)->source = std::make_shared<LawSource>(LawSource{mesh, laws});
 }
 
 void SoftBodySolver::attach(btSoftBody& body, LawSet laws, VectorX<btScalar> masses,
@@ -105,6 +107,8 @@ void SoftBodySolver::replace_laws(btSoftBody& body, LawSet laws, VectorX<btScala
   attachment->was_in_world = old->was_in_world;
   attachment->is_suspended = old->is_suspended;
   attachment->time = old->time;
+  attachment->on_contact = old->on_contact;
+  attachment->on_blow_up = old->on_blow_up;
   const bool was_begun = old->deferred.is_in_flight();
   for (auto& entry : attachments_->list) {
     if (entry.get() == old) entry = std::move(attachment);
@@ -122,7 +126,12 @@ std::optional<std::string> SoftBodySolver::attach_fast(
   attach(body, std::move(set), mesh.masses.cast<btScalar>());
   find(body)->fast = std::move(fast);
   find(body)->links.note(body);
+  find(body)->source = std::make_shared<LawSource>(LawSource{mesh, laws});
   return std::nullopt;
+}
+
+Cloth SoftBodySolver::cloth(btSoftBody& body) {
+  return {*this, body, follow_life(body)};
 }
 
 FastBody& SoftBodySolver::fast_body(const btSoftBody& body) const {
@@ -178,7 +187,8 @@ std::vector<NodeContact> SoftBodySolver::rigid_contacts(const btSoftBody& body) 
   for (const RigidContact& contact : own) {
     const btVector3& position = body.m_nodes[contact.node].m_x;
     contacts.push_back({contact.node, contact.object, contact.normal,
-                        btDot(position, contact.normal) - contact.offset});
+                        btDot(position, contact.normal) - contact.offset, contact.impulse,
+                        contact.is_sticking});
   }
   for (int i = 0; i < body.m_rcontacts.size(); ++i) {
     const btSoftBody::RContact& contact = body.m_rcontacts[i];
@@ -196,12 +206,14 @@ void SoftBodySolver::replace_laws(btSoftBody& body, const ClothMesh& mesh,
   const bool is_fast = old && old->fast;
   check_topology("soft body solver", body, mesh);
   LawSet set = is_fast ? explicit_laws(mesh, laws) : make_laws(mesh, laws);
-  if (!is_fast) {
-    replace_laws(body, std::move(set), mesh.masses.cast<btScalar>());
-    return;
+  auto source = std::make_shared<LawSource>(LawSource{mesh, laws});
+  std::unique_ptr<FastBody> fast;
+  if (is_fast) {
+    fast = std::make_unique<FastBody>(mesh, laws, mesh.masses, old->fast->settings());
   }
-  auto fast = std::make_unique<FastBody>(mesh, laws, mesh.masses, old->fast->settings());
   replace_laws(body, std::move(set), mesh.masses.cast<btScalar>());
+  find(body)->source = std::move(source);
+  if (!fast) return;
   find(body)->fast = std::move(fast);
   find(body)->links.note(body);
 }

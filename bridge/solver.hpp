@@ -24,6 +24,7 @@ struct Tear;
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
+class Cloth;
 struct ContactEntry;
 class FastBody;
 struct TornLaws;
@@ -61,6 +62,10 @@ struct NodeContact {
   btVector3 normal{0, 0, 0};  ///< out of the object
   btScalar distance =
       0;  ///< [m] along the normal from where the object holds the node, its margin away; about 0: it touches
+  btVector3 impulse{
+      0, 0,
+      0};  ///< of the object on the node, friction included [N s]; zero: near only, or solved by Bullet
+  bool is_sticking = false;  ///< if it bears an impulse: held by friction, or sliding
 };
 
 /// Weft's forces in Bullet's classic soft-body world, through Bullet's own extension point.
@@ -155,6 +160,8 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
                                     const std::vector<forces::LawSpecification>& laws) const;
   void replace_laws(btSoftBody& body, const Tear& tear, TornLaws laws);
   [[nodiscard]] bool has_laws(const btSoftBody& body) const;
+  /// A handle of the body, with laws or without (cloth.hpp).
+  [[nodiscard]] Cloth cloth(btSoftBody& body);
   /// Set once the body has exploded; it does not move any more.
   [[nodiscard]] std::optional<BodyBlowUp> blow_up(const btSoftBody& body) const;
   /// Called once for each body that explodes, by the thread that steps the world, when the step's soft bodies
@@ -198,6 +205,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   void processCollision(btSoftBody* body, btSoftBody* other) override;
 
  private:
+  friend class Cloth;
   explicit SoftBodySolver(const BulletLayout& caller);
   struct Attachment;
   struct Attachments;

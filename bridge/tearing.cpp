@@ -59,6 +59,10 @@ void make_room(int num_nodes, btSoftBody& body) {
   for (int a = 0; a < body.m_anchors.size(); ++a) {
     anchored.push_back(index_of(body, body.m_anchors[a].m_node));
   }
+  std::vector<int> anchored_to_links;
+  for (int a = 0; a < body.m_deformableAnchors.size(); ++a) {
+    anchored_to_links.push_back(index_of(body, body.m_deformableAnchors[a].m_node));
+  }
   std::vector<int> noted;
   for (int i = 0; i < body.m_notes.size(); ++i) {
     for (int k = 0; k < body.m_notes[i].m_rank; ++k) {
@@ -69,6 +73,10 @@ void make_room(int num_nodes, btSoftBody& body) {
   for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_leaf->data = &body.m_nodes[i];
   for (int a = 0; a < body.m_anchors.size(); ++a) {
     body.m_anchors[a].m_node = &body.m_nodes[anchored[static_cast<std::size_t>(a)]];
+  }
+  for (int a = 0; a < body.m_deformableAnchors.size(); ++a) {
+    body.m_deformableAnchors[a].m_node =
+        &body.m_nodes[anchored_to_links[static_cast<std::size_t>(a)]];
   }
   auto next = noted.begin();
   for (int i = 0; i < body.m_notes.size(); ++i) {

@@ -26,6 +26,9 @@ foreach(target IN LISTS modules)
             DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/weft/${path}/${folder}")
   endforeach()
 endforeach()
+if(TARGET weft_bridge OR TARGET weft_bridge_float64)
+  install(FILES "${PROJECT_SOURCE_DIR}/bridge/weft.hpp" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/weft")
+endif()
 
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/weftConfig.cmake.in"
   "${PROJECT_BINARY_DIR}/weftConfig.cmake" INSTALL_DESTINATION "${weft_package_dir}"

@@ -19,14 +19,8 @@ constexpr float kSmoothing = 0.6F;
 constexpr int kLinkedIterations = 1;
 constexpr double kLinkedResidual = 0.02;
 
-/// An iteration that gains no more than this fraction of the gain so far is the last of its linear solve, because with short steps
-/// inertia outweighs springs.
-constexpr double kLastGain = 1e-4;
 /// A curvature below this fraction of the correction's own is rounding [-].
 constexpr float kLeastCurvature = 1e-4F;
-/// The last iterations whose gains estimate what is left to gain, and the fraction of the whole that may be left.
-constexpr int kGainDelay = 4;
-constexpr double kForcing = 0.1;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -137,6 +131,7 @@ void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body:
     if (!is_linked) finish(parts_[part], part);
   });
   for (Body& body : bodies_) body.*body_product = body.inertia * (body.*motion);
+  couplings_.add_forces(bodies_, motion, body_product);
   if (!is_linked) return;
   gather(product, body_product);
   team_->run(parts_.count(), [this, finish](int part) { finish(parts_[part], part); });
@@ -253,8 +248,8 @@ void ImplicitSolver<Scalar>::set_system_inertia() {
 // adds them to the step. Returns twice the decrease of the quadratic model. It is the sum of gain times alpha, the squared
 // energy norm of the initial error; its last terms estimate what is left (Strakos and Tichy 2002).
 template <class Scalar>
-LinearGain ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem, int iterations,
-                                                double least_gain) {
+LinearGain ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& problem,
+                                                const NewtonIteration& iteration) {
   factorize_bodies();
   start_linear(problem);
   for (Body& body : bodies_) {
@@ -262,22 +257,22 @@ LinearGain ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& probl
       vector->setZero();
   }
   float curvature = 1;
-  LinearGain sum;
-  std::array<double, kGainDelay> last_gains{};
+  bool is_broken = false;
+  gains_.clear();
   directions_.clear();
   has_direction_ = false;
-  for (int k = 0; k < iterations; ++k) {
+  for (int k = 0; k < iteration.iterations; ++k) {
     const Overlaps overlaps = precondition(corrections_[at(directions_.count())], k == 0);
     // The residual has nothing of the last direction any more.
     const float gain = overlaps.by_residual;
     if (!(gain > 0)) {
-      sum.is_broken = !(gain == 0);
+      is_broken = !(gain == 0);
       break;
     }
     const float beta = overlaps.by_direction / curvature;
     curvature = overlaps.by_product - beta * overlaps.by_direction;
     if (!(curvature > kLeastCurvature * overlaps.by_product)) {
-      sum.is_broken = k == 0;
+      is_broken = k == 0;
       break;
     }
     const float alpha = gain / curvature;
@@ -288,13 +283,8 @@ LinearGain ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& probl
       body.step += alpha * body.direction;
       body.residual -= alpha * body.direction_product;
     }
-    const double now = static_cast<double>(gain) * static_cast<double>(alpha);
-    last_gains[at(k % kGainDelay)] = now;
-    sum.total += now;
-    sum.left = std::accumulate(last_gains.begin(), last_gains.end(), 0.0);
-    const bool is_done = now <= kLastGain * sum.total || (k > 0 && sum.left <= least_gain) ||
-                         (k >= kGainDelay && sum.left <= kForcing * sum.total);
-    if (k + 1 == iterations || is_done) break;
+    gains_.add(static_cast<double>(gain) * static_cast<double>(alpha));
+    if (k + 1 == iteration.iterations || gains_.are_enough(iteration.accuracy)) break;
     team_->run(parts_.count(),
                [this, beta, alpha, is_first = k == 0, is_full = directions_.is_full()](int part) {
                  const NodeRange nodes = parts_[part];
@@ -308,6 +298,8 @@ LinearGain ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& probl
     directions_.clear();
     has_direction_ = true;
   }
+  LinearGain sum = gains_.sum(iteration.accuracy);
+  sum.is_broken = is_broken;
   return sum;
 }
 

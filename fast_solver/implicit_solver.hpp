@@ -12,6 +12,7 @@
 #include <weft/fast_solver/network/node_arrays.hpp>
 #include <weft/fast_solver/network/spring_network.hpp>
 #include <weft/fast_solver/newton/anderson_history.hpp>
+#include <weft/fast_solver/newton/body_couplings.hpp>
 #include <weft/fast_solver/newton/direction_weights.hpp>
 #include <weft/fast_solver/newton/newton_iteration.hpp>
 #include <weft/fast_solver/solver_report.hpp>
@@ -76,9 +77,9 @@ class ImplicitSolver : TeamLoops {
   void add_compensation(int first_node, Matrix3XRef<Scalar> displacements) const;
   /// After solve(): the forces of the springs and of StepForces on some consecutive nodes, 3 x their number [N].
   void get_forces(int first_node, Matrix3XRef<Scalar> forces) const;
-  /// After solve(): the index of the problem's contact that is active at a node, or -1.
-  [[nodiscard]] int contact_of(int node) const {
-    return contact_of_[static_cast<std::size_t>(node)];
+  /// After solve(): the index of the problem's contact that is active at a node, or -1, and its state.
+  [[nodiscard]] std::pair<int, ContactState> contact_of(std::size_t node) const {
+    return {contact_of_[node], contact_states_[node]};
   }
   /// After solve(): the generalized displacement of a two-way coupled body relative to its motion without the cloth: translation of
   /// its center [m] and rotation about it [rad]. The force on the body is (inertia + held) motion / h^2.
@@ -153,8 +154,8 @@ class ImplicitSolver : TeamLoops {
   void multiply(const Floats& displacements, Floats6 Body::*motion, Floats& product,
                 Floats6 Body::*body_product, const Next& and_then);
   void start_linear(const StepProblem<Scalar>& problem);
-  [[nodiscard]] LinearGain solve_linear(const StepProblem<Scalar>& problem, int iterations,
-                                        double least_gain);
+  [[nodiscard]] LinearGain solve_linear(const StepProblem<Scalar>& problem,
+                                        const NewtonIteration& iteration);
   /// The products of a correction c and the direction d before it: c . r, c . A d and c . A c.
   using Overlaps = VectorKernel::Products;
   [[nodiscard]] Overlaps precondition(Floats& correction, bool is_first);
@@ -196,10 +197,10 @@ class ImplicitSolver : TeamLoops {
   std::vector<int> pinned_;
   std::vector<int> kinematic_;  ///< those of the last step, ascending
   std::vector<int> next_kinematic_;
-  std::vector<int>
-      constrained_;  ///< nodes that are not kFree, ascending while linear systems are solved
+  std::vector<int> constrained_;  ///< not kFree; ascending while linear systems are solved
   std::vector<BodyLink> links_;
   std::vector<Body> bodies_;
+  BodyCouplings<Scalar> couplings_;
   std::vector<int> linked_blocks_;   ///< blocks of nodes that are linked to one body
   VectorX<float> inertia_;           ///< m / h'^2 [N/m]; 0 for pinned nodes; padded with zeros
   VectorX<float> system_inertia_;    ///< inertia_ plus the drag of friction
@@ -229,14 +230,14 @@ class ImplicitSolver : TeamLoops {
   Floats step_, residual_vector_, direction_, direction_product_, correction_product_, work_;
   Floats smoothed_, coarse_;  ///< parts of a correction
   std::array<Floats, DirectionWeights::kMost> corrections_;
-  alignas(kAlignment)
-      DirectionWeights directions_;  ///< coefficients of corrections_, apart from what workers read
-  bool has_direction_ = false;       ///< direction_ holds the one before corrections_[0]
-  double work_left_ = 0;             ///< residual_forces_ . step_ [J]
-  double residual_squares_ = 0;      ///< squared norm of residual_forces_ [N^2]
-  double work_done_ = 0;             ///< work_left_ before the step was taken [J]
+  alignas(kAlignment) DirectionWeights directions_;  ///< of corrections_; workers read others
+  bool has_direction_ = false;   ///< direction_ holds the one before corrections_[0]
+  double work_left_ = 0;         ///< residual_forces_ . step_ [J]
+  double residual_squares_ = 0;  ///< squared norm of residual_forces_ [N^2]
+  double work_done_ = 0;         ///< work_left_ before the step was taken [J]
   double residual_ = 0;
   LinearGain last_gain_;  ///< gain of the last iteration
+  LinearGains gains_;     ///< of the last linear solve
   SolverReport report_;
   double step_energy_ = 0;
   bool has_constraint_forces_ = false;

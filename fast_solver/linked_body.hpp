@@ -54,8 +54,10 @@ struct LinkedBody {
   Floats6 step, residual, direction, direction_product;
   Floats6 correction, correction_product, coarse_product;
   Floats6 present_residual;
-  bool is_linked = false;  ///< any node, in the present iteration
-  bool is_held = false;    ///< by what is not among bodies
+  bool is_linked = false;   ///< any node, in the present iteration
+  bool is_link = false;     ///< of a multibody
+  bool is_coupled = false;  ///< to a body that is linked
+  bool is_held = false;     ///< by what is not among bodies
 };
 
 }  // namespace weft::fast

@@ -13,6 +13,10 @@ template <class Scalar>
 struct RigidInertia {
   Vector3<Scalar> mass = Vector3<Scalar>::Zero();     ///< in each direction of the world [kg], > 0
   Matrix3<Scalar> inertia = Matrix3<Scalar>::Zero();  ///< about its center, in the world [kg m^2]
+  /// The generalized inertia that joints give a link of a multibody, in place of mass and inertia, which are zero then
+  /// [kg, kg m, kg m^2].
+  Eigen::Matrix<Scalar, 6, 6> of_link = Eigen::Matrix<Scalar, 6, 6>::Zero();
+  bool has_base = false;  ///< of a link: its multibody stands on a base that cloth cannot move
   /// Generalized inertia that the body's supports add [kg, kg m, kg m^2].
   Eigen::Matrix<Scalar, 6, 6> held = Eigen::Matrix<Scalar, 6, 6>::Zero();
   /// Its motion during the step without the cloth: translation of its center [m], rotation [rad].
@@ -20,6 +24,14 @@ struct RigidInertia {
   Vector3<Scalar> turn = Vector3<Scalar>::Zero();
   /// Initial guess of the generalized displacement [m, rad]; it belongs to the solution that the iteration starts from.
   Eigen::Matrix<Scalar, 6, 1> guess = Eigen::Matrix<Scalar, 6, 1>::Zero();
+};
+
+/// The inertia between two links of one multibody: the force on the first is this times the acceleration of the second.
+template <class Scalar>
+struct InertiaCoupling {
+  int first = 0;
+  int second = 0;
+  Eigen::Matrix<Scalar, 6, 6> inertia = Eigen::Matrix<Scalar, 6, 6>::Zero();
 };
 
 /// A node must stay in front of a plane at the end of a step, with Coulomb friction on it.
@@ -30,6 +42,8 @@ struct PlaneContact {
   Scalar offset = 0;  ///< [m] normal . x >= offset at the end of the step
   Vector3<Scalar> motion = Vector3<Scalar>::Zero();  ///< for the surface there during the step [m]
   Scalar friction = 0;                               ///< Coulomb coefficient [-], >= 0
+  /// By which another surface presses the node onto this one [N]. If it is not zero, the node stays on the plane whatever pulls.
+  Scalar squeeze = 0;
   /// The collider among the step's rigid bodies, or -1: nothing moves it. Offset and motion are those without the cloth.
   int body = -1;
   Vector3<Scalar> lever_arm = Vector3<Scalar>::Zero();  ///< from the body's center to the node [m]

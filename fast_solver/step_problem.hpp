@@ -42,6 +42,7 @@ struct StepProblem {
   const StepForces<Scalar>* forces = nullptr;  ///< beside the network's
   /// The step was solved before: positions are the solution, and contacts are the same, with other planes or more of them behind.
   bool continues = false;
+  std::span<const InertiaCoupling<Scalar>> couplings = {};  ///< between two of bodies
 };
 
 }  // namespace weft::fast

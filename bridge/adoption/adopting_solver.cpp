@@ -28,7 +28,7 @@ void AdoptingSolver::adopt_one(btSoftBody& body) {
     if (!settings) return;
     report = adopt(*this, body, *settings);
   } catch (const std::exception& error) {
-    report = {error.what(), {}};
+    report = {.refusal = error.what(), .properties = {}};
     is_final = true;
   }
   if (report.refusal && known != refused_.end()) return;

@@ -35,6 +35,41 @@ std::string in_newtons_per_meter(double stiffness) {
   return text;
 }
 
+/// h^2 times the square of the frequency at which gas or a volume to keep swings a body, by which explicit forces of the start
+/// of a step begin to gain energy without the damping of Bullet's visits [-].
+constexpr double kStiffestGas = 1;
+
+/// Why Bullet's forces of pressure (kPR / V) and volume (kVC (V0 - V)), each times area and normal, are too stiff beside
+/// implicit springs; nothing if they are not.
+std::optional<std::string> reason_against_gas(const btSoftBody& body, double time_step) {
+  const double keeping = body.m_pose.m_bvolume ? static_cast<double>(body.m_cfg.kVC) : 0;
+  const double pressure = static_cast<double>(body.m_cfg.kPR);
+  if (!(keeping > 0) && pressure == 0) return std::nullopt;
+  const double volume = std::abs(static_cast<double>(body.getVolume()));
+  VectorX<double> areas = VectorX<double>::Zero(body.m_nodes.size());
+  for (int f = 0; f < body.m_faces.size(); ++f) {
+    const auto& n = body.m_faces[f].m_n;
+    const btVector3 cross = btCross(n[1]->m_x - n[0]->m_x, n[2]->m_x - n[0]->m_x);
+    for (const btSoftBody::Node* const corner : n) {
+      areas[corner - &body.m_nodes[0]] += static_cast<double>(cross.length()) / 6;
+    }
+  }
+  double sum = 0;
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    sum += areas[i] * areas[i] * static_cast<double>(body.m_nodes[i].m_im);
+  }
+  const double gas = volume > 0 ? std::abs(pressure) / (volume * volume) : 0;
+  const double stiffness = time_step * time_step * sum * (keeping + gas);
+  if (stiffness <= kStiffestGas) return std::nullopt;
+  char text[160];
+  (void)std::snprintf(
+      text, sizeof text,
+      "its forces kVC = %g and kPR = %g are too stiff for explicit steps of %.4g s: "
+      "%.3g [1], expected at most %g",
+      static_cast<double>(body.m_cfg.kVC), pressure, time_step, stiffness, kStiffestGas);
+  return text;
+}
+
 /// Stiffness of the springs in the place of the links of one material [N/m].
 double stiffness_of(const LinkedEdges& links, const btSoftBody& body, double largest,
                     const AdoptionSettings& settings) {
@@ -88,7 +123,8 @@ void report_rest(const btSoftBody& body, AdoptionReport& report) {
       "masses, pins, velocities, forces and gravity act as before, changes in the next step");
   add(body.m_faces.size() > 0, std::to_string(body.m_faces.size()) + " faces", Fate::kKept,
       "drawing, contact with cloth, air");
-  add(body.m_anchors.size() > 0, std::to_string(body.m_anchors.size()) + " anchors", Fate::kMapped,
+  const int num_anchors = body.m_anchors.size() + body.m_deformableAnchors.size();
+  add(num_anchors > 0, std::to_string(num_anchors) + " anchors", Fate::kMapped,
       "solved with the springs; influence is the part of the pull that the object gets");
   add(config.kPR != 0 || config.kVC != 0, "pressure kPR and volume kVC", Fate::kLeftToBullet,
       "forces of the start of the step");
@@ -158,13 +194,14 @@ AdoptionReport adopt(SoftBodySolver& solver, btSoftBody& body, const AdoptionSet
   AdoptionReport report;
   report.refusal = reason_against_implicit(body);
   if (!report.refusal && body.m_links.size() == 0) report.refusal = "it has no links";
+  if (!report.refusal) report.refusal = reason_against_gas(body, settings.time_step);
   if (report.refusal) return report;
   // Bullet would do so first in the next step. It will, and builds the tree of faces then: the flag stays.
   if (body.m_bUpdateRtCst) body.resetLinkRestLengths();
   const BodyMesh mesh = mesh_of(body);
   std::vector<forces::LawSpecification> laws = map_links(mesh, body, settings, report);
   if (laws.empty()) {
-    report = {"it has no link that a spring could stand in for", {}};
+    report = {.refusal = "it has no link that a spring could stand in for", .properties = {}};
     return report;
   }
   laws.insert(laws.end(), settings.laws.begin(), settings.laws.end());
@@ -177,6 +214,7 @@ AdoptionReport adopt(SoftBodySolver& solver, btSoftBody& body, const AdoptionSet
     return report;
   }
   report_rest(body, report);
+  report.cloth = solver.cloth(body);
   return report;
 }
 

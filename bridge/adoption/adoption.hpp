@@ -7,6 +7,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/bullet/precision.hpp>
+#include <weft/bridge/cloth.hpp>
 #include <weft/bridge/fast_settings.hpp>
 #include <weft/bridge/solver.hpp>
 #include <weft/custom_forces/law_info.hpp>
@@ -46,6 +47,8 @@ struct AdoptionReport {
   /// Why the body was left as it was, Bullet's own; nothing if Weft steps it now.
   std::optional<std::string> refusal;
   std::vector<AdoptedProperty> properties;
+  /// The body's handle; of no body after a refusal.
+  Cloth cloth = {};
   /// A line for each property.
   [[nodiscard]] std::string text() const;
 };

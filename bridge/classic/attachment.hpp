@@ -14,6 +14,7 @@
 
 #include <weft/bridge/adoption/followed_links.hpp>
 #include <weft/bridge/classic/body_life.hpp>
+#include <weft/bridge/cloth.hpp>
 #include <weft/bridge/contact/rigid_response.hpp>
 #include <weft/bridge/implicit/fast_body.hpp>
 #include <weft/bridge/solver.hpp>
@@ -22,6 +23,12 @@
 // Not for users of the bridge: what SoftBodySolver knows of its bodies.
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
+
+/// The mesh and the names that laws were made of; a torn body has none any more.
+struct LawSource {
+  ClothMesh mesh;
+  std::vector<forces::LawSpecification> laws;
+};
 
 struct SoftBodySolver::Attachment {
   /// Throws InvalidArgument as SoftBodySolver::attach().
@@ -50,7 +57,10 @@ struct SoftBodySolver::Attachment {
   std::vector<const btCollisionObject*> concave_met;  // in the present step
   bool was_in_world = false;
   bool is_suspended = false;
-  double time = 0.0;  // [s] of the steps since the body was attached
+  double time = 0.0;                        // [s] of the steps since the body was attached
+  std::shared_ptr<const LawSource> source;  // none: attached with a LawSet
+  std::function<void(const std::vector<ClothContactPoint>&)> on_contact;  // as Cloth has them
+  std::function<void(const BodyBlowUp&)> on_blow_up;
 
   [[nodiscard]] bool has_coulomb_contacts() const {
     return !fast && contact_response == ContactResponse::kCoulomb && RigidResponse::fits(*body);
@@ -110,9 +120,9 @@ struct ContactEntry {
 
 struct SoftBodySolver::Attachments {
   std::vector<std::unique_ptr<Attachment>> list;
-  std::vector<Attachment*> stepped;        ///< fast bodies of the present step
-  std::vector<Attachment*> asked;          ///< of those, that contacts are still looked for
-  std::vector<const btRigidBody*> pushed;  ///< once for each of those that may push it, in order
+  std::vector<Attachment*> stepped;  ///< fast bodies of the present step
+  std::vector<Attachment*> asked;    ///< of those, that contacts are still looked for
+  std::vector<const void*> pushed;   ///< owners of inertia, once for each cloth that may push it
   std::vector<std::unique_ptr<ContactEntry>> contacts;
   std::function<void(btSoftBody&, const BodyBlowUp&)> on_blow_up;
   HullTable hulls;  ///< of rigid objects that bodies have met

@@ -13,6 +13,7 @@
 
 #include <weft/bridge/classic/attachment.hpp>
 #include <weft/bridge/classic/position_limits.hpp>
+#include <weft/bridge/cloth.hpp>
 #include <weft/bridge/rigid/rigid_substeps.hpp>
 #include <weft/core/trace.hpp>
 
@@ -138,7 +139,7 @@ void SoftBodySolver::solve_in_substeps() {
     const auto first = std::find_if(bodies.begin(), bodies.end(), wants_substeps);
     if (first == bodies.end()) return;
     std::vector<Attachment*> group{*first};
-    std::vector<btRigidBody*> reached;
+    std::vector<MovableObject> reached;
     int num_substeps = 1;
     for (std::size_t g = 0; g < group.size(); ++g) {
       num_substeps =
@@ -146,10 +147,10 @@ void SoftBodySolver::solve_in_substeps() {
       group[g]->fast->list_dynamic(*group[g]->body, reached);
       for (Attachment* other : bodies) {
         if (std::find(group.begin(), group.end(), other) != group.end()) continue;
-        std::vector<btRigidBody*> of_other;
+        std::vector<MovableObject> of_other;
         other->fast->list_dynamic(*other->body, of_other);
-        const bool shares = std::any_of(of_other.begin(), of_other.end(), [&](const auto* rigid) {
-          return std::find(reached.begin(), reached.end(), rigid) != reached.end();
+        const bool shares = std::any_of(of_other.begin(), of_other.end(), [&](const auto& one) {
+          return std::find(reached.begin(), reached.end(), one) != reached.end();
         });
         if (shares) group.push_back(other);
       }
@@ -166,7 +167,7 @@ void SoftBodySolver::solve_in_substeps() {
 void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_substeps) {
   const TraceScope trace("step in parts");
   const btScalar substep_time = time_step_ / static_cast<btScalar>(num_substeps);
-  std::vector<btRigidBody*> dynamic;
+  std::vector<MovableObject> dynamic;
   for (const Attachment* one : group) one->fast->list_dynamic(*one->body, dynamic);
   RigidSubsteps rigid(dynamic, time_step_, num_substeps);
   std::vector<Attachment*>& bodies = attachments_->stepped;
@@ -195,7 +196,7 @@ bool SoftBodySolver::may_meet_cloth() const {
 
 void SoftBodySolver::solve_listed_bodies(btScalar time_step) {
   std::vector<Attachment*>& bodies = attachments_->stepped;
-  std::vector<const btRigidBody*>& pushed = attachments_->pushed;
+  std::vector<const void*>& pushed = attachments_->pushed;
   const auto list_coupled = [&] {
     pushed.clear();
     for (const Attachment* one : bodies) one->fast->list_coupled(*one->body, pushed);
@@ -320,21 +321,33 @@ void SoftBodySolver::updateSoftBodies() {
   tell_of_blow_ups();
 }
 
-// The step that is about to end is no place for an exception: one that the callback lets go ends the program.
+// The step that is about to end is no place for an exception: one that a callback lets go ends the program.
 void SoftBodySolver::tell_of_blow_ups() noexcept {
-  if (!attachments_->on_blow_up) return;
   struct News {
-    btSoftBody* body;
+    Cloth cloth;
     BodyBlowUp blow_up;
+    std::function<void(const BodyBlowUp&)> callback;
   };
-  std::vector<News> news;  // the callback may attach and detach
+  std::vector<News> news;  // callbacks may attach, detach and set others
+  std::vector<std::pair<Cloth, std::function<void(const std::vector<ClothContactPoint>&)>>> touched;
+  const auto callback = attachments_->on_blow_up;
   for (const auto& attachment : attachments_->list) {
+    if (attachment->on_contact && attachment->was_in_world && !attachment->blow_up) {
+      touched.emplace_back(cloth(*attachment->body), attachment->on_contact);
+    }
     if (!attachment->blow_up || attachment->is_reported) continue;
+    if (!callback && !attachment->on_blow_up) continue;
     attachment->is_reported = true;
-    news.push_back({attachment->body, *attachment->blow_up});
+    news.push_back({cloth(*attachment->body), *attachment->blow_up, attachment->on_blow_up});
   }
-  const auto callback = attachments_->on_blow_up;  // which may set another one
-  for (const News& one : news) callback(*one.body, one.blow_up);
+  for (const News& one : news) {
+    if (one.callback) one.callback(one.blow_up);
+    if (callback && one.cloth.body() != nullptr) callback(*one.cloth.body(), one.blow_up);
+  }
+  for (const auto& [cloth, tell] : touched) {
+    const std::vector<ClothContactPoint> contacts = cloth.contacts();
+    if (!contacts.empty()) tell(contacts);
+  }
 }
 
 }  // namespace WEFT_BULLET_PRECISION

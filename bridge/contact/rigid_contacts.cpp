@@ -242,16 +242,15 @@ class ContactFinder {
 };
 
 /// [m] No node among those of a box moves farther with the body in a step.
-btScalar largest_motion(const btRigidBody& rigid, const MotionBox& nodes, btScalar time_step) {
+btScalar largest_motion(const RigidVelocity& velocity, const MotionBox& nodes, btScalar time_step) {
   btScalar reach2 = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const btScalar center = rigid.getCenterOfMassPosition()[static_cast<int>(k)];
+    const btScalar center = velocity.center[static_cast<int>(k)];
     const btScalar reach =
         std::max(std::abs(nodes.low[k] - center), std::abs(nodes.high[k] - center));
     reach2 += reach * reach;
   }
-  return time_step * (rigid.getLinearVelocity().length() +
-                      rigid.getAngularVelocity().length() * std::sqrt(reach2));
+  return time_step * (velocity.linear.length() + velocity.angular.length() * std::sqrt(reach2));
 }
 
 /// The same with a motion that is known: the corner that goes farthest.
@@ -274,12 +273,16 @@ Collider make_collider(const btCollisionObjectWrapper& object, const HullFacets*
                        btScalar time_step) {
   Collider collider{object.getCollisionObject(), object.getCollisionShape(),
                     object.getWorldTransform(), facets, number};
-  if (const btRigidBody* const rigid = movable(collider.object)) {
+  if (const MovableObject movable{collider.object}) {
+    const RigidVelocity velocity = movable.velocity();
     btTransform end;
-    btTransformUtil::integrateTransform(rigid->getWorldTransform(), rigid->getLinearVelocity(),
-                                        rigid->getAngularVelocity(), time_step, end);
-    collider.object_pose = rigid->getWorldTransform();
+    btTransformUtil::integrateTransform(movable.pose(), velocity.linear, velocity.angular,
+                                        time_step, end);
+    collider.object_pose = movable.pose();
     collider.motion = end * collider.object_pose.inverse();
+  } else {
+    if (link_of(collider.object)) collider.object_pose = collider.object->getWorldTransform();
+    collider.led = velocity_of(*collider.object);
   }
   return collider;
 }
@@ -292,11 +295,6 @@ const btCollisionShape* concave_shape_of(const btCollisionObjectWrapper& object)
 bool is_detected_alone(const Collider& collider) {
   if (ConcaveSurface::has(*collider.shape)) return ConcaveSurface(*collider.shape).is_thread_safe();
   return !needs_distance_field(*collider.shape, collider.facets);
-}
-
-btRigidBody* movable(const btCollisionObject* object) {
-  auto* rigid = const_cast<btRigidBody*>(btRigidBody::upcast(object));
-  return rigid != nullptr && !rigid->isStaticOrKinematicObject() ? rigid : nullptr;
 }
 
 void SweptNodes::update(const btSoftBody& body, fast::WorkerTeam* team) {
@@ -329,11 +327,9 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collide
                         fast::WorkerTeam* team) {
   if (!collider.object->hasContactResponse()) return;
   // Where the step begins is what Bullet knows of a dynamic body, and where it ends of a kinematic one.
-  const btRigidBody* const dynamic = movable(collider.object);
-  const btRigidBody* led = dynamic == nullptr ? btRigidBody::upcast(collider.object) : nullptr;
-  if (led != nullptr && led->getLinearVelocity().isZero() && led->getAngularVelocity().isZero()) {
-    led = nullptr;
-  }
+  const MovableObject dynamic{collider.object};
+  const RigidVelocity& velocity = collider.led;
+  const bool is_led = !velocity.is_zero();
   const btTransform back = collider.motion.inverse();
   const btScalar margin = body.getCollisionShape()->getMargin();
   btVector3 low;
@@ -343,8 +339,8 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collide
   const btScalar own = ConcaveSurface::has(*collider.shape) ? collider.shape->getMargin() : 0;
   const MotionBox box = box_of(low, high).grown(2 * margin + own);
   btScalar farthest = 0;  // that an object moves with respect to a node [m]
-  if (dynamic != nullptr) farthest = largest_motion(back, swept.all());
-  if (led != nullptr) farthest = largest_motion(*led, swept.all(), time_step);
+  if (dynamic) farthest = largest_motion(back, swept.all());
+  if (is_led) farthest = largest_motion(velocity, swept.all(), time_step);
   const MotionBox reached = box.grown(farthest);
   if (!meet(reached, swept.all())) return;
   const bool looks_at_pinned =
@@ -354,11 +350,9 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collide
     const btSoftBody::Node& node = body.m_nodes[i];
     if ((node.m_im <= 0 && !looks_at_pinned) || node.m_battach != 0) return;
     btVector3 motion(0, 0, 0);
-    if (led != nullptr) {
-      motion = time_step * led->getVelocityInLocalPoint(node.m_x - led->getCenterOfMassPosition());
-    }
+    if (is_led) motion = time_step * velocity.at(node.m_x);
     const btVector3 from = node.m_q + motion;
-    const btVector3 to = dynamic != nullptr ? back * node.m_x : node.m_x;
+    const btVector3 to = dynamic ? back * node.m_x : node.m_x;
     btVector3 least = from;
     btVector3 most = from;
     least.setMin(to);
@@ -372,7 +366,7 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collide
       contact.motion = motion;
       contact.object = collider.object;
       contact.collider = collider.number;
-      if (dynamic == nullptr) continue;
+      if (!dynamic) continue;
       contact.met = to;
       contact.met_by_object = collider.object_pose.invXform(to);
       contact.normal_by_object = contact.normal * collider.object_pose.getBasis();
@@ -394,7 +388,7 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collide
 }
 
 void follow_object(RigidContact& contact, const btTransform& object_pose) {
-  if (movable(contact.object) == nullptr) return;
+  if (!MovableObject(contact.object)) return;
   const btVector3 now = object_pose * contact.met_by_object;
   contact.motion = now - contact.met;
   contact.normal = object_pose.getBasis() * contact.normal_by_object;

@@ -7,19 +7,16 @@
 #include <span>
 #include <vector>
 
-#include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/contact/face_tree.hpp>
 #include <weft/bridge/contact/surface_distance.hpp>
+#include <weft/bridge/rigid/movable_object.hpp>
 #include <weft/fast_solver/threads/worker_team.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
-
-/// The object without its const if impulses move it, nullptr otherwise.
-[[nodiscard]] btRigidBody* movable(const btCollisionObject* object);
 
 /// A node in front of a rigid surface: normal . x >= offset at the end of the step.
 struct RigidContact {
@@ -36,6 +33,9 @@ struct RigidContact {
   btVector3 met_by_object{0, 0, 0};
   btVector3 normal_by_object{0, 0, 0};
   btScalar gap = 0;  ///< of that position in front of the plane [m]
+  // What the last solution says:
+  btVector3 impulse{0, 0, 0};  ///< on the node [N s]
+  bool is_sticking = false;
 };
 
 /// What a body's bounds meet: a whole object, or a part of it.
@@ -46,8 +46,10 @@ struct Collider {
   const HullFacets* facets;  ///< of a hull, or nullptr
   int number = 0;            ///< to tell the parts of an object from each other
   btTransform object_pose = btTransform::getIdentity();  ///< of the whole object, as pose
-  /// Takes the points of a dynamic object from where the step begins to where it ends.
+  /// Takes the points of a movable object from where the step begins to where it ends.
   btTransform motion = btTransform::getIdentity();
+  /// The velocity of an object that the program leads: a kinematic rigid body, or a link that no impulse moves.
+  RigidVelocity led = {};
 };
 
 /// A collider of the present step, before Bullet has moved it: dynamic ones are expected to go on with their velocity.

@@ -50,7 +50,7 @@ void RigidResponse::collide(btSoftBody& body, const btCollisionObjectWrapper& ob
                             HullTable& hulls, btScalar time_step) {
   auto& collision_object = *const_cast<btCollisionObject*>(object.getCollisionObject());
   btRigidBody* const moving = btRigidBody::upcast(&collision_object);
-  btRigidBody* const dynamic = movable(&collision_object);
+  btRigidBody* const dynamic = MovableObject(&collision_object).rigid();
   swept_.update(body);
   found_.clear();
   // At once what a cloth that lies with all its nodes needs, and nothing later on.
@@ -108,6 +108,7 @@ btScalar RigidResponse::visit(const btSoftBody& body, Contact& contact) {
   btVector3 hold = impulse - btDot(impulse, normal) * normal;
   const btScalar most = contact.friction * push;
   const btScalar length = hold.length();
+  contact.is_sticking = length <= most;
   if (length > most) hold *= most / length;
   impulse = push * normal + hold;
   const btVector3 change = impulse - contact.impulse;

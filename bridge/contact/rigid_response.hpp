@@ -36,7 +36,11 @@ class RigidResponse {
   [[nodiscard]] int num_contacts() const { return static_cast<int>(contacts_.size()); }
   /// Appends those of the last step.
   void list_contacts(std::vector<RigidContact>& list) const {
-    for (const Contact& contact : contacts_) list.push_back(contact.with);
+    for (const Contact& contact : contacts_) {
+      list.push_back(contact.with);
+      list.back().impulse = contact.impulse;
+      list.back().is_sticking = contact.is_sticking;
+    }
   }
 
  private:
@@ -49,6 +53,7 @@ class RigidResponse {
     btVector3 lever;       ///< from its centre of mass [m]
     btMatrix3x3 impulses;  ///< from changes of the relative motion [m] to impulses [N s]
     btVector3 impulse;     ///< on the node, so far in this step [N s]
+    bool is_sticking = false;
   };
 
   void project_out_of_planes(const btSoftBody& body);

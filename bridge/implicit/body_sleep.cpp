@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <weft/bridge/implicit/node_anchors.hpp>
+
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
@@ -26,12 +28,15 @@ bool BodySleep::is_disturbed(const btSoftBody& body) const {
         });
     if (!is_known) return true;
   }
-  if (at(body.m_anchors.size()) != anchors_.size()) return true;
-  for (int a = 0; a < body.m_anchors.size(); ++a) {
-    const btRigidBody* const rigid = body.m_anchors[a].m_body;
-    if (rigid != anchors_[at(a)].body) return true;
-    if (!(rigid->getWorldTransform() == anchors_[at(a)].pose)) return true;
-  }
+  if (at(body.m_anchors.size() + body.m_deformableAnchors.size()) != anchors_.size()) return true;
+  bool are_same = true;
+  std::size_t a = 0;
+  for_anchors(body, [&](const NodeAnchor& anchor) {
+    const Neighbor& known = anchors_[a++];
+    are_same = are_same && anchor.object == known.object &&
+               anchor.object->getWorldTransform() == known.pose;
+  });
+  if (!are_same) return true;
   if (body.m_worldInfo->m_gravity != gravity_ || body.m_windVelocity != wind_) return true;
   if (at(body.m_nodes.size()) != positions_.size()) return true;
   const btVector3 zero(0, 0, 0);
@@ -66,10 +71,9 @@ void BodySleep::notify_cloth(bool is_at_rest) {
 void BodySleep::remember(const btSoftBody& body) {
   neighbors_ = met_;
   anchors_.clear();
-  for (int a = 0; a < body.m_anchors.size(); ++a) {
-    const btRigidBody* const rigid = body.m_anchors[a].m_body;
-    anchors_.push_back({rigid, rigid->getWorldTransform()});
-  }
+  for_anchors(body, [&](const NodeAnchor& anchor) {
+    anchors_.push_back({anchor.object, anchor.object->getWorldTransform()});
+  });
   positions_.clear();
   inverse_masses_.clear();
   for (int i = 0; i < body.m_nodes.size(); ++i) {

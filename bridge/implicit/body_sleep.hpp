@@ -37,10 +37,6 @@ class BodySleep {
     const btCollisionObject* object;  ///< only compared
     btTransform pose;
   };
-  struct Anchor {
-    const btRigidBody* body;
-    btTransform pose;
-  };
   [[nodiscard]] bool is_disturbed(const btSoftBody& body) const;
   void remember(const btSoftBody& body);
 
@@ -50,7 +46,7 @@ class BodySleep {
   std::vector<Neighbor> met_;
   // When it fell asleep:
   std::vector<Neighbor> neighbors_;
-  std::vector<Anchor> anchors_;
+  std::vector<Neighbor> anchors_;
   std::vector<btVector3> positions_;
   std::vector<btScalar> inverse_masses_;
   btVector3 gravity_{0, 0, 0};

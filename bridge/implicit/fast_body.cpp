@@ -32,7 +32,10 @@ void include_in_bounds(const Matrix3X<btScalar>& positions, btSoftBody& body) {
 
 FastBody::FastBody(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
                    VectorX<double> masses, const FastSettings& settings)
-    : network_(fast::make_network(mesh, laws)), masses_(std::move(masses)), settings_(settings) {
+    : network_(fast::make_network(mesh, laws)),
+      masses_(std::move(masses)),
+      wave_speed_(wave_speed(network_, masses_)),
+      settings_(settings) {
   check(settings);
   set_num_nodes(masses_.size());
 }
@@ -144,6 +147,7 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
   last_num_substeps_ = std::exchange(num_substeps_, 1);
   contacts_.clear();
   colliders_.clear();
+  led_links_.begin_step(time_step);
   pushed_.begin_step();
   is_support_missing_ = false;
   swept_.invalidate();
@@ -309,9 +313,10 @@ void FastBody::update_normals(btSoftBody& body) {
 void FastBody::solve(btSoftBody& body, btScalar time_step,
                      const fast::SolverSettings& solver_settings, bool is_again) {
   read_constraints(body, time_step, is_again);
-  solver_->solve({targets_, starts_, time_step, inertia_step_, plane_contacts_, kinematic_,
-                  pushed_.inertias(), bending_.empty() ? nullptr : &bending_, is_again},
-                 solver_settings, positions_, team_);
+  solver_->solve(
+      {targets_, starts_, time_step, inertia_step_, plane_contacts_, kinematic_, pushed_.inertias(),
+       bending_.empty() ? nullptr : &bending_, is_again, pushed_.couplings()},
+      solver_settings, positions_, team_);
   pushed_.read_displacements(*solver_, time_step);
 }
 
@@ -329,7 +334,7 @@ void FastBody::detect_contacts(const btSoftBody& body, btScalar time_step) {
 }
 
 void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
-                           std::span<const btRigidBody* const> pushed) {
+                           std::span<const void* const> pushed) {
   const TraceScope trace("fast body");
   const fast::WorkerTeam::Scope scope(team_, team_size());
   pushed_.begin_solve(pushed);
@@ -363,7 +368,7 @@ bool FastBody::detects_alone() const {
 }
 
 void FastBody::solve_again(btSoftBody& body, btScalar time_step,
-                           std::span<const btRigidBody* const> pushed) {
+                           std::span<const void* const> pushed) {
   const TraceScope trace("fast body");
   const fast::WorkerTeam::Scope scope(team_, team_size());
   pushed_.begin_solve(pushed);

@@ -10,6 +10,7 @@
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/classic/node_normals.hpp>
+#include <weft/bridge/contact/pinch.hpp>
 #include <weft/bridge/contact/rigid_contacts.hpp>
 #include <weft/bridge/fast_settings.hpp>
 #include <weft/bridge/implicit/bending_forces.hpp>
@@ -17,9 +18,11 @@
 #include <weft/bridge/implicit/force_history.hpp>
 #include <weft/bridge/implicit/node_team.hpp>
 #include <weft/bridge/implicit/stiffness_limit.hpp>
+#include <weft/bridge/implicit/substep_count.hpp>
 #include <weft/bridge/rigid/coupled_bodies.hpp>
 #include <weft/bridge/rigid/rigid_motion.hpp>
 #include <weft/bridge/rigid/rigid_substeps.hpp>
+#include <weft/bridge/rigid/sticking_points.hpp>
 #include <weft/bridge/step_error.hpp>
 #include <weft/custom_forces/law_info.hpp>
 #include <weft/fast_solver/implicit_solver.hpp>
@@ -87,17 +90,16 @@ class FastBody : public NodeTeam {
                btScalar time_step);
   /// Whether predict() was called in this step. A body that is woken up in between is to be left alone.
   [[nodiscard]] bool is_predicted() const { return is_predicted_; }
-  /// Appends the rigid bodies that this one may push in this step, each once.
-  void list_coupled(const btSoftBody& body, std::vector<const btRigidBody*>& list) const;
+  /// Appends MovableObject::inertia_owner() of what this body may push in this step, each once.
+  void list_coupled(const btSoftBody& body, std::vector<const void*>& list) const;
   /// Whether detect_contacts() and redetect_contacts() touch only the body too.
   [[nodiscard]] bool detects_alone() const;
   /// After prepare(), once Bullet has moved rigid bodies.
   void detect_contacts(const btSoftBody& body, btScalar time_step);
-  /// How many substeps the step is to be divided into, after detect_contacts(): in a whole step the surface of a dynamic body
-  /// that comes far would have turned away from the nodes that it meets.
+  /// How many substeps the step is to be divided into, after detect_contacts() (SubstepCount).
   [[nodiscard]] int num_substeps(const btSoftBody& body, btScalar time_step) const;
   /// Appends the dynamic bodies that this one is near to or hangs on, each once.
-  void list_dynamic(const btSoftBody& body, std::vector<btRigidBody*>& list) const;
+  void list_dynamic(const btSoftBody& body, std::vector<MovableObject>& list) const;
   /// Around all substeps; each is then a step of its own, from detect_contacts() to end_solve().
   void begin_substeps(const btSoftBody& body, btScalar time_step);
   void begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int substep, int num_substeps,
@@ -108,14 +110,12 @@ class FastBody : public NodeTeam {
   /// pushed: those of all bodies, in order. Each of several that push one rigid body has a share of its inertia: they are
   /// solved apart, and each alone would stop it.
   void prepare(const btSoftBody& body);
-  void begin_solve(btSoftBody& body, btScalar time_step,
-                   std::span<const btRigidBody* const> pushed);
+  void begin_solve(btSoftBody& body, btScalar time_step, std::span<const void* const> pushed);
   /// Looks for contacts that the solution needs, and for bodies that it has pushed into others: is_unfinished() says
   /// whether it found any.
   void redetect_contacts(btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool is_unfinished() const { return is_contact_missing_ || is_support_missing_; }
-  void solve_again(btSoftBody& body, btScalar time_step,
-                   std::span<const btRigidBody* const> pushed);
+  void solve_again(btSoftBody& body, btScalar time_step, std::span<const void* const> pushed);
   /// A step of the method of ForceHistory that has more energy than there was is solved by implicit Euler instead, which
   /// cannot.
   void solve_anew_if_it_gains(btSoftBody& body, btScalar time_step);
@@ -162,7 +162,7 @@ class FastBody : public NodeTeam {
   [[nodiscard]] RigidContact* known_contact(const RigidContact& found, const btVector3& position,
                                             btScalar margin);
   void follow_colliders(bool to_solution);
-  [[nodiscard]] btTransform solved_pose(const btRigidBody& rigid) const;
+  [[nodiscard]] btTransform solved_pose(const MovableObject& object) const;
   void find_contacts(const btSoftBody& body, const Collider& collider, btScalar time_step,
                      std::vector<RigidContact>& contacts);
   /// Contacts that the solution would need, and that nobody looked for where Bullet had predicted the
@@ -186,6 +186,7 @@ class FastBody : public NodeTeam {
   fast::SpringNetwork network_;  ///< until solver_ has it
   LimitedStiffness limited_;
   VectorX<double> masses_;
+  btScalar wave_speed_;  ///< [m/s]
   FastSettings settings_;
   std::unique_ptr<fast::ImplicitSolver<btScalar>> solver_;
   std::vector<bool> is_free_;     ///< that solver_ knows
@@ -239,6 +240,9 @@ class FastBody : public NodeTeam {
   std::vector<fast::PlaneContact<btScalar>> plane_contacts_;
   std::vector<fast::KinematicNode<btScalar>> kinematic_;
   CoupledBodies pushed_;
+  Pinches pinches_;
+  StickingPoints sticking_points_;
+  LedLinks led_links_;
   std::vector<int> scratch_;  ///< kept for its memory
 };
 

@@ -4,16 +4,18 @@
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/implicit/fast_body.hpp>
+#include <weft/bridge/implicit/node_anchors.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-void push(btRigidBody& rigid, const btVector3& impulse, const btVector3& point) {
-  rigid.activate();
-  rigid.applyImpulse(impulse, point - rigid.getCenterOfMassPosition());
+Vector3<btScalar> lever_arm(const MovableObject& object, const btVector3& point) {
+  return from_bullet<btScalar>(point - object.center());
 }
 
+/// [m] Behind which a plane holds nothing.
+constexpr btScalar kFarAway = 1000;
 /// How far below its plane a node may end a step, as a share of the margin [-].
 constexpr btScalar kDepthShare = btScalar(0.5);
 /// By how much a plane may be wrong where the node has come to, as a share of the margin [-].
@@ -30,9 +32,9 @@ void FastBody::find_contacts(const btSoftBody& body, const Collider& collider, b
 }
 
 // The pose of a rigid body at the end of the step: as Bullet has moved it, and as the last solution moves it further.
-btTransform FastBody::solved_pose(const btRigidBody& rigid) const {
-  btTransform end = rigid.getCenterOfMassTransform();
-  const GeneralizedDisplacement displacement = pushed_.displacement_of(rigid);
+btTransform FastBody::solved_pose(const MovableObject& object) const {
+  btTransform end = object.pose();
+  const GeneralizedDisplacement displacement = pushed_.displacement_of(object);
   if (displacement.isZero(0)) return end;
   end.setOrigin(end.getOrigin() + to_bullet(displacement.head<3>().eval()));
   const btScalar angle = displacement.tail<3>().norm();
@@ -45,10 +47,13 @@ btTransform FastBody::solved_pose(const btRigidBody& rigid) const {
 
 void FastBody::follow_colliders(bool to_solution) {
   for (Collider& collider : colliders_) {
-    const btRigidBody* const rigid = movable(collider.object);
-    if (rigid == nullptr) continue;
-    const btTransform end = to_solution ? solved_pose(*rigid) : rigid->getCenterOfMassTransform();
-    collider.motion = end * collider.object_pose.inverse();
+    const MovableObject object{collider.object};
+    if (object) {
+      const btTransform end = to_solution ? solved_pose(object) : object.pose();
+      collider.motion = end * collider.object_pose.inverse();
+    } else if (link_of(collider.object) != nullptr) {
+      led_links_.follow(collider);
+    }
   }
 }
 
@@ -95,14 +100,15 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
   const std::size_t num_known = contacts_.size();
   bool is_any_wrong = false;
   for (RigidContact& found : found_) {
+    if (pinches_.has(found.node)) continue;
     const btVector3& position = body.m_nodes[found.node].m_x;
     const btScalar gap = btDot(found.normal, position) - found.offset;
-    const btRigidBody* const rigid = movable(found.object);
-    if (gap < -kDepthShare * margin && rigid == nullptr) deep_.push_back(found);
+    const MovableObject object{found.object};
+    if (gap < -kDepthShare * margin && !object) deep_.push_back(found);
     RigidContact* const known = known_contact(found, position, margin);
-    if (known != nullptr && rigid != nullptr) {
+    if (known != nullptr && object) {
       RigidContact solved = *known;
-      follow_object(solved, solved_pose(*rigid));
+      follow_object(solved, solved_pose(object));
       const btScalar known_gap = btDot(solved.normal, position) - solved.offset;
       if (std::abs(std::min(gap, known_gap)) < margin &&
           std::abs(gap - known_gap) > kPlaneShare * margin) {
@@ -114,9 +120,7 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
     }
   }
   for (RigidContact& contact : contacts_) {
-    if (const btRigidBody* const rigid = movable(contact.object)) {
-      follow_object(contact, rigid->getCenterOfMassTransform());
-    }
+    if (const MovableObject object{contact.object}) follow_object(contact, object.pose());
   }
   return is_any_wrong || contacts_.size() > num_known;
 }
@@ -128,7 +132,7 @@ void FastBody::project_out_of_missed_colliders(btSoftBody& body, btScalar time_s
   const std::size_t num_solved = contacts_.size();
   for (int look = 0; look <= kMostRedetections && find_missed_contacts(body, time_step); ++look) {
     for (const RigidContact& contact : contacts_) {
-      if (movable(contact.object) != nullptr) continue;
+      if (MovableObject(contact.object) || pinches_.has(contact.node)) continue;
       is_projected_ = true;
       if (look == kMostRedetections && &contact >= &contacts_[num_solved]) {  // between two facets
         positions_.col(contact.node) =
@@ -159,7 +163,7 @@ void FastBody::project_out_of_planes() {
 // Other cloth may have pushed nodes into what does not move.
 void FastBody::project_out_of_colliders(btSoftBody& body) const {
   for (const RigidContact& contact : contacts_) {
-    if (movable(contact.object) != nullptr) continue;
+    if (MovableObject(contact.object) || pinches_.has(contact.node)) continue;
     btSoftBody::Node& node = body.m_nodes[contact.node];
     const btScalar gap = btDot(contact.normal, node.m_x) - contact.offset;
     if (gap < 0 && node.m_im > 0) node.m_x -= gap * contact.normal;
@@ -167,75 +171,103 @@ void FastBody::project_out_of_colliders(btSoftBody& body) const {
 }
 
 // Those that are only near are not meant: a cloth that holds a body alone has to move all of it.
-void FastBody::list_coupled(const btSoftBody& body, std::vector<const btRigidBody*>& list) const {
+void FastBody::list_coupled(const btSoftBody& body, std::vector<const void*>& list) const {
   const std::size_t num_before = list.size();
-  const auto add = [&](const btRigidBody* rigid) {
+  const auto add = [&](const MovableObject& object) {
+    const void* const owner = object.inertia_owner();
     const auto mine = list.begin() + static_cast<std::ptrdiff_t>(num_before);
-    if (rigid != nullptr && std::find(mine, list.end(), rigid) == list.end()) list.push_back(rigid);
+    if (owner != nullptr && std::find(mine, list.end(), owner) == list.end()) list.push_back(owner);
   };
-  for (int a = 0; a < body.m_anchors.size(); ++a) add(movable(body.m_anchors[a].m_body));
+  for_anchors(body, [&](const NodeAnchor& anchor) { add(MovableObject(anchor.object)); });
   for (const RigidContact& contact : contacts_) {
-    const btRigidBody* const rigid = movable(contact.object);
-    if (rigid == nullptr) continue;
+    const MovableObject object{contact.object};
+    if (!object) continue;
     const bool is_inside = btDot(contact.normal, body.m_nodes[contact.node].m_x) < contact.offset;
-    if (is_inside || !pushed_.displacement_of(*rigid).isZero(0)) add(rigid);
+    if (is_inside || !pushed_.displacement_of(object).isZero(0)) add(object);
   }
 }
 
 void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool is_again) {
   pushed_.clear();
-  btDispatcher* const dispatcher = body.m_worldInfo->m_dispatcher;
-  const auto arm_of = [](const btRigidBody& rigid, const btVector3& point) {
-    return from_bullet<btScalar>(point - rigid.getCenterOfMassPosition());
-  };
   plane_contacts_.clear();
-  for (const RigidContact& contact : contacts_) {
+  pinches_.find(contacts_, body, body.m_sst.sdt);
+  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+    const RigidContact& contact = contacts_[c];
     fast::PlaneContact<btScalar> plane;
     plane.node = contact.node;
     plane.normal = from_bullet<btScalar>(contact.normal);
     plane.offset = contact.offset - plane.normal.dot(origin_);
     plane.motion = from_bullet<btScalar>(contact.motion);
-    plane.friction = body.m_cfg.kDF * contact.object->getFriction();
-    if (const btRigidBody* const rigid = movable(contact.object)) {
-      plane.body = pushed_.number_of(*rigid, dispatcher, time_step, is_again);
+    plane.friction = body.m_cfg.kDF * (contact.object->getFriction() + pinches_.other_friction(c));
+    plane.squeeze = pinches_.squeeze_of(c);
+    plane.offset -= pinches_.is_replaced(c) ? kFarAway : pinches_.depth_of(c);
+    const MovableObject object{contact.object};
+    if (object && !pinches_.has(contact.node)) {
+      plane.body = pushed_.number_of(object, body.m_worldInfo->m_dispatcher, time_step, is_again);
       // Where the surface holds the node, which is predicted to be deep inside.
       const btVector3& point = body.m_nodes[contact.node].m_x;
       const btScalar gap = btDot(contact.normal, point) - contact.offset;
-      plane.lever_arm = arm_of(*rigid, point - std::min(btScalar(0), gap) * contact.normal);
+      plane.lever_arm = lever_arm(object, point - std::min(btScalar(0), gap) * contact.normal);
+      if (const btVector3* const local = sticking_points_.find(contact.node, object)) {
+        plane.motion =
+            from_bullet<btScalar>(object.pose() * *local) - origin_ - starts_.col(contact.node);
+      }
     }
     plane_contacts_.push_back(plane);
   }
   kinematic_.clear();
-  for (int a = 0; a < body.m_anchors.size(); ++a) {
-    const btSoftBody::Anchor& anchor = body.m_anchors[a];
-    const auto node = static_cast<int>(anchor.m_node - &body.m_nodes[0]);
-    if (!is_free_[static_cast<std::size_t>(node)]) continue;
-    const bool is_kinematic = std::any_of(kinematic_.begin(), kinematic_.end(),
-                                          [&](const auto& other) { return other.node == node; });
-    if (is_kinematic) continue;  // by an anchor before
-    const btVector3 point = anchor.m_body->getWorldTransform() * anchor.m_local;
+  for_anchors(body, [&](const NodeAnchor& anchor) {
+    if (!is_free_[static_cast<std::size_t>(anchor.node)]) return;
+    const bool is_kinematic =
+        std::any_of(kinematic_.begin(), kinematic_.end(),
+                    [&](const auto& other) { return other.node == anchor.node; });
+    if (is_kinematic) return;  // by an anchor before
+    const btVector3 point = anchor.object->getWorldTransform() * anchor.local;
     fast::KinematicNode<btScalar> led;
-    led.node = node;
+    led.node = anchor.node;
     led.position = from_bullet<btScalar>(point) - origin_;
-    if (const btRigidBody* const rigid = movable(anchor.m_body)) {
-      led.body = pushed_.number_of(*rigid, dispatcher, time_step, is_again);
-      led.lever_arm = arm_of(*rigid, point);
+    if (const MovableObject object{anchor.object}) {
+      led.body = pushed_.number_of(object, body.m_worldInfo->m_dispatcher, time_step, is_again);
+      led.lever_arm = lever_arm(object, point);
     }
     kinematic_.push_back(led);
-  }
+  });
+  pushed_.couple_links();
 }
 
 void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
+  // Forces that act with the whole step.
+  const btScalar whole_step = inertia_step_ * inertia_step_ / time_step;
+  sticking_points_.begin_update();
+  for (std::size_t c = 0; c < plane_contacts_.size(); ++c) {
+    RigidContact& contact = contacts_[c];
+    const MovableObject object{contact.object};
+    const auto [active, state] = solver_->contact_of(static_cast<std::size_t>(contacts_[c].node));
+    if (active != static_cast<int>(c)) continue;
+    contact.impulse = whole_step * to_bullet(solver_->constraint_force(contact.node));
+    contact.is_sticking = state == fast::ContactState::kFixed;
+    if (plane_contacts_[c].body < 0) continue;
+    sticking_points_.add(contacts_[c].node, object, state == fast::ContactState::kFixed,
+                         solved_pose(object), in_world(contacts_[c].node));
+  }
+  sticking_points_.end_update();
+  pinches_.push_back(
+      contacts_,
+      [&](int node) -> btVector3 { return time_step * to_bullet(solver_->constraint_force(node)); },
+      [&](int node) { return in_world(node); });
   given_to_bodies_ = -pushed_.kinetic_energy();
   pushed_.exchange_impulses(time_step);
   for (int a = 0; a < body.m_anchors.size(); ++a) {  // that push with a share only
     const btSoftBody::Anchor& anchor = body.m_anchors[a];
-    if (anchor.m_influence == 1 || movable(anchor.m_body) == nullptr) continue;
+    const MovableObject object{anchor.m_body};
+    if (anchor.m_influence == 1 || !object) continue;
     const auto node = static_cast<int>(anchor.m_node - &body.m_nodes[0]);
     // A force that acts with the whole step.
     const btScalar share = inertia_step_ * inertia_step_ / (time_step * time_step);
     const btVector3 impulse = share * time_step * to_bullet(solver_->constraint_force(node));
-    push(*anchor.m_body, (1 - anchor.m_influence) * impulse, in_world(node));
+    object.activate();
+    object.rigid()->applyImpulse((1 - anchor.m_influence) * impulse,
+                                 in_world(node) - object.center());
   }
   given_to_bodies_ += pushed_.kinetic_energy();
   pushed_.move_at_once(time_step);

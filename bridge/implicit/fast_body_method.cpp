@@ -7,6 +7,7 @@
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/implicit/energy_limit.hpp>
 #include <weft/bridge/implicit/fast_body.hpp>
+#include <weft/bridge/implicit/node_anchors.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -37,7 +38,12 @@ bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
       body.m_scontacts.size() > 0 || was_changed_outside()) {
     return false;
   }
-  return are_positions_kept();
+  // Links have no history: the impulse that they get is that of a whole step.
+  bool leads_link = false;
+  for_anchors(body, [&](const NodeAnchor& anchor) {
+    leads_link = leads_link || MovableObject(anchor.object).link() != nullptr;
+  });
+  return !leads_link && are_positions_kept();
 }
 
 // With dynamic bodies that springs throw back. What only lies there comes to rest by the damping of implicit Euler.
@@ -47,11 +53,11 @@ bool FastBody::may_use_forces(const btSoftBody& body, btScalar time_step) {
     return false;
   }
   const auto is_lively = [&](const RigidContact& contact) {
-    const btRigidBody* const rigid = movable(contact.object);
-    if (rigid == nullptr) return false;
-    const btScalar least = kLively * rigid->getGravity().length() * time_step;
-    const btScalar change = pushed_.displacement_of(*rigid).template head<3>().norm() / time_step;
-    return rigid->getLinearVelocity().length() > least || change > least;
+    const MovableObject object{contact.object};
+    if (!object || object.is_articulated()) return false;
+    const btScalar least = kLively * object.gravity().length() * time_step;
+    const btScalar change = pushed_.displacement_of(object).template head<3>().norm() / time_step;
+    return object.velocity().linear.length() > least || change > least;
   };
   return std::any_of(contacts_.begin(), contacts_.end(), is_lively) && are_positions_kept();
 }
@@ -126,9 +132,11 @@ void FastBody::find_velocities() {
 bool FastBody::gets_work_from_outside() const {
   if (!kinematic_.empty()) return true;
   for (const RigidContact& contact : contacts_) {
-    if (contact.motion.length2() > 0 && movable(contact.object) == nullptr) return true;
-    if (btRigidBody::upcast(contact.object) == nullptr)
-      return true;  // a ghost, a link: nobody knows how it moves
+    const MovableObject object{contact.object};
+    if (contact.motion.length2() > 0 && !object) return true;
+    // Nobody knows how a ghost moves, and what the motors of joints do.
+    if (object ? object.is_articulated() : btRigidBody::upcast(contact.object) == nullptr)
+      return true;
   }
   return std::any_of(pins_.begin(), pins_.end(),
                      [&](int pin) { return positions_.col(pin) != starts_.col(pin); });
@@ -138,7 +146,7 @@ bool FastBody::gets_work_from_outside() const {
 void FastBody::keep_forces(btScalar time_step) {
   const bool is_any_near =
       std::any_of(colliders_.begin(), colliders_.end(),
-                  [](const Collider& collider) { return movable(collider.object) != nullptr; });
+                  [](const Collider& collider) { return bool(MovableObject(collider.object)); });
   if (!is_any_near) return force_history_.forget();
   force_history_.resize(positions_.cols(), time_step);
   for_nodes([&](int begin, int count) {

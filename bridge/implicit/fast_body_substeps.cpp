@@ -1,21 +1,15 @@
-// Substeps: a step is divided if a dynamic body moves so far in it that its surface turns away from the nodes that it met.
+// Substeps: why a step is divided is in substep_count.hpp.
 // Tested by tests/bridge/implicit/fast_body_impact_test.cpp.
 #include <algorithm>
-#include <cmath>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/implicit/fast_body.hpp>
+#include <weft/bridge/implicit/node_anchors.hpp>
 #include <weft/bridge/rigid/rigid_substeps.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
-
-/// How far a shape may approach a node in one substep, as a share of its smallest half extent [-].
-constexpr btScalar kApproachShare = btScalar(0.2);
-/// Likewise: how far springs may push it back in one substep.
-constexpr btScalar kPushShare = btScalar(0.05);
-constexpr int kMostSubsteps = 32;
 
 btScalar smallest_half_extent(const btCollisionShape& shape) {
   btVector3 low;
@@ -28,36 +22,35 @@ btScalar smallest_half_extent(const btCollisionShape& shape) {
 }  // namespace
 
 int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
-  btScalar most = 1;
-  bool touches_dynamic = false;
+  SubstepCount substeps(time_step * wave_speed_);
   for (const RigidContact& contact : contacts_) {
-    const btRigidBody* const rigid = movable(contact.object);
-    if (rigid == nullptr) continue;
-    touches_dynamic = true;
+    const MovableObject object{contact.object};
+    if (!object || object.is_articulated()) continue;
     const Collider& collider = colliders_[static_cast<std::size_t>(contact.collider)];
     const btVector3 normal = collider.object_pose.getBasis() * contact.normal_by_object;
-    const btScalar approach = btDot(normal, body.m_nodes[contact.node].m_q - contact.met);
-    // By what cloth has done to it in the last solve: so it will go on.
-    const btScalar weight = 2 * time_step * time_step * rigid->getGravity().length();
-    const btScalar pushed = pushed_.push_in(*rigid, time_step) - weight;
-    const btScalar size =
-        std::max(smallest_half_extent(*collider.shape), body.getCollisionShape()->getMargin());
-    most = std::max({most, approach / (kApproachShare * size), pushed / (kPushShare * size)});
+    const auto mass = static_cast<btScalar>(masses_.sum());
+    const btVector3 velocity =
+        object.velocity().at(contact.met) - to_bullet(start_velocities_.col(contact.node).eval());
+    substeps.include({.size = std::max(smallest_half_extent(*collider.shape),
+                                       body.getCollisionShape()->getMargin()),
+                      .approach = btDot(normal, body.m_nodes[contact.node].m_q - contact.met),
+                      .closing = time_step * btDot(normal, velocity),
+                      .pushed = pushed_.push_in(object, time_step),
+                      .fall = time_step * time_step * object.gravity().length(),
+                      .mass_share = mass / (mass + 1 / object.inverse_mass())});
   }
-  // Not much fewer than before: what short steps have begun goes on.
-  if (touches_dynamic) most = std::max(most, static_cast<btScalar>(last_num_substeps_) / 2);
-  return std::min(kMostSubsteps, static_cast<int>(std::ceil(most)));
+  return substeps.count(last_num_substeps_);
 }
 
-void FastBody::list_dynamic(const btSoftBody& body, std::vector<btRigidBody*>& list) const {
-  const auto add = [&](const btCollisionObject* object) {
-    btRigidBody* const rigid = movable(object);
-    if (rigid != nullptr && std::find(list.begin(), list.end(), rigid) == list.end()) {
-      list.push_back(rigid);
+void FastBody::list_dynamic(const btSoftBody& body, std::vector<MovableObject>& list) const {
+  const auto add = [&](const btCollisionObject* one) {
+    const MovableObject object{one};
+    if (object && std::find(list.begin(), list.end(), object) == list.end()) {
+      list.push_back(object);
     }
   };
   for (const Collider& collider : colliders_) add(collider.object);
-  for (int a = 0; a < body.m_anchors.size(); ++a) add(body.m_anchors[a].m_body);
+  for_anchors(body, [&](const NodeAnchor& anchor) { add(anchor.object); });
 }
 
 void FastBody::begin_substeps(const btSoftBody& body, btScalar time_step) {
@@ -98,9 +91,9 @@ void FastBody::begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int s
   is_support_missing_ = false;
   swept_.invalidate();
   for (Collider& collider : colliders_) {
-    const btRigidBody* const dynamic = movable(collider.object);
-    if (dynamic == nullptr) continue;
-    const btTransform start = rigid.start_of(*dynamic);
+    const MovableObject dynamic{collider.object};
+    if (!dynamic) continue;
+    const btTransform start = rigid.start_of(dynamic);
     collider.pose = start * collider.object_pose.inverse() * collider.pose;
     collider.object_pose = start;
   }

@@ -1,6 +1,7 @@
 #include <weft/bridge/rigid/coupled_bodies.hpp>
 
 #include <algorithm>
+#include <utility>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
 
@@ -60,37 +61,103 @@ void CoupledBodies::begin_step() {
 void CoupledBodies::clear() {
   bodies_.clear();
   inertias_.clear();
+  couplings_.clear();
+  multibodies_.clear();
 }
 
-int CoupledBodies::number_of(const btRigidBody& rigid, btDispatcher* dispatcher, btScalar time_step,
-                             bool is_again) {
+btScalar CoupledBodies::share_of(const MovableObject& object) const {
+  const auto [first, last] =
+      std::equal_range(of_all_.begin(), of_all_.end(), object.inertia_owner());
+  return 1 / static_cast<btScalar>(std::max<std::ptrdiff_t>(1, last - first));
+}
+
+int CoupledBodies::number_of(const MovableObject& object, btDispatcher* dispatcher,
+                             btScalar time_step, bool is_again) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (bodies_[b] == &rigid) return static_cast<int>(b);
+    if (bodies_[b] == object) return static_cast<int>(b);
   }
-  bodies_.push_back(&rigid);
+  bodies_.push_back(object);
   fast::RigidInertia<btScalar> given;
-  const auto [first, last] = std::equal_range(of_all_.begin(), of_all_.end(), &rigid);
-  const auto share = 1 / static_cast<btScalar>(std::max<std::ptrdiff_t>(1, last - first));
-  given.mass = share * mass_of(rigid);
-  given.inertia = share * inertia_of(rigid);
-  given.motion = from_bullet<btScalar>(time_step * rigid.getLinearVelocity());
-  given.turn = from_bullet<btScalar>(time_step * rigid.getAngularVelocity());
-  if (is_again) given.guess = displacement_of(rigid);
-  given.held = share * inertia_of_supports(rigid, supports_of(rigid, dispatcher, time_step));
+  const btScalar share = share_of(object);
+  if (const btRigidBody* const rigid = object.rigid()) {
+    given.mass = share * mass_of(*rigid);
+    given.inertia = share * inertia_of(*rigid);
+  }
+  const RigidVelocity velocity = object.velocity();
+  given.motion = from_bullet<btScalar>(time_step * velocity.linear);
+  given.turn = from_bullet<btScalar>(time_step * velocity.angular);
+  if (is_again) given.guess = displacement_of(object);
+  given.held = share * inertia_of_supports(object, supports_of(object, dispatcher, time_step));
   inertias_.push_back(given);
   return static_cast<int>(bodies_.size()) - 1;
 }
 
+void CoupledBodies::couple_links() {
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const btMultiBodyLinkCollider* const link = bodies_[b].link();
+    if (link == nullptr) continue;
+    const btMultiBody* const owner = link->m_multiBody;
+    auto known = std::find_if(multibodies_.begin(), multibodies_.end(),
+                              [&](const auto& one) { return &one.inertia.multibody() == owner; });
+    if (known == multibodies_.end()) {
+      multibodies_.push_back({MultiBodyInertia(*owner), {}, {}});
+      known = multibodies_.end() - 1;
+    }
+    known->bodies.push_back(static_cast<int>(b));
+  }
+  for (PushedMultiBody& one : multibodies_) {
+    std::vector<int> links;
+    for (const int b : one.bodies) {
+      links.push_back(bodies_[static_cast<std::size_t>(b)].link()->m_link);
+    }
+    const MovableObject& first = bodies_[static_cast<std::size_t>(one.bodies[0])];
+    one.of_links = static_cast<double>(share_of(first)) * one.inertia.inertia_of(links);
+    for (std::size_t i = 0; i < one.bodies.size(); ++i) {
+      for (std::size_t j = i; j < one.bodies.size(); ++j) {
+        const Eigen::Matrix<btScalar, 6, 6> block =
+            one.of_links
+                .block<6, 6>(6 * static_cast<Eigen::Index>(i), 6 * static_cast<Eigen::Index>(j))
+                .cast<btScalar>();
+        if (i == j) {
+          fast::RigidInertia<btScalar>& inertia =
+              inertias_[static_cast<std::size_t>(one.bodies[i])];
+          inertia.of_link = block;
+          inertia.has_base = !is_base_free(one.inertia.multibody());
+        } else {
+          couplings_.push_back({one.bodies[i], one.bodies[j], block});
+        }
+      }
+    }
+  }
+}
+
+VectorX<double> CoupledBodies::impulse_on(const PushedMultiBody& pushed, btScalar time_step) const {
+  VectorX<double> displacements(pushed.of_links.cols());
+  for (std::size_t k = 0; k < pushed.bodies.size(); ++k) {
+    const MovableObject& link = bodies_[static_cast<std::size_t>(pushed.bodies[k])];
+    displacements.segment<6>(6 * static_cast<Eigen::Index>(k)) =
+        displacement_of(link).template cast<double>();
+  }
+  const VectorX<double> of_links = pushed.of_links * displacements / static_cast<double>(time_step);
+  VectorX<double> sum = VectorX<double>::Zero(6 + pushed.inertia.multibody().getNumDofs());
+  for (std::size_t k = 0; k < pushed.bodies.size(); ++k) {
+    const int link = bodies_[static_cast<std::size_t>(pushed.bodies[k])].link()->m_link;
+    sum += pushed.inertia.jacobian_of(link).transpose() *
+           of_links.segment<6>(6 * static_cast<Eigen::Index>(k));
+  }
+  return sum;
+}
+
 // Those of a body that was held in the last step are likely to hold it again: the others have to be found out.
-const std::vector<Support>& CoupledBodies::supports_of(const btRigidBody& rigid,
+const std::vector<Support>& CoupledBodies::supports_of(const MovableObject& object,
                                                        btDispatcher* dispatcher,
                                                        btScalar time_step) {
-  const bool is_known = std::find(supported_.begin(), supported_.end(), &rigid) != supported_.end();
+  const bool is_known = std::find(supported_.begin(), supported_.end(), object) != supported_.end();
   if (is_known) return supports_;
-  supported_.push_back(&rigid);
+  supported_.push_back(object);
   const std::size_t first = supports_.size();
-  add_supports(rigid, dispatcher, time_step, kTouch, supports_);
-  const bool was_held = std::find(last_held_.begin(), last_held_.end(), &rigid) != last_held_.end();
+  add_supports(object, dispatcher, time_step, kTouch, supports_);
+  const bool was_held = std::find(last_held_.begin(), last_held_.end(), object) != last_held_.end();
   for (std::size_t k = first; k < supports_.size(); ++k) supports_[k].is_loaded = was_held;
   return supports_;
 }
@@ -100,8 +167,8 @@ bool CoupledBodies::are_supports_wrong(btScalar time_step) {
   const btScalar least = kLeastPush * time_step * time_step;
   bool are_wrong = false;
   for (std::size_t b = 0; b < bodies_.size() && !supports_.empty(); ++b) {
-    const GeneralizedDisplacement displacement = displacement_of(*bodies_[b]);
-    are_wrong = update_loads(*bodies_[b], displacement, least, supports_) || are_wrong;
+    const GeneralizedDisplacement displacement = displacement_of(bodies_[b]);
+    are_wrong = update_loads(bodies_[b], displacement, least, supports_) || are_wrong;
   }
   return are_wrong;
 }
@@ -116,29 +183,33 @@ void CoupledBodies::read_displacements(const fast::ImplicitSolver<btScalar>& sol
   last_step_ = time_step;
 }
 
-GeneralizedDisplacement CoupledBodies::displacement_of(const btRigidBody& rigid) const {
-  const auto found = std::find(last_.begin(), last_.end(), &rigid);
+GeneralizedDisplacement CoupledBodies::displacement_of(const MovableObject& object) const {
+  const auto found = std::find(last_.begin(), last_.end(), object);
   return found == last_.end()
              ? GeneralizedDisplacement(GeneralizedDisplacement::Zero())
              : last_displacements_[static_cast<std::size_t>(found - last_.begin())];
 }
 
-btScalar CoupledBodies::push_in(const btRigidBody& rigid, btScalar time_step) const {
+btScalar CoupledBodies::push_in(const MovableObject& object, btScalar time_step) const {
   const btScalar steps = last_step_ > 0 ? time_step / last_step_ : 0;
-  return steps * steps * displacement_of(rigid).template head<3>().norm();
+  return steps * steps * displacement_of(object).template head<3>().norm();
 }
 
 double CoupledBodies::kinetic_energy() const {
   double sum = 0;
-  for (const btRigidBody* const rigid : bodies_) sum += kinetic_energy_of(*rigid);
+  for (const MovableObject& object : bodies_) {
+    if (object.rigid() != nullptr) sum += kinetic_energy_of(*object.rigid());
+  }
+  for (const PushedMultiBody& one : multibodies_) sum += one.inertia.kinetic_energy();
   return sum;
 }
 
 double CoupledBodies::energy_to_come(btScalar time_step) const {
   double sum = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const btRigidBody& rigid = *bodies_[b];
-    const GeneralizedDisplacement displacement = displacement_of(rigid);
+    if (bodies_[b].rigid() == nullptr) continue;
+    const btRigidBody& rigid = *bodies_[b].rigid();
+    const GeneralizedDisplacement displacement = displacement_of(bodies_[b]);
     const btVector3 impulse = to_bullet(
         (inertias_[b].mass.cwiseProduct(displacement.template head<3>()) / time_step).eval());
     const btVector3 turning =
@@ -148,24 +219,33 @@ double CoupledBodies::energy_to_come(btScalar time_step) const {
         btDot(rigid.getLinearVelocity(), impulse) + rigid.getInvMass() * impulse.length2() / 2 +
         btDot(rigid.getAngularVelocity(), turning) + btDot(turned, turning) / 2);
   }
+  for (const PushedMultiBody& one : multibodies_) {
+    sum += one.inertia.energy_gain(impulse_on(one, time_step));
+  }
   return sum;
 }
 
 void CoupledBodies::exchange_impulses(btScalar time_step) {
   velocities_before_.clear();
-  for (const btRigidBody* const rigid : bodies_) {
-    velocities_before_.emplace_back(rigid->getLinearVelocity(), rigid->getAngularVelocity());
-  }
+  for (const MovableObject& object : bodies_) velocities_before_.push_back(object.velocity());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const GeneralizedDisplacement displacement = displacement_of(*bodies_[b]);
+    const GeneralizedDisplacement displacement = displacement_of(bodies_[b]);
     if (displacement.isZero(0)) continue;
-    auto& rigid = const_cast<btRigidBody&>(*bodies_[b]);
+    bodies_[b].activate();
+    if (bodies_[b].rigid() == nullptr) continue;
+    btRigidBody& rigid = *bodies_[b].rigid();
     const fast::RigidInertia<btScalar>& inertia = inertias_[b];
     const Vector3<btScalar> impulse = inertia.mass.cwiseProduct(displacement.template head<3>());
     const Vector3<btScalar> turning = inertia.inertia * displacement.template tail<3>();
-    rigid.activate();
     rigid.applyCentralImpulse(to_bullet((impulse / time_step).eval()));
     rigid.applyTorqueImpulse(to_bullet((turning / time_step).eval()));
+  }
+  for (const PushedMultiBody& one : multibodies_) {
+    const VectorX<btScalar> change =
+        one.inertia.response_to(impulse_on(one, time_step)).cast<btScalar>();
+    if (change.isZero(0)) continue;
+    bodies_[static_cast<std::size_t>(one.bodies[0])].link()->m_multiBody->applyDeltaVeeMultiDof(
+        change.data(), 1);
   }
 }
 
@@ -174,8 +254,7 @@ void CoupledBodies::move_at_once(btScalar time_step) {
     const bool touches = std::any_of(supports_.begin(), supports_.end(),
                                      [&](const Support& one) { return one.body == bodies_[b]; });
     if (touches) continue;
-    bridge::move_at_once(const_cast<btRigidBody&>(*bodies_[b]), velocities_before_[b].first,
-                         velocities_before_[b].second, time_step);
+    bridge::move_at_once(bodies_[b], velocities_before_[b], time_step);
   }
 }
 

@@ -18,9 +18,7 @@ constexpr btScalar kImmovable = 30;
 
 /// Speed of a point of an object, out of another.
 btScalar speed_out(const btCollisionObject& object, const btVector3& point, const btVector3& out) {
-  const btRigidBody* const rigid = btRigidBody::upcast(&object);
-  if (rigid == nullptr) return 0;
-  return btDot(out, rigid->getVelocityInLocalPoint(point - rigid->getCenterOfMassPosition()));
+  return btDot(out, velocity_of(object).at(point));
 }
 
 }  // namespace
@@ -29,33 +27,34 @@ btScalar Support::displacement_out(const GeneralizedDisplacement& displacement) 
   return out.dot(displacement.head<3>() + displacement.tail<3>().cross(lever_arm));
 }
 
-void add_supports(const btRigidBody& body, btDispatcher* dispatcher, btScalar time_step,
+void add_supports(const MovableObject& body, btDispatcher* dispatcher, btScalar time_step,
                   btScalar reach, std::vector<Support>& supports) {
   const int num_manifolds = dispatcher != nullptr ? dispatcher->getNumManifolds() : 0;
   for (int m = 0; m < num_manifolds; ++m) {
     const btPersistentManifold& manifold = *dispatcher->getManifoldByIndexInternal(m);
-    const bool is_first = manifold.getBody0() == &body;
-    if (!is_first && manifold.getBody1() != &body) continue;
+    const bool is_first = manifold.getBody0() == body.object();
+    if (!is_first && manifold.getBody1() != body.object()) continue;
     const btCollisionObject& other = is_first ? *manifold.getBody1() : *manifold.getBody0();
-    if (!other.isStaticOrKinematicObject() || !dispatcher->needsResponse(&body, &other)) continue;
+    if (!other.isStaticOrKinematicObject() || !dispatcher->needsResponse(body.object(), &other))
+      continue;
     for (int p = 0; p < manifold.getNumContacts(); ++p) {
       const btManifoldPoint& contact = manifold.getContactPoint(p);
-      const btVector3 point = body.getCenterOfMassTransform() *
-                              (is_first ? contact.m_localPointA : contact.m_localPointB);
+      const btVector3 point =
+          body.pose() * (is_first ? contact.m_localPointA : contact.m_localPointB);
       const btVector3 out = is_first ? contact.m_normalWorldOnB : -contact.m_normalWorldOnB;
-      const btScalar speed = speed_out(body, point, out) - speed_out(other, point, out);
+      const btScalar speed = speed_out(*body.object(), point, out) - speed_out(other, point, out);
       if (contact.getDistance() > reach || std::abs(time_step * speed) > reach) continue;
-      supports.push_back({&body, from_bullet<btScalar>(point - body.getCenterOfMassPosition()),
-                          from_bullet<btScalar>(out)});
+      supports.push_back(
+          {body, from_bullet<btScalar>(point - body.center()), from_bullet<btScalar>(out)});
     }
   }
 }
 
-bool update_loads(const btRigidBody& body, const GeneralizedDisplacement& displacement,
+bool update_loads(const MovableObject& body, const GeneralizedDisplacement& displacement,
                   btScalar least, std::vector<Support>& supports) {
   bool has_changed = false;
   for (Support& support : supports) {
-    if (support.body != &body) continue;
+    if (!(support.body == body)) continue;
     const btScalar out = support.displacement_out(displacement);
     // Once loaded it lets go of what pulls, not of what rocks.
     const bool is_loaded = out < (support.is_loaded ? least / kImmovable : -least);
@@ -65,27 +64,28 @@ bool update_loads(const btRigidBody& body, const GeneralizedDisplacement& displa
   return has_changed;
 }
 
-Eigen::Matrix<btScalar, 6, 6> inertia_of_supports(const btRigidBody& body,
+Eigen::Matrix<btScalar, 6, 6> inertia_of_supports(const MovableObject& body,
                                                   const std::vector<Support>& supports) {
   Eigen::Matrix<btScalar, 6, 6> inertia = Eigen::Matrix<btScalar, 6, 6>::Zero();
   for (const Support& support : supports) {
-    if (support.body != &body || !support.is_loaded) continue;
+    if (!(support.body == body) || !support.is_loaded) continue;
     GeneralizedDisplacement direction;
     direction << support.out, support.lever_arm.cross(support.out);
-    inertia += kImmovable / body.getInvMass() * direction * direction.transpose();
+    inertia += kImmovable / body.inverse_mass() * direction * direction.transpose();
   }
   return inertia;
 }
 
-void move_at_once(btRigidBody& body, const btVector3& last_velocity,
-                  const btVector3& last_angular_velocity, btScalar time_step) {
-  if (body.getActivationState() == DISABLE_SIMULATION || body.getNumConstraintRefs() > 0) return;
-  btTransform pose = body.getCenterOfMassTransform();
-  pose.setOrigin(pose.getOrigin() + time_step * (body.getLinearVelocity() - last_velocity));
-  const btVector3 turn = time_step * (body.getAngularVelocity() - last_angular_velocity);
+void move_at_once(const MovableObject& body, const RigidVelocity& last_velocity,
+                  btScalar time_step) {
+  if (!body.is_placeable()) return;
+  const RigidVelocity velocity = body.velocity();
+  btTransform pose = body.pose();
+  pose.setOrigin(pose.getOrigin() + time_step * (velocity.linear - last_velocity.linear));
+  const btVector3 turn = time_step * (velocity.angular - last_velocity.angular);
   const btScalar angle = turn.length();
   if (angle > 0) pose.setRotation(btQuaternion(turn / angle, angle) * pose.getRotation());
-  body.setCenterOfMassTransform(pose);
+  body.set_pose(pose);
 }
 
 }  // namespace WEFT_BULLET_PRECISION

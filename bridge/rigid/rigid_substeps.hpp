@@ -4,9 +4,8 @@
 
 #include <vector>
 
-#include <BulletDynamics/Dynamics/btRigidBody.h>
-
 #include <weft/bridge/bullet/precision.hpp>
+#include <weft/bridge/rigid/movable_object.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -16,18 +15,19 @@ inline namespace WEFT_BULLET_PRECISION {
 class RigidSubsteps {
  public:
   /// time_step: of the whole step [s]. The bodies go back at once.
-  RigidSubsteps(const std::vector<btRigidBody*>& bodies, btScalar time_step, int num_substeps);
+  RigidSubsteps(const std::vector<MovableObject>& bodies, btScalar time_step, int num_substeps);
   /// Moves each to where it is at the end of the substep without cloth.
   void begin_substep();
   void end_substep();
-  /// Bodies that joints or contacts hold stand where Bullet has put them; it turns their new velocities into motion.
+  /// Bodies that joints or contacts hold, and articulated links, stand where Bullet has put them; it turns their new velocities
+  /// into motion.
   void finish();
   /// The pose of a body at the beginning of the substep.
-  [[nodiscard]] const btTransform& start_of(const btRigidBody& body) const;
+  [[nodiscard]] const btTransform& start_of(const MovableObject& body) const;
 
  private:
   struct Entry {
-    btRigidBody* body;
+    MovableObject body;
     btTransform moved;     ///< by Bullet, over the whole step
     btTransform start;     ///< of the substep
     btTransform alone;     ///< at the end of the substep, without cloth

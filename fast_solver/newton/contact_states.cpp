@@ -127,11 +127,12 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const Scalar inertia = Scalar(inertia_[i]);
   const bool was_held = !is_first && contact_states_before_[at(i)] != ContactState::kFree;
   const Scalar pressure =
-      -normal.dot(at_node(residual_forces_, i)) + inertia * std::max(Scalar(0), -gap);
+      -normal.dot(at_node(residual_forces_, i)) + inertia * std::max(Scalar(0), -gap) +
+      contact.squeeze;
   Scalar least_gap = gap;
   if (is_first) least_gap += std::min(Scalar(0), first_push(i, normal));
   const bool is_near = least_gap < 0;
-  if (!(was_held ? pressure > 0 : is_near)) return;
+  if (!(contact.squeeze > 0 || (was_held ? pressure > 0 : is_near))) return;
   const Vector3<Scalar> slip =
       at_node(positions_, i) - at_node(start_positions_, i) - contact.motion - with_body;
   Vector3<Scalar> tendency = at_node(residual_forces_, i) + inertia * slip;

@@ -65,7 +65,7 @@ template <class Scalar>
 double ImplicitSolver<Scalar>::energy_of_contacts(const StepProblem<Scalar>& problem,
                                                   const Nodes& positions,
                                                   Vector6 Body::*motion) const {
-  double sum = 0;
+  double sum = couplings_.energy(bodies_, motion);
   for (const Body& body : bodies_) {
     const Vector6& displacement = body.*motion;
     sum += 0.5 * static_cast<double>(
@@ -184,7 +184,12 @@ std::optional<Vector3<Scalar>> ImplicitSolver<Scalar>::net_momentum_correction(
     inertia += of_body;
     left -= of_body.cwiseProduct(body.motion.template head<3>().template cast<double>());
   }
-  const Vector3<Scalar> shift = left.cwiseQuotient(inertia).template cast<Scalar>();
+  const bool has_links =
+      std::any_of(bodies_.begin(), bodies_.end(), [](const Body& body) { return body.is_link; });
+  const Vector3<Scalar> shift =
+      (has_links ? couplings_.shift(bodies_, sum.template head<3>(), sum[3])
+                 : left.cwiseQuotient(inertia).eval())
+          .template cast<Scalar>();
   // A step that was taken back has left over what planes would have held.
   for (const PlaneContact<Scalar>& contact : problem.contacts) {
     if (contact.body >= 0 && bodies_[at(contact.body)].is_linked) continue;

@@ -12,6 +12,11 @@ namespace {
 
 /// The coarse matrix is factorized again after so many iterations.
 constexpr int kIterationsPerFactor = 4;
+/// A step that so many iterations have not solved has stiff springs that turn. There conjugate gradients have long plateaus,
+/// and what they leave on each of them is what the next iterations of Newton's method would gain slowly.
+constexpr int kRoughIterations = 4;
+constexpr LinearAccuracy kRough = {.forcing = 0.1};
+constexpr LinearAccuracy kAccurate = {.forcing = 0.03, .delay = 0.5};
 /// How often contact states are decided in a step: in its first iterations, which find most of them, and at solutions.
 constexpr int kFirstDecisions = 2;
 constexpr int kMostDecisions = 8;
@@ -55,7 +60,7 @@ void ImplicitSolver<Scalar>::iterate_once(const StepProblem<Scalar>& problem,
     forces_.factorize(coarse_correction_, contact_states_, static_cast<float>(1 / squared_step),
                       *team_);
   }
-  last_gain_ = solve_linear(problem, iteration.iterations, iteration.least_gain);
+  last_gain_ = solve_linear(problem, iteration);
   const double of_bodies = work_of_bodies();
   move();
   const std::size_t num_constrained = constrained_.size();
@@ -87,12 +92,14 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
        ++iteration) {
     report_.newton_iterations = iteration + 1;
     save_positions();
+    LinearAccuracy accuracy = iteration < kRoughIterations ? kRough : kAccurate;
+    accuracy.least_gain = kLastShare * asked;
     iterate_once(problem, {.iterations = solver_settings.linear_iterations,
+                           .accuracy = accuracy,
                            .is_first = iteration == 0,
                            .decides = decides,
                            .continues = problem.continues,
-                           .factorizes = iteration % kIterationsPerFactor == 0,
-                           .least_gain = kLastShare * asked});
+                           .factorizes = iteration % kIterationsPerFactor == 0});
     if (decides) ++num_decisions;
     if (iteration == 0) rounding = kRoundings * gain_of_rounding();
     const bool are_contact_states_new = decides && (iteration == 0 || have_contact_states_changed_);

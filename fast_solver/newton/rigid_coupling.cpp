@@ -28,8 +28,12 @@ void ImplicitSolver<Scalar>::load_bodies(const StepProblem<Scalar>& problem) {
     body.inertia.template bottomRightCorner<3, 3>() =
         (per_square * given.inertia).template cast<float>();
     body.inertia += (per_square * given.held).template cast<float>();
-    body.is_held = !given.held.isZero(0);
+    if (body.is_link = !given.of_link.isZero(0); body.is_link) {
+      body.inertia += (per_square * given.of_link).template cast<float>();
+    }
+    body.is_held = !given.held.isZero(0) || given.has_base;
   }
+  couplings_.load(problem.couplings, per_square);
   links_.clear();
 }
 
@@ -83,11 +87,12 @@ void ImplicitSolver<Scalar>::gather_of(int body, const Floats& forces, Floats6& 
   }
 }
 
-// A body without linked nodes in this iteration moves as without the cloth.
+// A body without linked nodes in this iteration moves as without the cloth, unless it is coupled to one that has some.
 template <class Scalar>
 void ImplicitSolver<Scalar>::release_bodies() {
   for (Body& body : bodies_) body.is_linked = false;
   for (const BodyLink& link : links_) bodies_[at(link.body)].is_linked = true;
+  couplings_.spread_links(bodies_);
   for (Body& body : bodies_) {
     if (!body.is_linked) body.motion.setZero();
   }
@@ -131,7 +136,9 @@ void ImplicitSolver<Scalar>::factorize_bodies() {
 // The generalized residual of each body: forces of linked nodes, friction and its own inertia.
 template <class Scalar>
 void ImplicitSolver<Scalar>::find_body_residuals(Floats6 Body::*result) {
-  for (Body& body : bodies_) body.*result = -(body.inertia * body.motion.template cast<float>());
+  for (Body& body : bodies_) body.*result = body.inertia * body.motion.template cast<float>();
+  couplings_.add_forces(bodies_, &Body::motion, result);
+  for (Body& body : bodies_) body.*result = -(body.*result);
   for (const BodyLink& link : links_) {
     const Vector3<Scalar> normal = link.normal.template cast<Scalar>();
     Vector3<Scalar> force = at_node(residual_forces_, link.node);

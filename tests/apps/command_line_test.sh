@@ -222,6 +222,10 @@ evil=$(printf 'evil\033[2J.toml')
 "$weft" check "$evil.missing" >>out 2>>err
 "$weft" run "$evil" --duration "0.1 s" -o "$(printf 'evil\033c.weftrec')" >>out 2>>err
 "$weft" "$(printf '\033[5m')" >>out 2>>err
+"$weft" check-mesh "$(printf 'evil\033[2J.obj')" >>out 2>>err
+"$weft" render "$(printf 'evil\033[2J.weftrec')" -o evil.png >>out 2>>err
+"$weft" run hang --duration "0.1 s" -o "$(printf 'no\033[2J/evil.weftrec')" >>out 2>>err
+check "seven commands that fail" test "$(grep -c "^weft: " err)" -eq 7
 check "no escape character" test "$(cat out err | tr -cd '\033\007' | wc -c)" -eq 0
 check "it is shown" grep -qF 'evil\x1b[2J.toml' out err
 

@@ -1,3 +1,8 @@
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 #include <span>
 #include <string>
 
@@ -168,6 +173,35 @@ TEST(GltfReader, BoundsTheNumbersOfPartsThatShareTheirBytes) {
   } catch (const InvalidArgument& error) {
     EXPECT_NE(std::string(error.what()).find("numbers"), std::string::npos) << error.what();
   }
+}
+
+std::string message_of_file(const std::filesystem::path& path) {
+  try {
+    (void)characters::read_gltf_file(path);
+  } catch (const InvalidArgument& error) {
+    return error.what();
+  }
+  return "read without an error";
+}
+
+TEST(GltfReader, RefusesALargeFileBeforeItIsRead) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("weft_large_" + std::to_string(getpid()) + ".glb");
+  std::ofstream(path) << "glTF";
+  std::filesystem::resize_file(path, 20'000'000'000);  // no block on the disk
+  const std::string message = message_of_file(path);
+  EXPECT_NE(message.find("has 20000000000 bytes, expected at most"), std::string::npos) << message;
+  std::filesystem::remove(path);
+}
+
+// Without a writer, opening a pipe waits for ever.
+TEST(GltfReader, RefusesAPipeAtOnce) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("weft_pipe_" + std::to_string(getpid()) + ".glb");
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  const std::string message = message_of_file(path);
+  EXPECT_NE(message.find("expected a regular file"), std::string::npos) << message;
+  std::filesystem::remove(path);
 }
 
 TEST(GltfReader, NamesAFileThatIsNotThere) {

@@ -142,6 +142,26 @@ TEST(Adoption, TakesWhatBulletsConstructorsMake) {
   }
 }
 
+// Explicit forces of a stiff volume beside springs without Bullet's damping would throw a ball of 3 m 450 m away.
+TEST(Adoption, AVolumeThatIsTooStiffForExplicitForcesStaysBullets) {
+  const auto refusal_of = [](btScalar volume_factor) {
+    SoftBodySolver solver;
+    PlainWorld world(&solver);
+    btSoftBody& ball = *world.add(btSoftBodyHelpers::CreateEllipsoid(
+        world.world.getWorldInfo(), vector(0, 6, 0), vector(3, 3, 3), 512));
+    ball.setTotalMass(30, true);
+    ball.m_cfg.kVC = volume_factor;
+    ball.setPose(true, false);
+    return adopt(solver, ball).refusal;
+  };
+  EXPECT_FALSE(refusal_of(1));
+  const std::optional<std::string> refusal = refusal_of(20);
+  ASSERT_TRUE(refusal);
+  EXPECT_THAT(*refusal,
+              HasSubstr("its forces kVC = 20 and kPR = 0 are too stiff for explicit steps "
+                        "of 0.01667 s: "));
+}
+
 // The last link carries one node, the first one four: each stretches by its load over k.
 TEST(Adoption, ARopeStretchesByItsWeight) {
   constexpr double kStiffness = 500;  // [N/m]

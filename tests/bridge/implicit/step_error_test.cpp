@@ -24,8 +24,9 @@ class Pair {
  public:
   Pair(const ClothMesh& mesh, double stiffness, const fast::SolverSettings& solver_settings,
        double box_height = -0.35)
-      : exact_(mesh, laws(stiffness), 0.5,
-               settings_of({.newton_iterations = 400, .linear_iterations = 32, .tolerance = 1e-6})),
+      : exact_(
+            mesh, laws(stiffness), 0.5,
+            settings_of({.newton_iterations = 400, .linear_iterations = 400, .tolerance = 1e-6})),
         asked_(mesh, laws(stiffness), 0.5, settings_of(solver_settings)),
         masses_(mesh.masses) {
     for (Scene* scene : {&exact_, &asked_}) {
@@ -64,17 +65,17 @@ ClothMesh hanging_cloth() {
 constexpr double kRounding = sizeof(btScalar) == 4 ? 2e-6 : 1e-9;
 constexpr int kNumSteps = 60;
 
-// The bound takes for granted that springs resist. Those of a sheet that crumples are compressed, and some of its steps are
-// farther off. A box that stands a millimetre higher makes the crumpling another one: of 90 steps, 73 to 88 are then
-// bounded, 0.89 to 0.91 of all. So several starts count together.
-constexpr double kBoundedShare = 0.85;
+// The bound takes for granted that springs resist. Those of a sheet that crumples are compressed, and steps of which the budget
+// ended first are farther off, for more iterations may find another fold. A box that stands a millimeter higher makes the
+// crumpling another one, so that several starts count together: 0.82 to 0.94 of their steps are bounded.
+constexpr double kBoundedShare = 0.8;
 constexpr double kBoxHeights[] = {-0.35, -0.349, -0.348};  ///< [m]
 constexpr double kMostTooLarge =
     50;  ///< times: an estimate that is farther off than that says nothing
 constexpr double kRoundedStiffness =
     1e5;  ///< [N/m] from which on single precision leaves errors of its own
 constexpr double kRightShare =
-    0.92;  ///< of the steps that are said to be within tolerance; 0.94 to 0.97 over starts and builds
+    0.95;  ///< of the steps that are said to be within tolerance; 0.96 to 1.00 over stiffness and precision
 
 TEST(StepError, IsNoLessThanTheTrueOne) {
   for (const double stiffness : {1e2, 1e4, 1e6}) {

@@ -13,8 +13,8 @@ namespace weft::validation {
 [[nodiscard]] std::span<const MotionDeparture> motion_departures();
 
 inline constexpr const char* kMotionReason =
-    "an unconverged step is drawn back towards its start or has its velocity taken, and contact "
-    "with what moves is not solved with "
-    "the cloth (docs/fast_solver.md)";
+    "waves that an impact sends into the cloth are shorter than a substep, and the energy of a "
+    "step in which a body is thrown "
+    "back is that of its middle (docs/implicit_step.md)";
 
 }  // namespace weft::validation

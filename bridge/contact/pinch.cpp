@@ -1,0 +1,113 @@
+#include <weft/bridge/contact/pinch.hpp>
+
+#include <algorithm>
+
+#include <BulletCollision/BroadphaseCollision/btDispatcher.h>
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+namespace {
+
+/// Cosine of the angle between the normals of two surfaces that pinch, at most: 37 degrees from opposite.
+constexpr btScalar kOpposite = btScalar(-0.8);
+/// [N] Of surfaces that the program leads: more than any cloth pulls with.
+constexpr btScalar kUnyielding = btScalar(1e6);
+
+bool is_led(const btCollisionObject& object) {
+  return object.isKinematicObject() || (link_of(&object) != nullptr && !MovableObject(&object));
+}
+
+bool may_pinch(const btCollisionObject& one, const btCollisionObject& other) {
+  const bool has_link = link_of(&one) != nullptr || link_of(&other) != nullptr;
+  return &one != &other && (has_link || (is_led(one) && is_led(other)));
+}
+
+/// The part of the force that all nodes share alike: what has borne nothing so far must be able to begin [-].
+constexpr btScalar kEvenShare = btScalar(0.1);
+
+/// [m] For a node between two planes, its margins taken off.
+btScalar room_between(const RigidContact& one, const RigidContact& other, const btSoftBody& body) {
+  const btVector3& position = body.m_nodes[one.node].m_x;
+  return btDot(one.normal + other.normal, position) - one.offset - other.offset;
+}
+
+/// [N] With which Bullet presses two objects on each other.
+btScalar force_between(const btCollisionObject* one, const btCollisionObject* other,
+                       btDispatcher* dispatcher, btScalar time_step) {
+  btScalar impulse = 0;
+  const int num_manifolds = dispatcher != nullptr ? dispatcher->getNumManifolds() : 0;
+  for (int m = 0; m < num_manifolds; ++m) {
+    const btPersistentManifold& manifold = *dispatcher->getManifoldByIndexInternal(m);
+    const bool is_theirs = (manifold.getBody0() == one && manifold.getBody1() == other) ||
+                           (manifold.getBody0() == other && manifold.getBody1() == one);
+    for (int p = 0; is_theirs && p < manifold.getNumContacts(); ++p) {
+      impulse += manifold.getContactPoint(p).getAppliedImpulse();
+    }
+  }
+  return impulse / time_step;
+}
+
+}  // namespace
+
+Pinches::Pair& Pinches::pair_of(const btCollisionObject* one, const btCollisionObject* other) {
+  const auto found = std::find_if(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
+    return (pair.first == one && pair.second == other) ||
+           (pair.first == other && pair.second == one);
+  });
+  return found != pairs_.end() ? *found : pairs_.emplace_back(Pair{.first = one, .second = other});
+}
+
+void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& body,
+                   btScalar time_step) {
+  held_.assign(contacts.size(), {});
+  nodes_.clear();
+  pairs_.clear();
+  const bool is_any = std::any_of(contacts.begin(), contacts.end(), [](const RigidContact& one) {
+    return link_of(one.object) != nullptr || is_led(*one.object);
+  });
+  if (!is_any) return;
+  first_of_.assign(static_cast<std::size_t>(body.m_nodes.size()), -1);
+  std::vector<std::pair<std::size_t, std::size_t>> found;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    int& first = first_of_[static_cast<std::size_t>(contacts[c].node)];
+    if (first < 0) {
+      first = static_cast<int>(c);
+      continue;
+    }
+    const auto other = static_cast<std::size_t>(first);
+    const RigidContact& a = contacts[other];
+    const RigidContact& b = contacts[c];
+    if (!may_pinch(*a.object, *b.object) || btDot(a.normal, b.normal) > kOpposite) continue;
+    if (room_between(a, b, body) > 0) continue;
+    // Both surfaces bear their share of what nodes pull with: every other node.
+    const bool by_first = a.node % 2 == 0;
+    found.emplace_back(by_first ? other : c, by_first ? c : other);
+    Pair& pair = pair_of(a.object, b.object);
+    ++pair.num_nodes;
+    pair.load += load_of(a.node);
+  }
+  for (Pair& pair : pairs_) {
+    const bool yields = MovableObject(pair.first) || MovableObject(pair.second);
+    pair.force =
+        yields ? force_between(pair.first, pair.second, body.m_worldInfo->m_dispatcher, time_step)
+               : kUnyielding;
+  }
+  for (const auto& [holding, replaced] : found) {
+    const RigidContact& contact = contacts[holding];
+    const RigidContact& other = contacts[replaced];
+    const Pair& pair = pair_of(contact.object, other.object);
+    if (!(pair.force > 0)) continue;
+    if (nodes_.empty()) nodes_.assign(static_cast<std::size_t>(body.m_nodes.size()), 0);
+    nodes_[static_cast<std::size_t>(contact.node)] = 1;
+    const btScalar even = 1 / static_cast<btScalar>(pair.num_nodes);
+    const btScalar share = pair.load > 0 ? load_of(contact.node) / pair.load : even;
+    held_[holding].squeeze = pair.force * (kEvenShare * even + (1 - kEvenShare) * share);
+    held_[holding].depth = -room_between(contact, other, body) / 2;
+    held_[holding].other_friction = other.object->getFriction();
+    held_[replaced].is_replaced = true;
+  }
+}
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

@@ -1,0 +1,90 @@
+#pragma once
+
+// Tested by tests/bridge/rigid/gripper_test.cpp.
+
+#include <span>
+#include <vector>
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <weft/bridge/bullet/precision.hpp>
+#include <weft/bridge/contact/rigid_contacts.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+/// Nodes between two surfaces that leave no room for cloth and its margins: two fingers of a gripper, or a finger and a table.
+/// The surfaces press on each other through the cloth, which Bullet solves as their contact; that force is what friction on
+/// both sides of the cloth may count on. A node is held halfway between the surfaces, by one of them. Nodes share that force
+/// in proportion to what friction has borne at each in the last step: soft cloth between pads slides as a whole or not at all.
+///
+/// Only where a link of a multibody takes part, or two kinematic bodies do. What kinematic ones press with is not defined:
+/// they hold whatever they pinch.
+class Pinches {
+ public:
+  /// time_step: of Bullet's step [s].
+  void find(std::span<const RigidContact> contacts, const btSoftBody& body, btScalar time_step);
+  /// The squeeze of a contact that holds a pinched node [N], zero of others.
+  [[nodiscard]] btScalar squeeze_of(std::size_t contact) const { return held_[contact].squeeze; }
+  /// How far behind the plane of a contact its node is held [m].
+  [[nodiscard]] btScalar depth_of(std::size_t contact) const { return held_[contact].depth; }
+  /// The friction on the other side [-], over that of the object of the contact.
+  [[nodiscard]] btScalar other_friction(std::size_t contact) const {
+    return held_[contact].other_friction;
+  }
+  /// Whether another contact holds the node of this one.
+  [[nodiscard]] bool is_replaced(std::size_t contact) const { return held_[contact].is_replaced; }
+  /// Gives links the reaction of the nodes that they hold: minus impulse_on(node) [N s] at position_of(node). Within the step a
+  /// pinched node follows its surface as one that nothing moves.
+  template <class Impulse, class Position>
+  void push_back(std::span<const RigidContact> contacts, const Impulse& impulse_on,
+                 const Position& position_of) {
+    loads_.assign(nodes_.size(), 0);
+    if (nodes_.empty()) return;
+    WrenchSum sum;
+    for (std::size_t c = 0; c < contacts.size() && c < held_.size(); ++c) {
+      if (!(held_[c].squeeze > 0)) continue;
+      const btVector3 impulse = impulse_on(contacts[c].node);
+      const btVector3& normal = contacts[c].normal;
+      loads_[static_cast<std::size_t>(contacts[c].node)] =
+          (impulse - btDot(impulse, normal) * normal).length();
+      sum.add(contacts[c].object, -impulse, position_of(contacts[c].node));
+    }
+    sum.apply();
+  }
+  [[nodiscard]] bool has(int node) const {
+    return !nodes_.empty() && nodes_[static_cast<std::size_t>(node)] != 0;
+  }
+
+ private:
+  struct Held {
+    btScalar squeeze = 0;
+    btScalar depth = 0;
+    btScalar other_friction = 0;
+    bool is_replaced = false;
+  };
+  /// Two objects that pinch nodes.
+  struct Pair {
+    const btCollisionObject* first = nullptr;
+    const btCollisionObject* second = nullptr;
+    int num_nodes = 0;
+    btScalar force = 0;  ///< [N]
+    btScalar load = 0;   ///< that friction has borne in the last step, over all nodes [N s]
+  };
+  [[nodiscard]] Pair& pair_of(const btCollisionObject* one, const btCollisionObject* other);
+
+  /// What friction has borne at a node in the last step [N s].
+  [[nodiscard]] btScalar load_of(int node) const {
+    const auto i = static_cast<std::size_t>(node);
+    return i < loads_.size() ? loads_[i] : btScalar(0);
+  }
+
+  std::vector<btScalar> loads_;  ///< of each node, or empty
+  std::vector<Held> held_;       ///< of each contact
+  std::vector<char> nodes_;      ///< flags; empty: none
+  std::vector<int> first_of_;    ///< the first contact of each node, or -1
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

@@ -1,0 +1,45 @@
+#include <weft/bridge/implicit/substep_count.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+namespace {
+
+/// How far a shape may approach a node in one substep, as a share of its smallest half extent [-].
+constexpr btScalar kApproachShare = btScalar(0.2);
+/// Likewise: how far springs may push it back in one substep.
+constexpr btScalar kPushShare = btScalar(0.05);
+/// An impact changes the velocity of a body by more than so many times what gravity does in a step [-], and moves it by more
+/// than this share of its size.
+constexpr btScalar kLively = btScalar(2.5);
+constexpr btScalar kImpactShare = btScalar(0.01);
+/// The mean of cos^4 over the directions of a plane [-].
+constexpr double kMeanStiffness = 3.0 / 8;
+
+}  // namespace
+
+btScalar wave_speed(const fast::SpringNetwork& network, const VectorX<double>& masses) {
+  const double springs = (network.stiffness.array() * network.rest_lengths.array().square()).sum();
+  const double mass = masses.sum();
+  return mass > 0 ? static_cast<btScalar>(std::sqrt(kMeanStiffness * springs / mass)) : btScalar(0);
+}
+
+void SubstepCount::include(const RigidEncounter& encounter) {
+  is_any_ = true;
+  const auto& [size, approach, closing, pushed, fall, mass_share] = encounter;
+  most_ = std::max(
+      {most_, approach / (kApproachShare * size), (pushed - 2 * fall) / (kPushShare * size)});
+  const btScalar impact = std::max(closing * mass_share, pushed);
+  if (impact > kLively * fall + kImpactShare * size) most_ = std::max(most_, wave_distance_ / size);
+}
+
+int SubstepCount::count(int last) const {
+  // Not much fewer than before: what short steps have begun goes on.
+  const btScalar most = is_any_ ? std::max(most_, static_cast<btScalar>(last) / 2) : most_;
+  return static_cast<int>(std::ceil(std::min(most, static_cast<btScalar>(kMost))));
+}
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

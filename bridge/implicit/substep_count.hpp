@@ -1,0 +1,48 @@
+#pragma once
+
+// Tested by tests/bridge/implicit/substep_count_test.cpp, tests/bridge/implicit/fast_body_impact_test.cpp.
+
+#include <weft/bridge/bullet/precision.hpp>
+#include <weft/core/types.hpp>
+#include <weft/fast_solver/network/spring_network.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+/// The speed of longitudinal waves in a sheet of these springs, sqrt(C / area density) [m/s]. Springs in all directions of a
+/// plane alike resist strain along one of them with C = 3/8 of the sum of k l^2 over the area, since the mean of cos^4 is 3/8.
+/// 0 without mass or springs. masses: of the nodes [kg].
+[[nodiscard]] btScalar wave_speed(const fast::SpringNetwork& network,
+                                  const VectorX<double>& masses);
+
+/// A dynamic body and a node that it meets in a step.
+struct RigidEncounter {
+  btScalar size;        ///< smallest half extent of the body [m]
+  btScalar approach;    ///< how far its surface has come behind the node in the step [m]
+  btScalar closing;     ///< how far it would come towards the node by the velocities of both [m]
+  btScalar pushed;      ///< how far the cloth has moved it in the last step [m]
+  btScalar fall;        ///< how far gravity moves it in a step, g h^2 [m]
+  btScalar mass_share;  ///< of the cloth in the mass of both [-]
+};
+
+/// Into how many substeps a step is divided. The surface of a body that comes far would turn away from the nodes that it
+/// meets. And in an impact that changes the body's velocity, waves carry energy away from where the body pushes: a step in
+/// which they leave that place and come back gives too much of it back to the body.
+class SubstepCount {
+ public:
+  /// wave_distance: how far stretching waves come in the step [m].
+  explicit SubstepCount(btScalar wave_distance) : wave_distance_(wave_distance) {}
+  void include(const RigidEncounter& encounter);
+  /// last: of the step before.
+  [[nodiscard]] int count(int last) const;
+
+  static constexpr int kMost = 56;
+
+ private:
+  btScalar wave_distance_;
+  btScalar most_ = 1;
+  bool is_any_ = false;
+};
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

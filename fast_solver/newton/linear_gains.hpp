@@ -1,0 +1,60 @@
+#pragma once
+
+// Tested by tests/fast_solver/newton/linear_gains_test.cpp.
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+namespace weft::fast {
+
+/// The energies that a linear solve gains, each twice the decrease of the quadratic model [J]: that of all iterations, and that
+/// of the last few. The latter estimates what is left to gain (Strakos and Tichy 2002).
+struct LinearGain {
+  double total = 0;
+  double left = 0;
+  bool is_broken = false;  ///< by rounding, before anything was found out
+};
+
+/// How accurately a linear system is solved: conjugate gradients end when their last iterations gained at most the share
+/// `forcing` of the gain of all. The last iterations are a few, or the share `delay` of all of them.
+struct LinearAccuracy {
+  double forcing = 0.1;   ///< [-]
+  double delay = 0;       ///< [-]
+  double least_gain = 0;  ///< less to gain than this [J] ends the solve too
+};
+
+/// What each iteration of conjugate gradients gained, and whether that is enough.
+class LinearGains {
+ public:
+  void clear() { gains_.clear(), total_ = 0; }
+  void add(double gain) { gains_.push_back(gain), total_ += gain; }
+
+  [[nodiscard]] LinearGain sum(const LinearAccuracy& accuracy) const {
+    const std::size_t share =
+        static_cast<std::size_t>(accuracy.delay * static_cast<double>(gains_.size()));
+    const std::size_t count = std::min(gains_.size(), std::max(kFewest, share));
+    return {.total = total_,
+            .left = std::accumulate(gains_.end() - static_cast<std::ptrdiff_t>(count), gains_.end(),
+                                    0.0)};
+  }
+  [[nodiscard]] bool are_enough(const LinearAccuracy& accuracy) const {
+    const double left = sum(accuracy).left;
+    return gains_.back() <= kLastGain * total_ ||
+           (gains_.size() > 1 && left <= accuracy.least_gain) ||
+           (gains_.size() > kFewest && left <= accuracy.forcing * total_);
+  }
+
+ private:
+  /// The last iterations are at least so many.
+  static constexpr std::size_t kFewest = 4;
+  /// An iteration that gains no more than this fraction of the gain so far is the last one, because with short steps inertia
+  /// outweighs springs.
+  static constexpr double kLastGain = 1e-4;
+
+  std::vector<double> gains_;
+  double total_ = 0;
+};
+
+}  // namespace weft::fast
