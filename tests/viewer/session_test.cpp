@@ -232,6 +232,11 @@ TEST(RecordedSessions, GhostsAndTheSolidOneHaveKeys) {
   Session session =
       session_of({write_recording("ga", 1.0, 5).string(), write_recording("gb", 2.0, 5).string()});
   EXPECT_TRUE(session.source().ghosts());
+  const auto names = session.source().recordings();
+  ASSERT_EQ(names.size(), 2u);
+  EXPECT_EQ(names[0].name, "weft_viewer_ga.weftrec");
+  EXPECT_FALSE(names[0].color);
+  EXPECT_TRUE(names[1].color);
   const int version = session.source().version();
   (void)session.press("G");
   EXPECT_FALSE(session.source().ghosts());

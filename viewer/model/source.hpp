@@ -21,6 +21,12 @@ struct PlotPoint {
   double step_time = 0.0;  ///< [s] wall time
 };
 
+/// A recording that is shown, for the list of them.
+struct ShownRecording {
+  std::string name;
+  std::optional<scenes::Rgb> color = {};  ///< of a ghost; none: it is the solid one
+};
+
 /// What the window shows: a live run, or recordings. Times are [s] of the scene.
 class Source {
  public:
@@ -32,6 +38,9 @@ class Source {
   /// The state to draw; none while it is loaded.
   [[nodiscard]] virtual SnapshotPtr shown() = 0;
   [[nodiscard]] virtual std::optional<scenes::Ghosts> ghosts() const { return std::nullopt; }
+
+  /// The recordings that are drawn, the solid one first; empty for a live run.
+  [[nodiscard]] virtual std::vector<ShownRecording> recordings() const { return {}; }
 
   /// Wall time [s] has gone by.
   virtual void update(double seconds) = 0;

@@ -61,6 +61,10 @@ Comparison::Comparison(std::vector<std::filesystem::path> paths) : paths_(std::m
   rebuild();
 }
 
+scenes::Rgb Comparison::ghost_color(std::size_t recording) {
+  return kGhostColors[recording % kGhostColors.size()];
+}
+
 void Comparison::next() {
   solid_ = (solid_ + 1) % readers_.size();
   rebuild();
@@ -75,7 +79,7 @@ void Comparison::rebuild() {
   drawn_scene_ = reader().scene();
   for (std::size_t r = 0; has_ghosts() && r < readers_.size(); ++r) {
     if (r == solid_) continue;
-    const scenes::Rgb& color = kGhostColors[r % kGhostColors.size()];
+    const scenes::Rgb color = ghost_color(r);
     const scenes::Scene& scene = readers_[r]->scene();
     for (scenes::Cloth cloth : scene.cloths) {
       make_ghost(cloth.appearance, color);

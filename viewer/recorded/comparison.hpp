@@ -23,6 +23,11 @@ class Comparison {
   /// The recording that is solid, counted as the paths.
   [[nodiscard]] std::size_t solid() const { return solid_; }
   [[nodiscard]] const std::filesystem::path& path() const { return paths_[solid_]; }
+  [[nodiscard]] const std::filesystem::path& path(std::size_t recording) const {
+    return paths_.at(recording);
+  }
+  /// Of a recording as a ghost.
+  [[nodiscard]] static scenes::Rgb ghost_color(std::size_t recording);
   /// Makes the next recording the solid one.
   void next();
   /// With ghosts or without; there are none of a single recording.

@@ -29,6 +29,15 @@ std::optional<scenes::Ghosts> RecordedSource::ghosts() const {
   return comparison_.ghosts();
 }
 
+std::vector<ShownRecording> RecordedSource::recordings() const {
+  std::vector<ShownRecording> list = {{comparison_.path().filename().string()}};
+  for (std::size_t r = 0; comparison_.has_ghosts() && r < comparison_.size(); ++r) {
+    if (r == comparison_.solid()) continue;
+    list.push_back({comparison_.path(r).filename().string(), Comparison::ghost_color(r)});
+  }
+  return list;
+}
+
 double RecordedSource::frame_time(int frame) const {
   return comparison_.frame_time(frame);
 }

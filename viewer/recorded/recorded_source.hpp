@@ -16,6 +16,7 @@ class RecordedSource final : public Source {
   [[nodiscard]] int version() const override { return version_; }
   [[nodiscard]] SnapshotPtr shown() override { return comparison_.frame(frame_); }
   [[nodiscard]] std::optional<scenes::Ghosts> ghosts() const override;
+  [[nodiscard]] std::vector<ShownRecording> recordings() const override;
   void update(double seconds) override;
   bool perform(Action action) override;
   [[nodiscard]] std::string take_message() override;

@@ -59,6 +59,23 @@ void axis_rows(Session& session, const char* title, const char* unit, const Vect
   }
 }
 
+/// Which recording has which color.
+void recording_names(const std::vector<ShownRecording>& recordings) {
+  for (const ShownRecording& recording : recordings) {
+    if (recording.color) {
+      // Lighter than in the picture, so that it can be read on the dark panel.
+      const auto channel = [&](std::size_t i) {
+        return 0.35f + 0.65f * static_cast<float>((*recording.color)[i]) / 255.0f;
+      };
+      const ImVec4 color(channel(0), channel(1), channel(2), 1.0f);
+      ImGui::TextColored(color, "ghost: %s", recording.name.c_str());
+    } else {
+      ImGui::Text("solid: %s", recording.name.c_str());
+    }
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", recording.name.c_str());
+  }
+}
+
 void live_controls(Session& session, LiveSource& live, float width) {
   ImGui::TextDisabled("Engine");
   ImGui::SetNextItemWidth(width);
@@ -123,6 +140,7 @@ void draw_control_panel(const PanelFrame& frame) {
     toggle(session, Action::kGhosts, "ghosts", session.source().ghosts().has_value());
     ImGui::SameLine(0.5f * width);
     action_button(session, Action::kNextGhost, "Next solid");
+    recording_names(session.source().recordings());
   }
   ImGui::Separator();
   const float third = (width - 2.0f * gap) / 3.0f;

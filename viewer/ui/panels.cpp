@@ -33,7 +33,9 @@ void begin_panel(const PanelFrame& frame, const char* name, float x, float y, fl
 void draw_message(const PanelFrame& frame) {
   const SnapshotPtr shown = frame.session.source().shown();
   std::string text = frame.session.message();
-  if (text.empty() && shown && shown->blow_up) text = "blew up: " + shown->blow_up->reason;
+  if (text.empty() && shown && shown->blow_up)
+    text =
+        "blew up: " + shown->blow_up->reason + "; R starts again, Shift+R with the laws as written";
   if (text.empty() && !shown) text = "loading " + frame.session.title();
   if (text.empty()) return;
   const float wrap = 0.42f * frame.width;

@@ -146,6 +146,41 @@ TEST_F(RendererTest, ValuesThatAreNotFiniteAreGrey) {
   EXPECT_LT(std::abs(seen[0] - seen[1]) + std::abs(seen[1] - seen[2]), 2 * kOtherThing);
 }
 
+TEST_F(RendererTest, AnotherCameraIsAsIfTheSceneHadIt) {
+  Renderer renderer(scene);
+  const Image home = renderer.render(state, options);
+  Scene moved = scene;
+  moved.camera.position.x() += 1.0;
+  options.camera = moved.camera;
+  const Image image = renderer.render(state, options);
+  EXPECT_NE(image.rgb, home.rgb);
+  options.camera.reset();
+  EXPECT_EQ(image.rgb, Renderer(moved).render(state, options).rgb);
+}
+
+TEST_F(RendererTest, AGhostLetsThroughItsPartOfTheLight) {
+  Renderer renderer(scene);
+  const Vector3<double> middle = scene.cloths[0].grid().center + Vector3<double>(0.1, 0, 0.1);
+  const auto green_at_middle = [&] {
+    return pixel_at(renderer.render(state, options), scene.camera, middle)[1];
+  };
+  options.show_shadow = false;
+  const Image solid = renderer.render(state, options);
+  const int of_cloth = green_at_middle();
+  options.ghosts = Ghosts{0, scene.colliders.size(), 1.0};
+  EXPECT_EQ(renderer.render(state, options).rgb, solid.rgb);
+  options.ghosts->first_cloth = scene.cloths.size();
+  options.ghosts->opacity = 0.5;
+  EXPECT_EQ(renderer.render(state, options).rgb, solid.rgb) << "there is no ghost";
+  options.ghosts->first_cloth = 0;
+  const int of_ghost = green_at_middle();
+  options.ghosts->opacity = 0.01;  // below the first threshold: nothing is left
+  const int of_background = green_at_middle();
+  EXPECT_GT(of_background, of_cloth + kOtherThing);
+  EXPECT_GT(of_ghost, of_cloth + kOtherThing / 2);
+  EXPECT_LT(of_ghost, of_background - kOtherThing / 2);
+}
+
 TEST_F(RendererTest, SameInputGivesSameBytes) {
   const Image first = Renderer(scene).render(state, options);
   Renderer renderer(scene);
