@@ -38,12 +38,11 @@ bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
       body.m_scontacts.size() > 0 || was_changed_outside()) {
     return false;
   }
-  // Links have no history: the impulse that they get is that of a whole step.
-  bool leads_link = false;
-  for_anchors(body, [&](const NodeAnchor& anchor) {
-    leads_link = leads_link || MovableObject(anchor.object).link() != nullptr;
-  });
-  return !leads_link && are_positions_kept();
+  // What hangs on an anchor has no history: the impulse that it gets is that of a whole step.
+  bool leads = false;
+  for_anchors(body,
+              [&](const NodeAnchor& anchor) { leads = leads || MovableObject(anchor.object); });
+  return !leads && are_positions_kept();
 }
 
 // With dynamic bodies that springs throw back. What only lies there comes to rest by the damping of implicit Euler.

@@ -31,6 +31,26 @@ TEST(FastBody, AnchorsStayAtABoxThatHangsAtRest) {
   }
 }
 
+// A sheet of 0.2 kg and a box of 0.2 kg that hangs on a corner of it fall and spin.
+TEST(FastBody, ABoxOnAnAnchorKeepsTheMomentumOfBoth) {
+  for (const bool is_second_order : {true, false}) {
+    Scene scene(cloth(9, 1, 2, 0.2), {kGravity, law("tension", "stiffness", 500)}, 0.5,
+                {.is_second_order = is_second_order});
+    btRigidBody& load = scene.add(box(0.1, 0.1, 0.1), 0.2, at(0, 2.15, 0));
+    load.setLinearVelocity(btVector3(1, 0, 0));
+    scene.body().appendAnchor(40, &load, true, 1);
+    for (int step = 1; step <= 60; ++step) {
+      scene.step();
+      const Vector3<double> of_box =
+          0.2 * Vector3<double>(load.getLinearVelocity().x(), load.getLinearVelocity().y(),
+                                load.getLinearVelocity().z());
+      const Vector3<double> momentum = scene.momentum() + of_box;
+      EXPECT_NEAR(momentum.x(), 0.2, 2e-4) << step;
+      EXPECT_NEAR(momentum.y(), -9.81 * 0.4 * kTimeStep * step, 1e-3) << step;
+    }
+  }
+}
+
 // 0.6 N of 1.2 N that friction can bear; Bullet takes away in each step what the step before has given.
 TEST(FastBody, PullsNoBoxThatFrictionHolds) {
   Scene scene(cloth(6, 0.4, 0.1, 0.3),
