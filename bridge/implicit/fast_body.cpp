@@ -277,7 +277,7 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
   const bool meets_cloth = body.m_scontacts.size() > 0 || is_pushed;
   find_velocities();
   step_error_.include(solver_->report(), static_cast<double>(inertia_step_), masses_.sum());
-  keep_forces(time_step);
+  keep_forces(body, time_step);
   if (meets_cloth) {
     excess_ = 0;
   } else {

@@ -156,7 +156,7 @@ class FastBody : public NodeTeam {
   [[nodiscard]] Method choose_method(const btSoftBody& body, btScalar time_step);
   void set_targets(const btSoftBody& body, Method method, btScalar time_step);
   void find_velocities();
-  void keep_forces(btScalar time_step);
+  void keep_forces(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool are_positions_kept();
   void list_known(const btSoftBody& body);
   [[nodiscard]] RigidContact* known_contact(const RigidContact& found, const btVector3& position,

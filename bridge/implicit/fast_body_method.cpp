@@ -21,6 +21,13 @@ constexpr double kBalanceSlack = 3e-2;
 /// How fast a dynamic body is that springs throw back, or what they have done to it, over what gravity does in a step [-].
 constexpr btScalar kLively = btScalar(2.5);
 
+bool leads_movable(const btSoftBody& body) {
+  bool leads = false;
+  for_anchors(body,
+              [&](const NodeAnchor& anchor) { leads = leads || MovableObject(anchor.object); });
+  return leads;
+}
+
 }  // namespace
 
 // BDF2 extrapolates a change of velocity between steps and makes 4/3 of it: such a step is implicit
@@ -39,10 +46,7 @@ bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
     return false;
   }
   // What hangs on an anchor has no history: the impulse that it gets is that of a whole step.
-  bool leads = false;
-  for_anchors(body,
-              [&](const NodeAnchor& anchor) { leads = leads || MovableObject(anchor.object); });
-  return !leads && are_positions_kept();
+  return !leads_movable(body) && are_positions_kept();
 }
 
 // With dynamic bodies that springs throw back. What only lies there comes to rest by the damping of implicit Euler.
@@ -51,14 +55,17 @@ bool FastBody::may_use_forces(const btSoftBody& body, btScalar time_step) {
       body.m_scontacts.size() > 0) {
     return false;
   }
-  const auto is_lively = [&](const RigidContact& contact) {
-    const MovableObject object{contact.object};
+  const auto is_lively = [&](const btCollisionObject* other) {
+    const MovableObject object{other};
     if (!object || object.is_articulated()) return false;
     const btScalar least = kLively * object.gravity().length() * time_step;
     const btScalar change = pushed_.displacement_of(object).template head<3>().norm() / time_step;
     return object.velocity().linear.length() > least || change > least;
   };
-  return std::any_of(contacts_.begin(), contacts_.end(), is_lively) && are_positions_kept();
+  bool is_any = std::any_of(contacts_.begin(), contacts_.end(),
+                            [&](const RigidContact& contact) { return is_lively(contact.object); });
+  for_anchors(body, [&](const NodeAnchor& anchor) { is_any = is_any || is_lively(anchor.object); });
+  return is_any && are_positions_kept();
 }
 
 // Somebody may have moved a node since the last step.
@@ -142,8 +149,9 @@ bool FastBody::gets_work_from_outside() const {
 }
 
 // Only where a dynamic body is near enough that springs may have to throw it back.
-void FastBody::keep_forces(btScalar time_step) {
+void FastBody::keep_forces(const btSoftBody& body, btScalar time_step) {
   const bool is_any_near =
+      leads_movable(body) ||
       std::any_of(colliders_.begin(), colliders_.end(),
                   [](const Collider& collider) { return bool(MovableObject(collider.object)); });
   if (!is_any_near) return force_history_.forget();
