@@ -126,9 +126,8 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const Scalar gap = normal.dot(at_node(positions_, i) - with_body) - contact.offset;
   const Scalar inertia = Scalar(inertia_[i]);
   const bool was_held = !is_first && contact_states_before_[at(i)] != ContactState::kFree;
-  const Scalar pressure =
-      -normal.dot(at_node(residual_forces_, i)) + inertia * std::max(Scalar(0), -gap) +
-      contact.squeeze;
+  const Scalar pressure = -normal.dot(at_node(residual_forces_, i)) +
+                          inertia * std::max(Scalar(0), -gap) + contact.squeeze;
   Scalar least_gap = gap;
   if (is_first) least_gap += std::min(Scalar(0), first_push(i, normal));
   const bool is_near = least_gap < 0;
