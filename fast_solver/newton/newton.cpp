@@ -13,7 +13,8 @@ namespace {
 /// The coarse matrix is factorized again after so many iterations.
 constexpr int kIterationsPerFactor = 4;
 /// A step that so many iterations have not solved has stiff springs that turn. There conjugate gradients have long plateaus,
-/// and what they leave on each of them is what the next iterations of Newton's method would gain slowly.
+/// and what they leave on each of them is what the next iterations of Newton's method would gain slowly. With contacts it is
+/// their states that take iterations.
 constexpr int kRoughIterations = 4;
 constexpr LinearAccuracy kRough = {.forcing = 0.1};
 constexpr LinearAccuracy kAccurate = {.forcing = 0.03, .delay = 0.5};
@@ -43,8 +44,8 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
-LinearAccuracy accuracy_of(int iteration, double asked) {
-  LinearAccuracy accuracy = iteration < kRoughIterations ? kRough : kAccurate;
+LinearAccuracy accuracy_of(int iteration, bool has_contacts, double asked) {
+  LinearAccuracy accuracy = has_contacts || iteration < kRoughIterations ? kRough : kAccurate;
   accuracy.least_gain = kLastShare * asked;
   return accuracy;
 }
@@ -99,7 +100,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     report_.newton_iterations = iteration + 1;
     save_positions();
     iterate_once(problem, {.iterations = solver_settings.linear_iterations,
-                           .accuracy = accuracy_of(iteration, asked),
+                           .accuracy = accuracy_of(iteration, has_contacts, asked),
                            .is_first = iteration == 0,
                            .decides = decides,
                            .continues = problem.continues,
