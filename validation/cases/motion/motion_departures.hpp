@@ -15,6 +15,7 @@ namespace weft::validation {
 inline constexpr const char* kMotionReason =
     "waves that an impact sends into the cloth are shorter than a substep, and the energy of a "
     "step in which a body is thrown "
-    "back is that of its middle (docs/implicit_step.md)";
+    "back is that of its middle; rounding of many substeps adds up to momentum "
+    "(docs/implicit_step.md)";
 
 }  // namespace weft::validation
