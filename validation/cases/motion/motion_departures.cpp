@@ -6,7 +6,6 @@ namespace weft::validation {
 namespace {
 
 constexpr const char* kSingle = "bullet_weft float32";
-constexpr const char* kDouble = "bullet_weft float64";
 
 constexpr std::array kRows = {
     MotionDeparture{"impacts", kSingle, "ball_on_trampoline: energy gained", 0.0833},
