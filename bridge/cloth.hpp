@@ -55,7 +55,7 @@ struct ClothContactPoint {
 ///   weft::bridge::Cloth cloth = solver.cloth(body);
 ///   cloth.set(weft::laws::tension({.stiffness = 2000.0}));
 ///
-/// To be used by the thread that steps the world, between steps.
+/// Threads  the thread that steps the world, between steps.
 class Cloth {
  public:
   Cloth() = default;
@@ -74,8 +74,8 @@ class Cloth {
   /// Takes away all laws with this name, with refusals as set().
   std::optional<std::string> remove(std::string_view law);
 
-  /// With rigid objects and links, in ascending order of nodes; those of a node in the order in which the broadphase named
-  /// their objects. In a step that was divided: of its last part.
+  /// The contacts with rigid objects and links, in ascending order of nodes; those of one node in the order in which the
+  /// broadphase named their objects. After a step that was divided they are those of its last substep.
   [[nodiscard]] std::vector<ClothContactPoint> contacts() const;
   /// Called in each step after which contacts() is not empty, when the step's soft bodies are done, by the thread that steps the world. It may use
   /// solver and world, and must not throw: that ends the program. Empty: nobody is told. False if the body is gone or without laws.

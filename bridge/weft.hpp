@@ -2,7 +2,7 @@
 
 // Tested by tests/bridge/cloth_test.cpp.
 
-/// What a Bullet program includes: solvers for its world, adoption of bodies that it has already, laws as types, handles.
+/// The header of a Bullet program: solvers for its world, adoption of bodies that it has already, laws as types, handles.
 /// An application includes it as <weft/weft.hpp>. Forces in Bullet's deformable world have headers of their own.
 
 #include <weft/bridge/adoption/adopting_solver.hpp>

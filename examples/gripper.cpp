@@ -94,7 +94,7 @@ class Robot {
     set_speed(kLeft, -0.2);
     set_speed(kRight, 0.2);
   }
-  /// Up to a speed and down again with a tenth of g: a load that comes at once counts twice.
+  /// Accelerates and brakes with a tenth of g: a load that comes at once counts twice.
   void travel(Joint joint, double speed, double seconds) {
     const auto num_steps = static_cast<int>(std::lround(seconds / kStep));
     for (int step = 0; step < num_steps; ++step) {

@@ -9,7 +9,7 @@
 
 namespace weft::scenes {
 
-/// What an engine implements beside Simulator if its laws can change between two steps.
+/// The interface of engines whose laws can change between two steps, beside Simulator.
 class LiveLaws {
  public:
   virtual ~LiveLaws() = default;

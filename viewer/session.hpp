@@ -19,7 +19,7 @@ struct SessionSettings {
   scenes::SurfaceStyle style = scenes::SurfaceStyle::kShaded;
 };
 
-/// What a button of the mouse does while it is down.
+/// The effect of a button of the mouse while it is down.
 enum class MouseDrag { kNone, kRotate, kPan, kPull };
 
 /// Everything behind the window: what is shown and how, and what keys and mouse do with it. Needs no
@@ -49,7 +49,7 @@ class Session {
   /// The source if it is a live run, else nullptr.
   [[nodiscard]] LiveSource* live() { return live_; }
   [[nodiscard]] ViewState& view() { return view_; }
-  /// What the list offers: the given files, then the catalog.
+  /// The entries of the list: the given files, then the catalog.
   [[nodiscard]] const std::vector<std::string>& list() const { return list_; }
   [[nodiscard]] std::size_t row() const { return row_; }
   /// Shows a row of the list; what cannot be opened is told by the message, and all stays.

@@ -76,7 +76,7 @@ btSoftBody* tetrahedral_cube(DemoWorld& world, int n, double size) {
       }
     }
   }
-  // Around the diagonal from (0, 0, 0) to (1, 1, 1): one for each order of the axes.
+  // The tetrahedra share the diagonal from (0, 0, 0) to (1, 1, 1): there is one for each order of the axes.
   constexpr int kOrders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   std::string elements = std::to_string(6 * n * n * n) + " 4 0\n";
   int number = 0;

@@ -18,8 +18,8 @@ inline namespace WEFT_BULLET_PRECISION {
 /// both sides of the cloth may count on. A node is held halfway between the surfaces, by one of them. Nodes share that force
 /// in proportion to what friction has borne at each in the last step: soft cloth between pads slides as a whole or not at all.
 ///
-/// Only where a link of a multibody takes part, or two kinematic bodies do. What kinematic ones press with is not defined:
-/// they hold whatever they pinch.
+/// This applies if a link of a multibody takes part, or two kinematic bodies do. The force between kinematic bodies is not
+/// defined: they hold whatever they pinch.
 class Pinches {
  public:
   /// time_step: of Bullet's step [s].
@@ -73,7 +73,7 @@ class Pinches {
   };
   [[nodiscard]] Pair& pair_of(const btCollisionObject* one, const btCollisionObject* other);
 
-  /// What friction has borne at a node in the last step [N s].
+  /// The impulse of friction on a node in the last step [N s].
   [[nodiscard]] btScalar load_of(int node) const {
     const auto i = static_cast<std::size_t>(node);
     return i < loads_.size() ? loads_[i] : btScalar(0);

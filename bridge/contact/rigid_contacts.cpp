@@ -326,7 +326,7 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collide
                         btScalar time_step, PinnedNodes pinned, std::vector<RigidContact>& contacts,
                         fast::WorkerTeam* team) {
   if (!collider.object->hasContactResponse()) return;
-  // Where the step begins is what Bullet knows of a dynamic body, and where it ends of a kinematic one.
+  // Bullet has the pose of a dynamic body at the start of the step, and that of a kinematic one at its end.
   const MovableObject dynamic{collider.object};
   const RigidVelocity& velocity = collider.led;
   const bool is_led = !velocity.is_zero();

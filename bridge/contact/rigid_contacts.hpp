@@ -33,12 +33,12 @@ struct RigidContact {
   btVector3 met_by_object{0, 0, 0};
   btVector3 normal_by_object{0, 0, 0};
   btScalar gap = 0;  ///< of that position in front of the plane [m]
-  // What the last solution says:
+  // The result of the last solution:
   btVector3 impulse{0, 0, 0};  ///< on the node [N s]
   bool is_sticking = false;
 };
 
-/// What a body's bounds meet: a whole object, or a part of it.
+/// A whole object, or a part of it, that the body's bounds meet.
 struct Collider {
   const btCollisionObject* object;
   const btCollisionShape* shape;

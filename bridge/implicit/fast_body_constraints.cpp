@@ -204,7 +204,7 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     const MovableObject object{contact.object};
     if (object && !pinches_.has(contact.node)) {
       plane.body = pushed_.number_of(object, body.m_worldInfo->m_dispatcher, time_step, is_again);
-      // Where the surface holds the node, which is predicted to be deep inside.
+      // The surface holds the node there, which is predicted to be deep inside.
       const btVector3& point = body.m_nodes[contact.node].m_x;
       const btScalar gap = btDot(contact.normal, point) - contact.offset;
       plane.lever_arm = lever_arm(object, point - std::min(btScalar(0), gap) * contact.normal);

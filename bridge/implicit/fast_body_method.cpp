@@ -45,7 +45,7 @@ bool FastBody::may_use_history(const btSoftBody& body, btScalar time_step) {
       body.m_scontacts.size() > 0 || was_changed_outside()) {
     return false;
   }
-  // What hangs on an anchor has no history: the impulse that it gets is that of a whole step.
+  // A body on an anchor gets the impulse of a whole step, and BDF2 solves with another inertia step.
   return !leads_movable(body) && are_positions_kept();
 }
 

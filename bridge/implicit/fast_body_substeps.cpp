@@ -1,4 +1,4 @@
-// Substeps: why a step is divided is in substep_count.hpp.
+// Divides a step into substeps; substep_count.hpp says why.
 // Tested by tests/bridge/implicit/fast_body_impact_test.cpp.
 #include <algorithm>
 

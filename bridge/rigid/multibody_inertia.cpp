@@ -64,7 +64,7 @@ double reference_mass(const btMultiBody& multibody, int link) {
   return std::max(own, kLeastMassShare * total);
 }
 
-// From the base outwards, as positions are.
+// Velocities are summed from the base outwards, as positions are.
 RigidVelocity link_velocity(const btMultiBody& multibody, int link) {
   std::vector<int> chain;
   for (int k = link; k >= 0; k = multibody.getParent(k)) chain.push_back(k);
@@ -168,7 +168,7 @@ double MultiBodyInertia::energy_gain(const VectorX<double>& impulse) const {
   return impulse.dot(velocities()) + 0.5 * impulse.dot(inverse_ * impulse);
 }
 
-// In units in which a link's own inertia is about one.
+// The units make a link's own inertia about one, so that one threshold serves translations and rotations.
 Eigen::MatrixXd MultiBodyInertia::inertia_of(std::span<const int> links) const {
   const auto size = 6 * static_cast<Eigen::Index>(links.size());
   Eigen::MatrixXd jacobians(size, inertia_.cols());

@@ -25,7 +25,7 @@ inline namespace WEFT_BULLET_PRECISION {
 /// [kg] Of a link; of one without a mass of its own, as robots have, a hundredth of what moves in its multibody.
 [[nodiscard]] double reference_mass(const btMultiBody& multibody, int link);
 
-/// From the velocities of base and joints; `center` stays empty.
+/// The velocity of a link by those of base and joints; `center` stays empty.
 [[nodiscard]] RigidVelocity link_velocity(const btMultiBody& multibody, int link);
 
 /// The inertia of a multibody in its present pose, seen from its links: the joint-space inertia matrix (Featherstone 2008) and

@@ -12,7 +12,7 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// Where friction holds nodes on links whose joints Bullet may hold back in its next step (motors, limits): then the
+/// The points at which friction holds nodes on links whose joints Bullet may hold back in its next step (motors, limits): the
 /// displacement that a solution has given to a link never comes, and a node that had followed it would slip by that much in
 /// each step. So a node that sticks is drawn to the point of the link at which it began to.
 class StickingPoints {

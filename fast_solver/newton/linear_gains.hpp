@@ -25,7 +25,7 @@ struct LinearAccuracy {
   double least_gain = 0;  ///< less to gain than this [J] ends the solve too
 };
 
-/// What each iteration of conjugate gradients gained, and whether that is enough.
+/// The history of what iterations of conjugate gradients gained, and whether they are enough.
 class LinearGains {
  public:
   void clear() { gains_.clear(), total_ = 0; }

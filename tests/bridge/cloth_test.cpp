@@ -179,7 +179,7 @@ TEST(Cloth, ContactsBearTheWeight) {
   EXPECT_DOUBLE_EQ(last, sum);
 }
 
-// With mu = 0.5 times 1 and twice that as a drag, it slides, and friction is half of the weight.
+// The drag is twice what mu = 0.5 can hold, so that the cloth slides, and friction is half of the weight.
 TEST(Cloth, ContactsThatSlideSaySo) {
   Scene scene(cloth(9, 0.4, kMargin + 1e-4), {kGravity, law("tension", "stiffness", 500)}, 0.5,
               {.may_sleep = false});
@@ -230,7 +230,7 @@ TEST(Cloth, ACallbackMayDetach) {
   EXPECT_EQ(cloth.state().status, Status::kWithoutLaws);
 }
 
-// What set() keeps: callbacks, and limits that the program has set.
+// Callbacks and limits of the program outlast set().
 TEST(Cloth, CallbacksStayWhenALawIsSet) {
   Scene scene(cloth(5, 0.4, kMargin), {kGravity, law("tension", "stiffness", 500)}, 0.5,
               {.may_sleep = false});

@@ -16,7 +16,7 @@ struct Pull {
   Vector3<double> target{0, 0, 0};  ///< [m]
 };
 
-/// What the window does to a run beside its laws: the pull of the mouse, and a change of the gravity of
+/// Influence of the window on a run beside its laws: the pull of the mouse, and a change of the gravity of
 /// rigid bodies. Without either it asks for nothing, so that the run keeps its bits.
 class WindowForces final : public scenes::Controller {
  public:

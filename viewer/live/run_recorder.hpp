@@ -22,7 +22,7 @@ class RunRecorder {
   RunRecorder(const RunRecorder&) = delete;
   RunRecorder& operator=(const RunRecorder&) = delete;
 
-  /// Where the frames are until finish().
+  /// The file of the frames until finish().
   [[nodiscard]] const std::filesystem::path& partial() const { return output_.partial(); }
 
   void add_frame(const scenes::SceneState& state);

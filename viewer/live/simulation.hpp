@@ -57,11 +57,11 @@ class Simulation {
 
   /// Why the run cannot go on (the engine refuses the scene, the recording cannot be written).
   [[nodiscard]] std::optional<std::string> failure() const;
-  /// What the engine refused since the last call, else empty.
+  /// The engine's refusals since the last call, else empty.
   [[nodiscard]] std::string take_refusal();
   /// Whether the scene's duration has been simulated, and recorded if that was asked for.
   [[nodiscard]] bool reached_end() const;
-  /// Where the frames of a recording stay that has not reached the scene's duration; empty: there is none.
+  /// The file of a recording that has not reached the scene's duration; empty: there is none.
   [[nodiscard]] std::string unfinished_recording() const;
   /// [N] that no pull on a cloth exceeds.
   [[nodiscard]] double largest_pull(std::size_t cloth) const;

@@ -41,7 +41,7 @@ class Simulation::Worker {
   std::string refusal_;
   bool reached_end_ = false;
 
-  // Of the simulation's thread, changed by what is asked.
+  // The simulation's thread alone changes these, when it is asked to.
   bool is_running_;
   double speed_;
   int wanted_steps_ = 0;

@@ -19,7 +19,7 @@ class StepParts {
   /// Engines that refuse another step than the scene's, as bullet_soft, always get 1.
   explicit StepParts(std::string_view engine);
 
-  /// From now on the laws are these; before the first call a step is whole, whatever it is.
+  /// Sets the laws that steps are divided for. Before the first call a step is whole, whatever it is.
   void set_laws(const scenes::Scene& scene);
 
   /// 1 to kMaxParts for the next step of time_step [s].

@@ -96,7 +96,7 @@ struct ActionInfo {
 /// The action with this id, or nullptr.
 [[nodiscard]] const ActionInfo* find_action(std::string_view id);
 
-/// What a tooltip says: the text, and the key in brackets.
+/// The text of a tooltip, with the key in brackets.
 [[nodiscard]] std::string tooltip(Action action);
 
 }  // namespace weft::viewer

@@ -10,7 +10,7 @@
 namespace weft::viewer {
 namespace {
 
-/// What the bones of a character lead has no laws that act.
+/// Laws do not act on a cloth that the bones of a character lead.
 bool is_simulated(const scenes::Cloth& cloth) {
   const auto* skin = std::get_if<scenes::SkinSource>(&cloth.source);
   return skin == nullptr || skin->is_cloth;

@@ -18,7 +18,7 @@ struct WorstNode {
   double strain = 0.0;  ///< [-], signed
 };
 
-/// What the plots show of a state, over all cloths that are simulated.
+/// The figures of a state that the plots show, over all cloths that are simulated.
 struct Measures {
   double kinetic_energy = 0.0;    ///< [J]
   double potential_energy = 0.0;  ///< [J] of all laws that have one, gravity too

@@ -26,7 +26,7 @@ struct NodeId {
 [[nodiscard]] scenes::Camera followed(const scenes::Scene& scene, const scenes::Camera& camera,
                                       const scenes::SceneState& state);
 
-/// Where a point [m] is in the picture; none behind the camera. aspect: width / height.
+/// The place of a point [m] in the picture; none behind the camera. aspect: width / height.
 [[nodiscard]] std::optional<Place> project(const scenes::Camera& camera, double aspect,
                                            const Vector3<double>& point);
 

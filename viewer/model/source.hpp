@@ -27,12 +27,12 @@ struct ShownRecording {
   std::optional<scenes::Rgb> color = {};  ///< of a ghost; none: it is the solid one
 };
 
-/// What the window shows: a live run, or recordings. Times are [s] of the scene.
+/// A live run, or recordings, that the window shows. Times are [s] of the scene.
 class Source {
  public:
   virtual ~Source() = default;
 
-  /// What is drawn. The version changes with it.
+  /// The scene that is drawn. The version changes with it.
   [[nodiscard]] virtual const scenes::Scene& drawn_scene() const = 0;
   [[nodiscard]] virtual int version() const = 0;
   /// The state to draw; none while it is loaded.
@@ -46,7 +46,7 @@ class Source {
   virtual void update(double seconds) = 0;
   /// Does what concerns the source; false for any other action.
   virtual bool perform(Action action) = 0;
-  /// What to tell the user since the last call; empty if there is nothing.
+  /// Messages to the user since the last call; empty if there is nothing.
   [[nodiscard]] virtual std::string take_message() = 0;
 
   [[nodiscard]] virtual bool is_playing() const = 0;

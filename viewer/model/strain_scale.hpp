@@ -18,7 +18,7 @@ class StrainScale {
   void reset() { *this = {}; }
   /// Largest strain of the range [-], > 0.
   [[nodiscard]] double limit() const { return limit_ > 0.0 ? limit_ : 0.01; }
-  /// What the renderer takes, in percent.
+  /// The field that the renderer draws, in percent.
   [[nodiscard]] scenes::ScalarField field(const std::vector<Eigen::VectorXd>& strains) const;
 
  private:

@@ -57,7 +57,7 @@ bool perform_camera(ViewState& view, Action action, const scenes::Camera& home) 
 }
 
 void change_size(ViewState& view, int direction) {
-  // From a size that the user has drawn, the next one in that direction.
+  // A size that the user has drawn is followed by the next one in that direction.
   const auto is_smaller = [&](const WindowSize& size) { return size.width < view.size.width; };
   auto row = std::count_if(kWindowSizes.begin(), kWindowSizes.end(), is_smaller);
   const bool is_exact = row < std::ssize(kWindowSizes) &&

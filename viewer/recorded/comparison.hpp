@@ -26,15 +26,15 @@ class Comparison {
   [[nodiscard]] const std::filesystem::path& path(std::size_t recording) const {
     return paths_.at(recording);
   }
-  /// Of a recording as a ghost.
+  /// The color of a recording as a ghost.
   [[nodiscard]] static scenes::Rgb ghost_color(std::size_t recording);
   /// Makes the next recording the solid one.
   void next();
-  /// With ghosts or without; there are none of a single recording.
+  /// Shows or hides ghosts; a single recording has none.
   void show_ghosts(bool are_shown);
   [[nodiscard]] bool has_ghosts() const { return are_shown_ && size() > 1; }
 
-  /// What is drawn: bodies of the solid recording, then those of the ghosts that may move.
+  /// The scene that is drawn: bodies of the solid recording, then those of the ghosts that may move.
   [[nodiscard]] const scenes::Scene& drawn_scene() const { return drawn_scene_; }
   [[nodiscard]] scenes::Ghosts ghosts() const;
   [[nodiscard]] const scenes::RecordingReader& reader() const { return *readers_[solid_]; }
@@ -49,7 +49,7 @@ class Comparison {
   /// Measures of frames that have not been asked for, for plots, within a wall time [s]. True once all
   /// are there.
   bool measure_more(double seconds);
-  /// Of each frame of the solid recording; none where it was not measured yet.
+  /// The figures of each frame of the solid recording; none where it was not measured yet.
   [[nodiscard]] const std::vector<std::optional<Measures>>& measures() const { return measures_; }
 
  private:

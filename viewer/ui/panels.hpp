@@ -24,7 +24,7 @@ void draw_timeline(const PanelFrame& frame);
 void draw_scene_list(const PanelFrame& frame);
 void draw_help(const PanelFrame& frame);
 void draw_message(const PanelFrame& frame);
-/// What is drawn over the picture itself: legend, worst node, pull.
+/// Draws the marks over the picture itself: legend, worst node, pull.
 void draw_marks(const PanelFrame& frame);
 
 /// A button for an action, with its tooltip. width 0: as wide as the label.

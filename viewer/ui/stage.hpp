@@ -25,13 +25,13 @@ class Stage {
 
   /// Draws into the window's framebuffer.
   void draw(Session& session);
-  /// What the framebuffer holds now, panels included.
+  /// The present content of the framebuffer, panels included.
   [[nodiscard]] scenes::Image read_window();
 
   [[nodiscard]] const StrainScale& strain_scale() const { return strain_scale_; }
 
  private:
-  /// What a picture depends on.
+  /// Everything that a picture depends on.
   struct Key {
     SnapshotPtr shown;
     int version = 0;

@@ -126,7 +126,7 @@ void save_screenshot(Session& session, Stage& stage) {
   }
 }
 
-/// What the view state asks of the window, and what the user has done to it.
+/// Gives the window the size that the view state asks for, and tells the state what the user has done to it.
 class WindowFollower {
  public:
   explicit WindowFollower(const ViewState& view) : size_(view.size), title_() {}

@@ -121,7 +121,7 @@ void Window::set_title(const std::string& title) {
 
 void Window::present() {
   glfwSwapBuffers(window_);
-  // Where the display does not make swapping wait, more pictures would only take the simulation's time.
+  // If the display does not make swapping wait, more pictures would only take the simulation's time.
   const double spare = presented_ + kShortestPicture - glfwGetTime();
   if (spare > 0.0) {
     glfwWaitEventsTimeout(spare);

@@ -68,7 +68,7 @@ double exit_speed(double time_step) {
   return static_cast<double>(-ball.getLinearVelocity().y());
 }
 
-// What carries energy away from the ball are waves that cross it in a quarter of a millisecond.
+// Waves that cross the ball in a quarter of a millisecond carry energy away from it.
 TEST(FastBodyImpact, ABallLeavesASheetOfItsOwnMassAsFastAsInShortSteps) {
   const double right = exit_speed(1.0 / 8000);
   EXPECT_GT(right, 2);

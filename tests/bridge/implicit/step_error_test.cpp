@@ -1,4 +1,4 @@
-// What a step says of its own error, beside what it is: the same step solved to the last digit.
+// The error that a step reports is compared with its true one, that to the same step solved to the last digit.
 #include <weft/bridge/step_error.hpp>
 
 #include <algorithm>
@@ -61,7 +61,7 @@ ClothMesh hanging_cloth() {
   return mesh;
 }
 
-/// What rounding makes of a place within a metre of the origin, in two different solutions [m].
+/// Rounding of a position within a meter of the origin, in two different solutions [m].
 constexpr double kRounding = sizeof(btScalar) == 4 ? 2e-6 : 1e-9;
 constexpr int kNumSteps = 60;
 

@@ -85,7 +85,7 @@ class Gripper {
     press_->setVelocityTarget(btScalar(0.2));
     press_->setMaxAppliedImpulse(btScalar(100));
   }
-  /// What the lift bears [N].
+  /// The force of the lift [N].
   [[nodiscard]] double load() const {
     return std::abs(static_cast<double>(lift_->getAppliedImpulse(0))) / RobotWorld::kStep;
   }
@@ -144,7 +144,7 @@ Outcome hold(double force, double seconds, unsigned seed) {
   Outcome outcome{};
   const double start = height();
   const double gripper_start = gripper.height();
-  // With a tenth of g, so that the grip bears it.
+  // A tenth of g is what the grip can bear.
   for (int step = 0; step < 60; ++step) {
     gripper.lift(std::min(0.2, std::min(step, 59 - step) * RobotWorld::kStep));
     world.step();

@@ -8,8 +8,8 @@
 
 namespace weft::validation {
 
-/// What the fast solver is known to do wrong in motion, in contact and at rest (swing, impacts, rest): each row with its figure. A row that no longer
-/// holds fails its check and must be taken out.
+/// Known errors of the fast solver in motion, in contact and at rest (swing, impacts, rest), each with its figure. A row that
+/// no longer holds fails its check and must be taken out.
 [[nodiscard]] std::span<const MotionDeparture> motion_departures();
 
 inline constexpr const char* kMotionReason =
