@@ -18,8 +18,6 @@ constexpr double kEnergySlack = 0.01;
 
 /// How much a method may seem to gain whose velocities are those of the middle of a step, as a share of all energy [-].
 constexpr double kBalanceSlack = 3e-2;
-/// How fast a dynamic body is that springs throw back, or what they have done to it, over what gravity does in a step [-].
-constexpr btScalar kLively = btScalar(2.5);
 
 bool leads_movable(const btSoftBody& body) {
   bool leads = false;
@@ -58,7 +56,7 @@ bool FastBody::may_use_forces(const btSoftBody& body, btScalar time_step) {
   const auto is_lively = [&](const btCollisionObject* other) {
     const MovableObject object{other};
     if (!object || object.is_articulated()) return false;
-    const btScalar least = kLively * object.gravity().length() * time_step;
+    const btScalar least = SubstepCount::kLively * object.gravity().length() * time_step;
     const btScalar change = pushed_.displacement_of(object).template head<3>().norm() / time_step;
     return object.velocity().linear.length() > least || change > least;
   };

@@ -22,7 +22,7 @@ btScalar smallest_half_extent(const btCollisionShape& shape) {
 }  // namespace
 
 int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
-  SubstepCount substeps(time_step * wave_speed_);
+  SubstepCount substeps(time_step * wave_speed_, static_cast<btScalar>(masses_.sum()));
   for (const RigidContact& contact : contacts_) {
     const MovableObject object{contact.object};
     if (!object || object.is_articulated()) continue;
@@ -36,7 +36,7 @@ int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
                       .closing = time_step * btDot(normal, velocity),
                       .pushed = pushed_.push_in(object, time_step),
                       .fall = time_step * time_step * object.gravity().length(),
-                      .mass_share = object.share_of(static_cast<btScalar>(masses_.sum()))});
+                      .inverse_mass = object.inverse_mass()});
   }
   return substeps.count(last_num_substeps_);
 }

@@ -11,9 +11,7 @@ namespace {
 constexpr btScalar kApproachShare = btScalar(0.2);
 /// Likewise: how far springs may push it back in one substep.
 constexpr btScalar kPushShare = btScalar(0.05);
-/// An impact changes the velocity of a body by more than so many times what gravity does in a step [-], and moves it by more
-/// than this share of its size.
-constexpr btScalar kLively = btScalar(2.5);
+/// An impact moves a body by more than this share of its size in a step, beside kLively.
 constexpr btScalar kImpactShare = btScalar(0.01);
 /// The mean of cos^4 over the directions of a plane [-].
 constexpr double kMeanStiffness = 3.0 / 8;
@@ -28,9 +26,11 @@ btScalar wave_speed(const fast::SpringNetwork& network, const VectorX<double>& m
 
 void SubstepCount::include(const RigidEncounter& encounter) {
   is_any_ = true;
-  const auto& [size, approach, closing, pushed, fall, mass_share] = encounter;
+  const auto& [size, approach, closing, pushed, fall, inverse_mass] = encounter;
   most_ = std::max(
       {most_, approach / (kApproachShare * size), (pushed - 2 * fall) / (kPushShare * size)});
+  // Two masses that stick together share their momentum.
+  const btScalar mass_share = mass_ * inverse_mass / (1 + mass_ * inverse_mass);
   const btScalar impact = std::max(closing * mass_share, pushed);
   if (impact > kLively * fall + kImpactShare * size) most_ = std::max(most_, wave_distance_ / size);
 }

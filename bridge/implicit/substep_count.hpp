@@ -17,12 +17,12 @@ inline namespace WEFT_BULLET_PRECISION {
 
 /// A dynamic body and a node that it meets in a step.
 struct RigidEncounter {
-  btScalar size;        ///< smallest half extent of the body [m]
-  btScalar approach;    ///< how far its surface has come behind the node in the step [m]
-  btScalar closing;     ///< how far it would come towards the node by the velocities of both [m]
-  btScalar pushed;      ///< how far the cloth has moved it in the last step [m]
-  btScalar fall;        ///< how far gravity moves it in a step, g h^2 [m]
-  btScalar mass_share;  ///< of the cloth in the mass of both [-]
+  btScalar size;          ///< smallest half extent of the body [m]
+  btScalar approach;      ///< how far its surface has come behind the node in the step [m]
+  btScalar closing;       ///< how far it would come towards the node by the velocities of both [m]
+  btScalar pushed;        ///< how far the cloth has moved it in the last step [m]
+  btScalar fall;          ///< how far gravity moves it in a step, g h^2 [m]
+  btScalar inverse_mass;  ///< of the body [1/kg]
 };
 
 /// Into how many substeps a step is divided. The surface of a body that comes far would turn away from the nodes that it
@@ -30,16 +30,21 @@ struct RigidEncounter {
 /// which they leave that place and come back gives too much of it back to the body.
 class SubstepCount {
  public:
-  /// wave_distance: how far stretching waves come in the step [m].
-  explicit SubstepCount(btScalar wave_distance) : wave_distance_(wave_distance) {}
+  /// wave_distance: how far stretching waves come in the step [m]. mass: of the cloth [kg].
+  SubstepCount(btScalar wave_distance, btScalar mass)
+      : wave_distance_(wave_distance), mass_(mass) {}
   void include(const RigidEncounter& encounter);
   /// last: of the step before.
   [[nodiscard]] int count(int last) const;
 
   static constexpr int kMost = 56;
+  /// The change of a body's velocity from which on cloth throws it back, over what gravity does in a step [-]. What lies on
+  /// cloth has 1.
+  static constexpr btScalar kLively = btScalar(2.5);
 
  private:
   btScalar wave_distance_;
+  btScalar mass_;
   btScalar most_ = 1;
   bool is_any_ = false;
 };

@@ -60,10 +60,6 @@ class MovableObject {
   [[nodiscard]] RigidVelocity velocity() const { return velocity_of(*object_); }
   /// [1/kg] Of the object alone, reference_mass() of a link.
   [[nodiscard]] btScalar inverse_mass() const;
-  /// The share of another mass [kg] in the sum of both [-].
-  [[nodiscard]] btScalar share_of(btScalar mass) const {
-    return mass / (mass + 1 / inverse_mass());
-  }
   /// [m/s^2] That the world's gravity, or the forces on a link, give it.
   [[nodiscard]] btVector3 gravity() const;
   void activate() const;

@@ -12,16 +12,16 @@ namespace weft::bridge {
 namespace {
 
 /// A ball of 10 cm, over which waves come in a tenth of the step, and which cloth of its mass does not move.
-constexpr RigidEncounter kStill{btScalar(0.1), 0, 0, 0, btScalar(0.003), btScalar(0.5)};
+constexpr RigidEncounter kStill{btScalar(0.1), 0, 0, 0, btScalar(0.003), btScalar(5)};
 
 int substeps_of(const RigidEncounter& encounter, int last = 1) {
-  SubstepCount substeps(btScalar(1.0));
+  SubstepCount substeps(btScalar(1.0), btScalar(0.2));
   substeps.include(encounter);
   return substeps.count(last);
 }
 
 TEST(SubstepCount, IsOneForWhatLiesThere) {
-  EXPECT_EQ(SubstepCount(btScalar(1.0)).count(1), 1);
+  EXPECT_EQ(SubstepCount(btScalar(1.0), btScalar(0.2)).count(1), 1);
   RigidEncounter encounter = kStill;
   encounter.pushed = encounter.fall;
   encounter.closing = encounter.fall;
@@ -30,7 +30,7 @@ TEST(SubstepCount, IsOneForWhatLiesThere) {
 
 TEST(SubstepCount, FollowsASurfaceThatComesFar) {
   RigidEncounter encounter = kStill;
-  encounter.mass_share = 0;  // a heavy body
+  encounter.inverse_mass = 0;  // a heavy body
   encounter.closing = encounter.approach = btScalar(0.055);
   EXPECT_EQ(substeps_of(encounter), 3);  // 0.2 of 0.1 m in each
 }
@@ -47,13 +47,13 @@ TEST(SubstepCount, ResolvesTheWavesOfAnImpact) {
 TEST(SubstepCount, IsNoGreaterForABodyThatClothCannotStop) {
   RigidEncounter encounter = kStill;
   encounter.closing = btScalar(0.05);
-  encounter.mass_share = btScalar(0.01);
+  encounter.inverse_mass = btScalar(0.05);
   EXPECT_EQ(substeps_of(encounter), 1);
 }
 
 TEST(SubstepCount, DecreasesByHalfAndIsLimited) {
   EXPECT_EQ(substeps_of(kStill, 10), 5);
-  EXPECT_EQ(SubstepCount(btScalar(1.0)).count(10), 1);  // nothing is met any more
+  EXPECT_EQ(SubstepCount(btScalar(1.0), btScalar(0.2)).count(10), 1);  // nothing is met any more
   RigidEncounter encounter = kStill;
   encounter.closing = 1000;
   encounter.approach = 1000;
