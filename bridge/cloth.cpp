@@ -99,16 +99,16 @@ std::optional<std::string> Cloth::set(const forces::LawSpecification& law) {
     *place = law;
     all.erase(std::remove_if(place + 1, all.end(), is_replaced), all.end());
   }
-  return replace(std::move(all));
+  return replace(all);
 }
 
 std::optional<std::string> Cloth::remove(std::string_view law) {
   std::vector<forces::LawSpecification> all = laws();
   std::erase_if(all, [&](const forces::LawSpecification& other) { return other.law == law; });
-  return replace(std::move(all));
+  return replace(all);
 }
 
-std::optional<std::string> Cloth::replace(std::vector<forces::LawSpecification> laws) {
+std::optional<std::string> Cloth::replace(const std::vector<forces::LawSpecification>& laws) {
   if (!has_laws()) return "the body is " + std::string(name_of(state().status));
   const SoftBodySolver::Attachment& attachment = *solver_->find(*body_);
   if (attachment.blow_up) return "the body has blown up: " + attachment.blow_up->reason;

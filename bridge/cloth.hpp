@@ -89,7 +89,7 @@ class Cloth {
       : solver_(&solver), body_(&body), life_(std::move(life)) {}
   /// Whether the body is there and its laws are the solver's.
   [[nodiscard]] bool has_laws() const;
-  std::optional<std::string> replace(std::vector<forces::LawSpecification> laws);
+  std::optional<std::string> replace(const std::vector<forces::LawSpecification>& laws);
 
   SoftBodySolver* solver_ = nullptr;
   btSoftBody* body_ = nullptr;

@@ -92,7 +92,7 @@ void FastBody::begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int s
   for (Collider& collider : colliders_) {
     const MovableObject dynamic{collider.object};
     if (!dynamic) continue;
-    const btTransform start = rigid.start_of(dynamic);
+    const btTransform& start = rigid.start_of(dynamic);
     collider.pose = start * collider.object_pose.inverse() * collider.pose;
     collider.object_pose = start;
   }

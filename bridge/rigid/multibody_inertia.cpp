@@ -26,7 +26,7 @@ constexpr double kLeastMassShare = 0.01;
 constexpr double kLeastInertia = 1e-9;
 
 std::size_t at(int link) {
-  return static_cast<std::size_t>(link + 1);
+  return static_cast<std::size_t>(link) + 1;
 }
 
 Matrix3<double> rotation_of(const btQuaternion& q) {

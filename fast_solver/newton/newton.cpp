@@ -168,7 +168,7 @@ double ImplicitSolver<Scalar>::accelerate(const StepProblem<Scalar>& problem, do
   using Products = typename AndersonHistory<Scalar>::Products;
   anderson_.next();
   const Products products = sum_over_parts<Products>([this](NodeRange nodes) {
-    const Products of_part = anderson_.add(nodes, last_positions_, positions_, last_results_);
+    Products of_part = anderson_.add(nodes, last_positions_, positions_, last_results_);
     const int count = nodes.end - nodes.begin;
     last_results_.middleRows(nodes.begin, count) = positions_.middleRows(nodes.begin, count);
     return of_part;

@@ -23,8 +23,10 @@ GpuMesh::GpuMesh(const GlFunctions& gl) : gl_(&gl) {
                     {3, offsetof(SurfaceVertex, extra)}};
   for (GLuint i = 0; i < std::size(attributes); ++i) {
     gl.EnableVertexAttribArray(i);
-    gl.VertexAttribPointer(i, attributes[i].size, GL_FLOAT, GL_FALSE, sizeof(SurfaceVertex),
-                           reinterpret_cast<const void*>(attributes[i].offset));
+    gl.VertexAttribPointer(
+        i, attributes[i].size, GL_FLOAT, GL_FALSE, sizeof(SurfaceVertex),
+        // OpenGL takes offsets as pointers.
+        reinterpret_cast<const void*>(attributes[i].offset));  // NOLINT(performance-no-int-to-ptr)
   }
 }
 
