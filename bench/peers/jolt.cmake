@@ -1,0 +1,16 @@
+if(NOT EXISTS "${WEFT_JOLT_DIR}/Build/CMakeLists.txt")
+  message(FATAL_ERROR "WEFT_JOLT_DIR is ${WEFT_JOLT_DIR}, which has no Build/CMakeLists.txt; expected the sources of Jolt Physics")
+endif()
+foreach(one INTERPROCEDURAL_OPTIMIZATION ENABLE_ALL_WARNINGS GENERATE_DEBUG_SYMBOLS OVERRIDE_CXX_FLAGS ENABLE_INSTALL
+        DEBUG_RENDERER_IN_DEBUG_AND_RELEASE PROFILER_IN_DEBUG_AND_RELEASE JPH_USE_VK)
+  set(${one} OFF CACHE BOOL "" FORCE)
+endforeach()
+set(CPP_EXCEPTIONS_ENABLED ON CACHE BOOL "" FORCE)
+set(CPP_RTTI_ENABLED ON CACHE BOOL "" FORCE)
+add_subdirectory("${WEFT_JOLT_DIR}/Build" "${PROJECT_BINARY_DIR}/bench/jolt" EXCLUDE_FROM_ALL)
+# Its headers are another house's.
+get_target_property(jolt_includes Jolt INTERFACE_INCLUDE_DIRECTORIES)
+target_include_directories(weft-bench-peers SYSTEM PRIVATE ${jolt_includes})
+target_sources(weft-bench-peers PRIVATE peers/jolt.cpp)
+target_compile_definitions(weft-bench-peers PRIVATE WEFT_WITH_JOLT)
+target_link_libraries(weft-bench-peers PRIVATE Jolt)
