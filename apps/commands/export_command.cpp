@@ -9,6 +9,8 @@
 #include <CLI/CLI.hpp>
 
 #include <weft/core/error.hpp>
+#include <weft/playback/exchange/point_cache_export.hpp>
+#include <weft/playback/exchange/vtp_export.hpp>
 #include <weft/playback/export/cloth_energy.hpp>
 #include <weft/playback/export/player_page.hpp>
 #include <weft/playback/rendering/image.hpp>
@@ -35,6 +37,8 @@ struct ExportOptions {
   std::string page;
   std::string player;
   std::string error;
+  std::string pc2;
+  std::string vtp;
 };
 
 /// The next 1, 2 or 5 times a power of ten that is not larger.
@@ -102,9 +106,55 @@ void write_page(const output::OutputFile& output,
   print("{}: {:.2f} MB\n", output.path().string(), 1e-6 * static_cast<double>(html.size()));
 }
 
+/// Writes OBJ files with point caches.
+void write_point_caches(const scenes::RecordingReader& reader, const ExportOptions& options) {
+  const output::OutputFolder folder = scenes::point_cache_folder(options.pc2);
+  scenes::PointCacheReport report;
+  {
+    ProgressBar progress("pc2");
+    report =
+        scenes::export_point_caches(reader, folder, [&](double part) { progress.update(part); });
+  }
+  print("{}: {} bodies, {} samples {:.6g} s apart; positions rounded by at most {:.3g} m\n",
+        options.pc2, report.num_bodies, report.num_samples, report.frame_interval,
+        report.largest_rounding);
+}
+
+void write_vtp_series(const scenes::RecordingReader& reader, const ExportOptions& options) {
+  const output::OutputFolder folder = scenes::vtp_folder(options.vtp);
+  ProgressBar progress("vtp");
+  const int files =
+      scenes::export_vtp_series(reader, folder, [&](double part) { progress.update(part); });
+  print("{}: {} VTP files and series.pvd\n", options.vtp, files);
+}
+
+/// Files for other programs, of one recording.
+int export_files(const ExportOptions& options) {
+  if (!options.page.empty() || !options.player.empty()) {
+    throw InvalidArgument("export: --pc2 or --vtp with a page, expected one or the other");
+  }
+  if (options.recordings.size() != 1) {
+    throw InvalidArgument(fmt::format("export: {} recordings with --pc2 or --vtp, expected one",
+                                      options.recordings.size()));
+  }
+  const std::string& file = options.recordings.front();
+  const scenes::RecordingReader reader(file);
+  if (reader.num_frames() == 0) throw Error(file + ": has no frame to export");
+  note_if_partial(reader, file);
+  try {
+    if (!options.pc2.empty()) write_point_caches(reader, options);
+  } catch (const scenes::UnfitForPointCache& error) {
+    throw Error(file + ": " + error.what());
+  }
+  if (!options.vtp.empty()) write_vtp_series(reader, options);
+  return kOk;
+}
+
 int export_pages(const ExportOptions& options) {
   if (options.page.empty() && options.player.empty()) {
-    throw InvalidArgument("export: expected --html OUT.html RECORDING, or --player OUT.html");
+    throw InvalidArgument(
+        "export: expected --html OUT.html RECORDING, --player OUT.html, --pc2 FOLDER "
+        "RECORDING or --vtp FOLDER RECORDING");
   }
   if (options.page.empty() != options.recordings.empty()) {
     throw InvalidArgument(options.page.empty()
@@ -130,7 +180,7 @@ int export_pages(const ExportOptions& options) {
 
 Action add_export_command(CLI::App& parser) {
   CLI::App* command = parser.add_subcommand(
-      "export", "Write a page that plays recordings in any browser, without a network");
+      "export", "Write a page that plays recordings in any browser, or files for other programs");
   auto options = std::make_shared<ExportOptions>();
   command->add_option("RECORDING", options->recordings,
                       "Recordings made by `weft run`; several are played together");
@@ -140,7 +190,18 @@ Action add_export_command(CLI::App& parser) {
   command->add_option("--error", options->error,
                       "By how much rounding may move a coordinate, e.g. \"0.01 mm\" (default: "
                       "1/100,000 of the largest cloth, rounded down)");
-  return [options] { return export_pages(*options); };
+  command->add_option(
+      "--pc2", options->pc2,
+      "Folder to write: BODY.obj at rest and BODY.pc2, its positions in each frame, "
+      "as Blender's modifier Mesh Cache reads them");
+  command->add_option(
+      "--vtp", options->vtp,
+      "Folder to write: a VTP file for each body and frame with velocity, mass, pins "
+      "and strain, and series.pvd with the times, as ParaView reads them");
+  return [options] {
+    const bool for_programs = !options->pc2.empty() || !options->vtp.empty();
+    return for_programs ? export_files(*options) : export_pages(*options);
+  };
 }
 
 }  // namespace weft::app

@@ -73,5 +73,26 @@ check "the player" exits 0 export --player player.html
 check "the player has no recording" test "$(wc -c <player.html)" -lt "$(wc -c <page.html)"
 check "over a page" exits 0 export --player page.html
 
+# Files for other programs
+check "pc2" exits 0 export --pc2 caches hang.weftrec
+check "pc2: says spacing and rounding" grep -q "s apart; positions rounded by at most" out
+check "pc2: writes a cache and its mesh" test -s caches/cloth.pc2 -a -s caches/cloth.obj
+check "pc2: its own folder again" exits 0 export --pc2 caches hang.weftrec
+check "vtp" exits 0 export --vtp series hang.weftrec
+check "vtp: writes the times" test -s series/series.pvd
+mkdir other && echo mine >other/cloth.pc2
+check "pc2: another folder" exits 2 export --pc2 other hang.weftrec
+check "pc2: another folder stays" test "$(cat other/cloth.pc2)" = mine
+check "pc2: two recordings" exits 2 export --pc2 two hang.weftrec hang.weftrec
+check "pc2: two recordings: says so" one_line "2 recordings with --pc2 or --vtp, expected one"
+check "pc2 with a page" exits 2 export --pc2 two --html two.html hang.weftrec
+"$weft" run tear --duration "1 s" -o tear.weftrec >out 2>err  # not in a build without Bullet
+if [ -s tear.weftrec ]; then
+  check "pc2: a torn cloth" exits 2 export --pc2 torn tear.weftrec
+  check "pc2: a torn cloth: says when" one_line "tear.weftrec: cloth '.*' is torn at t = "
+  check "pc2: a torn cloth: writes nothing" test ! -e torn/sheet.pc2
+  check "vtp: a torn cloth" exits 0 export --vtp torn_series tear.weftrec
+fi
+
 echo "$checks checks, $failures failed"
 [ "$failures" -eq 0 ]

@@ -1,0 +1,98 @@
+#include <weft/playback/exchange/point_cache_export.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <weft/core/error.hpp>
+#include <weft/playback/exchange/exchange_body.hpp>
+#include <weft/playback/exchange/obj_file.hpp>
+#include <weft/playback/exchange/point_cache.hpp>
+
+namespace weft::scenes {
+namespace {
+
+/// Largest departure of a frame's time from equal spacing, as a part of the spacing: Bullet rounds its steps.
+constexpr double kTimeTolerance = 1e-2;
+
+constexpr std::string_view kNoOldFile = "weft.obj";  // folders without Weft's mark are never ours
+
+bool is_own(std::string_view) {
+  return false;
+}
+
+double frame_interval(const RecordingReader& reader) {
+  const int last = reader.num_frames() - 1;
+  if (last < 1) return reader.scene().world.frame_interval;
+  const double first = reader.frame_time(0);
+  const double interval = (reader.frame_time(last) - first) / last;
+  for (int frame = 1; frame < last; ++frame) {
+    const double expected = first + frame * interval;
+    if (std::abs(reader.frame_time(frame) - expected) <= kTimeTolerance * interval) continue;
+    throw UnfitForPointCache(
+        fmt::format("frame {} is at t = {:.6g} s, expected {:.6g} s: a point cache has "
+                    "equally spaced frames only (weft export --vtp has times)",
+                    frame, reader.frame_time(frame), expected));
+  }
+  return interval;
+}
+
+void check_cloth(const ClothState& cloth, int frame, double time) {
+  if (cloth.topology) {
+    throw UnfitForPointCache(
+        fmt::format("cloth '{}' is torn at t = {:.6g} s, expected the same points in every "
+                    "frame (weft trim --to keeps those before, weft export --vtp all)",
+                    cloth.name, time));
+  }
+  for (Eigen::Index i = 0; i < cloth.positions.cols(); ++i) {
+    if (cloth.positions.col(i).allFinite()) continue;
+    throw UnfitForPointCache(
+        fmt::format("frame {}, t = {:.6g} s: position of node {} of cloth '{}' is not "
+                    "finite, expected finite ones (weft trim --to keeps those before)",
+                    frame, time, i, cloth.name));
+  }
+}
+
+}  // namespace
+
+output::OutputFolder point_cache_folder(const std::filesystem::path& path) {
+  return {path, kNoOldFile, {"a point cache of Weft", is_own}};
+}
+
+PointCacheReport export_point_caches(const RecordingReader& reader,
+                                     const output::OutputFolder& folder,
+                                     const std::function<void(double)>& on_progress) {
+  PointCacheReport report;
+  report.frame_interval = frame_interval(reader);
+  report.num_samples = reader.num_frames();
+  const std::vector<ExchangeBody> bodies = exchange_bodies(reader.scene());
+  std::vector<PointCache> caches(bodies.size());
+  for (int frame = 0; frame < reader.num_frames(); ++frame) {
+    const SceneState state = reader.frame(frame);
+    for (const ClothState& cloth : state.cloths) check_cloth(cloth, frame, state.time);
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const Matrix3X<double> exact = world_positions(bodies[b], state);
+      const Eigen::Matrix3Xf rounded = exact.cast<float>();
+      const double error = (rounded.cast<double>() - exact).cwiseAbs().maxCoeff();
+      if (!std::isfinite(error)) {
+        throw UnfitForPointCache(
+            fmt::format("frame {}, t = {:.6g} s: body '{}' is not at a finite place in "
+                        "single precision, expected one",
+                        frame, state.time, bodies[b].name));
+      }
+      report.largest_rounding = std::max(report.largest_rounding, error);
+      caches[b].samples.push_back(rounded);
+    }
+    if (on_progress) on_progress((frame + 1.0) / reader.num_frames());
+  }
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    folder.write(bodies[b].file_name + ".obj", obj_text(bodies[b].name, bodies[b].mesh));
+    folder.write(bodies[b].file_name + ".pc2", encode_point_cache(caches[b]));
+  }
+  report.num_bodies = static_cast<int>(bodies.size());
+  return report;
+}
+
+}  // namespace weft::scenes
