@@ -43,7 +43,7 @@ void check_cloth(const ClothState& cloth, int frame, double time) {
   if (cloth.topology) {
     throw UnfitForPointCache(
         fmt::format("cloth '{}' is torn at t = {:.6g} s, expected the same points in every "
-                    "frame (weft trim --to keeps those before, weft export --vtp all)",
+                    "frame (weft export --vtp writes cloths that tear)",
                     cloth.name, time));
   }
   for (Eigen::Index i = 0; i < cloth.positions.cols(); ++i) {
