@@ -1,0 +1,119 @@
+#include <weft/scenes/snapshot/snapshot.hpp>
+
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <weft/core/error.hpp>
+#include <weft/engines/engine_table.hpp>
+#include <weft/scenes/catalog.hpp>
+#include <weft/scenes/format/scene_file.hpp>
+
+namespace weft::scenes {
+namespace {
+
+// A part of a run is enough: what a snapshot forgets shows in the next step or the one after it.
+constexpr int kStepsBefore = 40;
+constexpr int kStepsAfter = 12;
+
+std::vector<unsigned char> bytes_of(const SceneState& state) {
+  std::vector<unsigned char> bytes;
+  const auto add = [&](const double* numbers, Eigen::Index count) {
+    const auto* const first = reinterpret_cast<const unsigned char*>(numbers);
+    bytes.insert(bytes.end(), first, first + count * static_cast<Eigen::Index>(sizeof(double)));
+  };
+  add(&state.time, 1);
+  for (const ClothState& cloth : state.cloths) {
+    add(cloth.positions.data(), cloth.positions.size());
+    add(cloth.velocities.data(), cloth.velocities.size());
+  }
+  for (const RigidState& rigid : state.rigids) {
+    add(rigid.position.data(), 3);
+    add(rigid.orientation.coeffs().data(), 4);
+    add(rigid.velocity.data(), 3);
+    add(rigid.angular_velocity.data(), 3);
+  }
+  return bytes;
+}
+
+using States = std::vector<std::vector<unsigned char>>;
+
+States go_on(Simulator& engine, const Scene& scene, int num_steps) {
+  States states;
+  for (int i = 0; i < num_steps; ++i) {
+    (void)engine.step(scene.world.time_step);
+    states.push_back(bytes_of(engine.state()));
+  }
+  return states;
+}
+
+/// The first step whose state differs, or -1.
+int first_difference(const States& a, const States& b) {
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    if (a[i] != b[i]) return static_cast<int>(i);
+  }
+  return a.size() == b.size() ? -1 : static_cast<int>(std::min(a.size(), b.size()));
+}
+
+Resumable& resumable(Simulator& engine) {
+  return dynamic_cast<Resumable&>(engine);
+}
+
+bool can_resume(const EngineInfo& engine) {
+  return dynamic_cast<Resumable*>(engine.make().get()) != nullptr;
+}
+
+struct Run {
+  EngineInfo engine;
+  std::string scene;
+};
+
+std::vector<Run> runs() {
+  std::vector<Run> list;
+  for (const EngineInfo& engine : engine_table()) {
+    if (!can_resume(engine)) continue;
+    for (const CatalogEntry& entry : scene_catalog()) {
+      const Scene scene = load_scene(std::string(entry.name));
+      if (is_for_engine(scene, engine.name)) list.push_back({engine, scene.name});
+    }
+  }
+  return list;
+}
+
+class EveryRun : public testing::TestWithParam<Run> {};
+
+TEST_P(EveryRun, GoesOnWithTheSameBits) {
+  const auto& [info, name] = GetParam();
+  const Scene scene = with_step_of(load_scene(name), info.name);
+  const std::unique_ptr<Simulator> engine = info.make();
+  try {
+    engine->load(scene);
+  } catch (const InvalidArgument& error) {
+    GTEST_SKIP() << error.what();
+  }
+  for (int i = 0; i < kStepsBefore; ++i) (void)engine->step(scene.world.time_step);
+  const Snapshot snapshot = resumable(*engine).save();
+  const States first = go_on(*engine, scene, kStepsAfter);
+
+  resumable(*engine).restore(snapshot);
+  EXPECT_EQ(engine->state().time, snapshot.time);
+  EXPECT_EQ(first_difference(first, go_on(*engine, scene, kStepsAfter)), -1) << "coming back";
+
+  const std::unique_ptr<Simulator> fresh = info.make();
+  fresh->load(scene);
+  resumable(*fresh).restore(snapshot);
+  EXPECT_EQ(first_difference(first, go_on(*fresh, scene, kStepsAfter)), -1) << "a new engine";
+}
+
+std::string name_of(const testing::TestParamInfo<Run>& run) {
+  return std::string(run.param.engine.name) + "_" + run.param.scene;
+}
+
+INSTANTIATE_TEST_SUITE_P(Snapshots, EveryRun, testing::ValuesIn(runs()), name_of);
+
+}  // namespace
+}  // namespace weft::scenes
