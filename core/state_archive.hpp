@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <weft/core/types.hpp>
@@ -29,7 +30,13 @@ namespace weft {
 /// another part or has another size than the object expects throws Error, which says where.
 class StateArchive {
  public:
-  [[nodiscard]] static StateArchive writer() { return {}; }
+  /// memory: to write to, whatever was in it.
+  [[nodiscard]] static StateArchive writer(std::vector<std::byte> memory = {}) {
+    StateArchive archive;
+    archive.written_ = std::move(memory);
+    archive.written_.clear();
+    return archive;
+  }
   /// bytes must outlive the reader.
   [[nodiscard]] static StateArchive reader(std::span<const std::byte> bytes);
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include <weft/core/state_archive.hpp>
 #include <weft/fast_solver/coarse/coarse_correction.hpp>
 #include <weft/fast_solver/linked_body.hpp>
 #include <weft/fast_solver/network/network_forces.hpp>
@@ -96,6 +97,11 @@ class ImplicitSolver : TeamLoops {
   [[nodiscard]] const SolverReport& report() const { return report_; }
   /// After solve(): the root mean square residual over that of the initial guess [-].
   [[nodiscard]] double residual() const { return residual_; }
+
+  /// Nodes that were kinematic in the last step, ascending.
+  [[nodiscard]] const std::vector<int>& kinematic_nodes() const { return kinematic_; }
+  /// What a step knows of the one before: the contact states. For a solver of the same network and free nodes.
+  void serialize(StateArchive& archive);
 
  private:
   using Floats = NodeArrays<float>;
