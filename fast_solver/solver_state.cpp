@@ -12,6 +12,7 @@ void ImplicitSolver<Scalar>::serialize(StateArchive& archive) {
   archive.part("implicit solver");
   archive.expect(num_nodes(), "number of nodes");
   archive.runs(std::span(contact_states_).first(static_cast<std::size_t>(num_nodes())));
+  anderson_.restart();
   if (!archive.is_reading()) return;
   const bool are_known =
       std::all_of(contact_states_.begin(), contact_states_.end(), [](ContactState state) {

@@ -1,8 +1,9 @@
 #include <weft/scenes/snapshot/snapshot.hpp>
 
+#include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,9 @@ namespace weft::scenes {
 namespace {
 
 // A part of a run is enough: what a snapshot forgets shows in the next step or the one after it.
-constexpr int kStepsBefore = 40;
 constexpr int kStepsAfter = 12;
+constexpr int kStepsBetween = 50;
+constexpr int kSnapshots = 3;
 
 std::vector<unsigned char> bytes_of(const SceneState& state) {
   std::vector<unsigned char> bytes;
@@ -67,9 +69,19 @@ bool can_resume(const EngineInfo& engine) {
   return dynamic_cast<Resumable*>(engine.make().get()) != nullptr;
 }
 
+/// More of them, for a longer look by hand.
+int num_snapshots() {
+  const char* const number = std::getenv("WEFT_TEST_SNAPSHOTS");
+  return number != nullptr ? std::max(1, std::atoi(number)) : kSnapshots;
+}
+
 struct Run {
   EngineInfo engine;
   std::string scene;
+
+  friend void PrintTo(const Run& run, std::ostream* out) {
+    *out << run.engine.name << " " << run.scene;
+  }
 };
 
 std::vector<Run> runs() {
@@ -86,6 +98,7 @@ std::vector<Run> runs() {
 
 class EveryRun : public testing::TestWithParam<Run> {};
 
+// Each snapshot is taken in a run that went on from the one before.
 TEST_P(EveryRun, GoesOnWithTheSameBits) {
   const auto& [info, name] = GetParam();
   const Scene scene = with_step_of(load_scene(name), info.name);
@@ -95,18 +108,22 @@ TEST_P(EveryRun, GoesOnWithTheSameBits) {
   } catch (const InvalidArgument& error) {
     GTEST_SKIP() << error.what();
   }
-  for (int i = 0; i < kStepsBefore; ++i) (void)engine->step(scene.world.time_step);
-  const Snapshot snapshot = resumable(*engine).save();
-  const States first = go_on(*engine, scene, kStepsAfter);
+  for (int s = 0; s < num_snapshots(); ++s) {
+    const Snapshot snapshot = resumable(*engine).save();
+    const States first = go_on(*engine, scene, kStepsAfter);
 
-  resumable(*engine).restore(snapshot);
-  EXPECT_EQ(engine->state().time, snapshot.time);
-  EXPECT_EQ(first_difference(first, go_on(*engine, scene, kStepsAfter)), -1) << "coming back";
+    resumable(*engine).restore(snapshot);
+    EXPECT_EQ(engine->state().time, snapshot.time);
+    EXPECT_EQ(first_difference(first, go_on(*engine, scene, kStepsAfter)), -1)
+        << "coming back to step " << snapshot.step;
 
-  const std::unique_ptr<Simulator> fresh = info.make();
-  fresh->load(scene);
-  resumable(*fresh).restore(snapshot);
-  EXPECT_EQ(first_difference(first, go_on(*fresh, scene, kStepsAfter)), -1) << "a new engine";
+    const std::unique_ptr<Simulator> fresh = info.make();
+    fresh->load(scene);
+    resumable(*fresh).restore(snapshot);
+    EXPECT_EQ(first_difference(first, go_on(*fresh, scene, kStepsAfter)), -1)
+        << "a new engine at step " << snapshot.step;
+    for (int i = 0; i < kStepsBetween; ++i) (void)engine->step(scene.world.time_step);
+  }
 }
 
 std::string name_of(const testing::TestParamInfo<Run>& run) {
