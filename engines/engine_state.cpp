@@ -80,7 +80,12 @@ const Scene& LoadedScene::scene() const {
 }
 
 const std::shared_ptr<const std::string>& LoadedScene::text() {
-  if (!text_) text_ = std::make_shared<const std::string>(write_scene(scene()));
+  if (!text_) {
+    Scene endless = scene();  // a run may be gone on with for longer, and recorded in other frames
+    endless.world.duration = 0;
+    endless.world.frame_interval = 0;
+    text_ = std::make_shared<const std::string>(write_scene(endless));
+  }
   return text_;
 }
 

@@ -30,6 +30,7 @@ class LoadedScene {
 
   /// Throws Error before a scene is loaded.
   [[nodiscard]] const Scene& scene() const;
+  /// Without its duration and its frames, which change no step.
   [[nodiscard]] const std::shared_ptr<const std::string>& text();
   /// Throws Error for a snapshot of another engine, precision or scene.
   void check(const Snapshot& snapshot, std::string_view engine, std::string_view precision);

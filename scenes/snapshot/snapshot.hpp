@@ -15,7 +15,7 @@ struct Snapshot {
   std::string precision;  ///< "float32", "float64"
   int step = 0;           ///< steps taken
   double time = 0.0;      ///< [s] of the engine
-  /// As write_scene() gives it, of the scene that was loaded. Snapshots of one run share it.
+  /// As write_scene() gives it, of the scene that was loaded, without duration and frames. Snapshots of one run share it.
   std::shared_ptr<const std::string> scene;
   std::vector<std::byte> state;
 
