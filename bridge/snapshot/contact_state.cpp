@@ -62,6 +62,11 @@ void serialize_starts(StateArchive& archive, std::size_t num, std::size_t most,
 void NodeGroups::serialize(StateArchive& archive, int num_nodes) {
   static_assert(kLargest <= 0xff);
   archive.part("groups of nodes");
+  if (static_cast<int>(nodes_.size()) !=
+      num_nodes) {  // of a body before it tore: made anew at their next use
+    nodes_.clear();
+    starts_.clear();
+  }
   serialize_order(archive, num_nodes, nodes_);
   serialize_starts(archive, nodes_.size(), kLargest, starts_);
 }

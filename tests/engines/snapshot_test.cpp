@@ -12,7 +12,8 @@
 #include <weft/core/error.hpp>
 #include <weft/engines/engine_table.hpp>
 #include <weft/scenes/catalog.hpp>
-#include <weft/scenes/format/scene_file.hpp>
+#include <weft/scenes/live_laws.hpp>
+#include <weft/scenes/steering.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -124,6 +125,107 @@ TEST_P(EveryRun, GoesOnWithTheSameBits) {
         << "a new engine at step " << snapshot.step;
     for (int i = 0; i < kStepsBetween; ++i) (void)engine->step(scene.world.time_step);
   }
+}
+
+// Nodes and springs come in the middle of a run: a snapshot of each step in which that happens.
+TEST(SnapshotOfATear, GoesOnWithTheSameBits) {
+  int num_tears = 0;
+  for (const EngineInfo& info : engine_table()) {
+    const Scene scene = with_step_of(load_scene("tear"), info.name);
+    if (!can_resume(info) || !is_for_engine(scene, info.name)) continue;
+    const std::unique_ptr<Simulator> engine = info.make();
+    engine->load(scene);
+    const std::unique_ptr<Simulator> fresh = info.make();
+    fresh->load(scene);
+    int num_of_engine = 0;
+    for (int step = 0; step < 2000 && num_of_engine < 3; ++step) {
+      const Eigen::Index before = engine->state().cloths[0].positions.cols();
+      (void)engine->step(scene.world.time_step);
+      if (engine->state().cloths[0].positions.cols() == before) continue;
+      ++num_of_engine;
+      const Snapshot snapshot = resumable(*engine).save();
+      resumable(*fresh).restore(snapshot);
+      EXPECT_EQ(
+          first_difference(go_on(*engine, scene, kStepsAfter), go_on(*fresh, scene, kStepsAfter)),
+          -1)
+          << info.name << " at step " << snapshot.step;
+    }
+    num_tears += num_of_engine;
+  }
+  if (can_resume(engine_table().front()) && engine_table().size() > 1) {
+    EXPECT_GT(num_tears, 0);
+  }
+}
+
+// Suspended, led and let go again.
+TEST(SnapshotOfALevelOfDetail, GoesOnWithTheSameBits) {
+  for (const EngineInfo& info : engine_table()) {
+    Scene scene = with_step_of(load_scene("caped_figure"), info.name);
+    if (!can_resume(info) || !is_for_engine(scene, info.name)) continue;
+    const double h = scene.world.time_step;
+    scene.controllers.emplace_back(Detail{.cloth = "cape",
+                                          .levels = {{10.5 * h, DetailLevel::kSimplified},
+                                                     {20.5 * h, DetailLevel::kSkin},
+                                                     {30.5 * h, DetailLevel::kFull}},
+                                          .blend = 8 * h});
+    const std::unique_ptr<Simulator> engine = info.make();
+    engine->load(scene);
+    const std::unique_ptr<Simulator> fresh = info.make();
+    fresh->load(scene);
+    for (int k = 0; k < 9; ++k) {
+      const Snapshot snapshot = resumable(*engine).save();
+      resumable(*fresh).restore(snapshot);
+      EXPECT_EQ(first_difference(go_on(*engine, scene, 5), go_on(*fresh, scene, 5)), -1)
+          << info.name << " at step " << snapshot.step;
+    }
+  }
+}
+
+// Other laws, as a window sets them.
+TEST(SnapshotOfOtherLaws, GoesOnWithTheSameBits) {
+  const Scene scene = load_scene("hang");
+  for (const EngineInfo& info : engine_table()) {
+    if (!can_resume(info) || !is_for_engine(scene, info.name)) continue;
+    const std::unique_ptr<Simulator> engine = info.make();
+    engine->load(scene);
+    (void)go_on(*engine, scene, 5);
+    std::vector<forces::LawSpecification> laws = scene.cloths[0].laws;
+    laws.push_back({"velocity_damping", {}, {{"rate", {2.0}}}});
+    dynamic_cast<LiveLaws&>(*engine).replace_laws(0, laws);
+    (void)go_on(*engine, scene, 5);
+    const Snapshot snapshot = resumable(*engine).save();
+    const std::unique_ptr<Simulator> fresh = info.make();
+    fresh->load(scene);
+    resumable(*fresh).restore(snapshot);
+    EXPECT_EQ(first_difference(go_on(*engine, scene, 5), go_on(*fresh, scene, 5)), -1) << info.name;
+  }
+}
+
+TEST(Snapshot, OfAnotherSceneOrEngineIsRefused) {
+  const EngineInfo& reference = *find_engine("reference", StoredPrecision::kFloat64);
+  const std::unique_ptr<Simulator> engine = reference.make();
+  EXPECT_THROW((void)resumable(*engine).save(), Error);
+  engine->load(load_scene("hang"));
+  Snapshot snapshot = resumable(*engine).save();
+  engine->load(load_scene("drop_box"));
+  EXPECT_THROW(resumable(*engine).restore(snapshot), Error);
+  engine->load(load_scene("hang"));
+  EXPECT_NO_THROW(resumable(*engine).restore(snapshot));
+  snapshot.engine = "bullet_weft";
+  EXPECT_THROW(resumable(*engine).restore(snapshot), Error);
+}
+
+class Silent final : public Controller {
+ public:
+  void steer(const SceneState&, double, Steering&) override {}
+};
+
+TEST(Snapshot, OfAControllerThatDoesNotSayWhatItKnowsIsRefused) {
+  const std::unique_ptr<Simulator> engine =
+      find_engine("reference", StoredPrecision::kFloat64)->make();
+  engine->set_controllers({std::make_shared<Silent>()});
+  engine->load(load_scene("hang"));
+  EXPECT_THROW((void)resumable(*engine).save(), InvalidArgument);
 }
 
 std::string name_of(const testing::TestParamInfo<Run>& run) {
