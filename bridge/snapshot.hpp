@@ -48,13 +48,11 @@ class Snapshot {
   [[nodiscard]] const std::vector<std::byte>& bytes() const { return bytes_; }
   [[nodiscard]] std::size_t size() const { return bytes_.size(); }  ///< [bytes]
 
-  /// Only writes, and leaves the world as it is: what goes on has other bits than what comes back, until renew() was called.
-  /// For a world whose torn bodies get their laws anew in between.
+  /// Only writes, and leaves the world as it is: what goes on may have other bits than what comes back.
+  /// For a world whose torn bodies get their laws anew, and that is restored then.
   void write(btSoftRigidDynamicsWorld& world, SoftBodySolver& solver);
-  /// Whether a body's solver has to be made again.
-  [[nodiscard]] static bool is_fresh(const SoftBodySolver& solver, const btSoftBody& body) {
-    return solver.is_fresh(body);
-  }
+  /// Whether a body's solver need not be made again.
+  [[nodiscard]] static bool is_fresh(const SoftBodySolver& solver, const btSoftBody& body);
 
  private:
   std::vector<std::byte> bytes_;

@@ -17,10 +17,7 @@
 #include <weft/mesh/cloth_mesh.hpp>
 #include <weft/mesh/position_limits.hpp>
 
-class btSoftRigidDynamicsWorld;
-
 namespace weft {
-class StateArchive;
 struct Tear;
 }  // namespace weft
 
@@ -28,11 +25,10 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
 class Cloth;
-class ObjectTable;
-class Snapshot;
 struct ContactEntry;
 class FastBody;
 struct TornLaws;
+class WorldState;
 
 /// Where the damping laws of a body act in Bullet's step: velocity-level laws (rotation_damping and
 /// the like) and inertia-level laws (acceleration_damping). A force-driven body wants them before
@@ -211,7 +207,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
 
  private:
   friend class Cloth;
-  friend class Snapshot;
+  friend class WorldState;
   explicit SoftBodySolver(const BulletLayout& caller);
   struct Attachment;
   struct Attachments;
@@ -220,9 +216,6 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   [[nodiscard]] ContactEntry* find_contact_entry(const btSoftBody& body) const;
   [[nodiscard]] ClothContact* find_contact(const btSoftBody& body) const;
   void settle_contact_velocities();
-  void serialize(StateArchive& archive, btSoftRigidDynamicsWorld& world);
-  void serialize(StateArchive& archive, const ObjectTable& objects, btSoftBody& body);
-  [[nodiscard]] bool is_fresh(const btSoftBody& body) const;
   void tell_of_each_other(btSoftBody& body, btSoftBody& other);
   [[nodiscard]] ContactEntry& contact_by_flag(btSoftBody& body);
   void notify_cloth(btSoftBody& body, btSoftBody& other);

@@ -6,7 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include <weft/core/state_archive.hpp>
 #include <weft/fast_solver/coarse/coarse_correction.hpp>
 #include <weft/fast_solver/linked_body.hpp>
 #include <weft/fast_solver/network/network_forces.hpp>
@@ -98,12 +97,8 @@ class ImplicitSolver : TeamLoops {
   /// After solve(): the root mean square residual over that of the initial guess [-].
   [[nodiscard]] double residual() const { return residual_; }
 
-  /// Nodes that were kinematic in the last step, ascending.
-  [[nodiscard]] const std::vector<int>& kinematic_nodes() const { return kinematic_; }
-  /// What a step knows of the one before: the contact states. For a solver of the same network and free nodes.
-  void serialize(StateArchive& archive);
-
  private:
+  friend struct SolverState;
   using Floats = NodeArrays<float>;
   using Nodes = NodeArrays<Scalar>;
   using Floats6 = Eigen::Matrix<float, 6, 1>;
@@ -200,6 +195,7 @@ class ImplicitSolver : TeamLoops {
   VectorX<Scalar> masses_;  ///< [kg], padded with zeros
   std::vector<bool> is_free_;
   std::vector<int> pinned_;
+  int num_changes_ = 0;         ///< of pins, kinematic nodes and springs
   std::vector<int> kinematic_;  ///< those of the last step, ascending
   std::vector<int> next_kinematic_;
   std::vector<int> constrained_;  ///< not kFree; ascending while linear systems are solved
@@ -214,13 +210,10 @@ class ImplicitSolver : TeamLoops {
   VectorX<Scalar> friction_bounds_;  ///< bound of each sliding node by Coulomb's law [N]
   VectorX<Scalar> weights_;          ///< inertia_ in Scalar
   // The present problem [m].
-  Nodes inertial_positions_;
-  Nodes start_positions_;
-  Nodes positions_;
+  Nodes inertial_positions_, start_positions_, positions_;
   Nodes residual_forces_;  ///< residual forces [N]
   Nodes constraint_forces_;
-  Nodes compensation_;
-  Nodes unmoved_;
+  Nodes compensation_, unmoved_;
   Nodes last_positions_;  ///< positions at the start of the iteration
   Nodes last_results_;    ///< result of the last iteration
   AndersonHistory<Scalar> anderson_;
@@ -240,13 +233,11 @@ class ImplicitSolver : TeamLoops {
   double work_left_ = 0;         ///< residual_forces_ . step_ [J]
   double residual_squares_ = 0;  ///< squared norm of residual_forces_ [N^2]
   double work_done_ = 0;         ///< work_left_ before the step was taken [J]
-  double residual_ = 0;
-  LinearGain last_gain_;  ///< gain of the last iteration
-  LinearGains gains_;     ///< of the last linear solve
+  LinearGain last_gain_;         ///< gain of the last iteration
+  LinearGains gains_;            ///< of the last linear solve
   SolverReport report_;
-  double step_energy_ = 0;
-  bool has_constraint_forces_ = false;
-  bool was_clamped_ = false;
+  double residual_ = 0, step_energy_ = 0;
+  bool has_constraint_forces_ = false, was_clamped_ = false;
   bool have_contact_states_changed_ = false;  ///< in the last iteration
 };
 

@@ -92,11 +92,6 @@ struct SoftBodySolver::Attachment {
   bool collide(const btCollisionObjectWrapper& object, HullTable& hulls, btScalar time_step);
   /// Forces, and what FastBody does with them.
   void predict(btScalar time_step);
-  /// For snapshots, once the body's nodes are as they shall be.
-  void serialize(StateArchive& archive, const ObjectTable& objects);
-  /// A solver that has no history, of the mesh and the laws that the body has. Throws Error for a body that
-  /// was torn and whose laws were not set since.
-  void renew_fast();
   void add_forces(btScalar time_step);
   [[nodiscard]] bool add_forces_node_by_node(btScalar time_step);
   void begin_forces();

@@ -45,7 +45,7 @@ void FastBody::set_rest_length(int first, int second, double rest_length) {
   fast::set_rest_length(first, second, rest_length, network_);
   fast::set_rest_length(first, second, rest_length, limited_.as_given);
   if (solver_) solver_->set_rest_length(first, second, rest_length);
-  ++num_new_rest_lengths_;
+  ++history_.num_new_rest_lengths;
   wake();
 }
 
@@ -53,7 +53,7 @@ void FastBody::set_rest_length(int first, int second, double rest_length) {
 void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>& is_changed,
                     VectorX<double> masses, const std::vector<int>& origins) {
   masses_ = std::move(masses);
-  is_fresh_ = false;
+  history_.is_replaced = true;
   set_num_nodes(masses_.size());
   if (solver_) {
     if (limited_.as_given.edges.cols() > 0) {
@@ -224,10 +224,7 @@ void FastBody::prepare_solver(const btSoftBody& body) {
 void FastBody::set_free(const std::vector<bool>& is_free) {
   const TraceScope trace("factorise");
   const fast::WorkerTeam::Pause pause(team_);  // workers would wait for long
-  if (solver_) {
-    is_fresh_ = false;
-    return solver_->set_free(is_free);
-  }
+  if (solver_) return solver_->set_free(is_free);
   fast::SpringNetwork limited = network_;
   limited_.step = limited_.asked_step;
   limit_stiffness(limited_.step, masses_, limited);
@@ -318,13 +315,11 @@ void FastBody::update_normals(btSoftBody& body) {
 void FastBody::solve(btSoftBody& body, btScalar time_step,
                      const fast::SolverSettings& solver_settings, bool is_again) {
   read_constraints(body, time_step, is_again);
-  const std::vector<int> led_before = solver_->kinematic_nodes();
   solver_->solve(
       {targets_, starts_, time_step, inertia_step_, plane_contacts_, kinematic_, pushed_.inertias(),
        bending_.empty() ? nullptr : &bending_, is_again, pushed_.couplings()},
       solver_settings, positions_, team_);
   pushed_.read_displacements(*solver_, time_step);
-  if (!led_before.empty() && led_before != solver_->kinematic_nodes()) is_fresh_ = false;
 }
 
 void FastBody::prepare(const btSoftBody& body) {

@@ -47,16 +47,12 @@ class FastBody : public NodeTeam {
            VectorX<double> masses, const FastSettings& settings);
 
   [[nodiscard]] const FastSettings& settings() const { return settings_; }
-  void set_settings(const FastSettings& settings) {
-    settings_ = settings;
-    wake();
-  }
+  void set_settings(const FastSettings& settings) { settings_ = settings, wake(); }
 
   /// The body has torn: springs that replace all that have an end among the changed nodes
   /// (flags), masses of all nodes [kg], the last of which are copies of the origins.
   void tear(const fast::SpringNetwork& springs, const std::vector<char>& is_changed,
             VectorX<double> masses, const std::vector<int>& origins);
-
   /// Another rest length [m], > 0, of the spring between two nodes; does nothing without such a spring.
   void set_rest_length(int first, int second, double rest_length);
   /// Laws of the body; those of bending follow the positions within a step. To be called before each step.
@@ -134,30 +130,13 @@ class FastBody : public NodeTeam {
   [[nodiscard]] btScalar velocity_step() const { return velocity_step_; }
   static constexpr int kMostRedetections = 2;  ///< how often redetect_contacts() is called
 
-  /// What a solver was made of beside springs and masses. A snapshot is restored into one of the same structure.
-  struct Structure {
-    bool has_solver = false;
-    std::vector<char> free_nodes;  ///< flags
-    std::vector<int> kinematic;    ///< nodes that anchors led in the last step
-    btScalar step = 0;             ///< [s] that stiffness is limited for
-    int num_new_rest_lengths = 0;  ///< set_rest_length()
-    void serialize(StateArchive& archive, int num_nodes);
-  };
-  [[nodiscard]] Structure structure() const;
-  /// Whether another solver that is made of the same would do the same: no pins, springs or masses have changed since.
-  [[nodiscard]] bool is_fresh() const { return is_fresh_; }
-  /// Whether a snapshot of this structure can be restored into the body: its solver would do the same, to the bit.
-  [[nodiscard]] bool fits(const Structure& stored) const;
-  /// What the next step knows of the last ones. Restores only if fits(stored); the body's nodes are restored before.
-  void serialize(StateArchive& archive, const Structure& stored, const ObjectTable& objects,
-                 const btSoftBody& body);
-
   /// With rigid objects, of the last step.
   [[nodiscard]] const std::vector<RigidContact>& contacts() const { return contacts_; }
   /// The largest over the substeps of a step.
   [[nodiscard]] const StepError& step_error() const { return step_error_; }
 
  private:
+  friend class FastBodyState;
   enum class Method { kImplicitEuler, kBdf2, kForces };
   /// Kinetic energy of a solution, and the most that what was there and was put in leaves to it [J].
   struct EnergyBalance {
@@ -169,8 +148,6 @@ class FastBody : public NodeTeam {
   [[nodiscard]] bool take_changed_positions(const btSoftBody& body);
   void prepare_solver(const btSoftBody& body);
   void set_free(const std::vector<bool>& is_free);
-  void make_solver(const Structure& stored);
-  void serialize_motion(StateArchive& archive, const btSoftBody& body);
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool may_use_forces(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] Method choose_method(const btSoftBody& body, btScalar time_step);
@@ -211,8 +188,7 @@ class FastBody : public NodeTeam {
   std::unique_ptr<fast::ImplicitSolver<btScalar>> solver_;
   std::vector<bool> is_free_;     ///< that solver_ knows
   std::vector<int> solver_pins_;  ///< likewise
-  bool is_fresh_ = true;
-  int num_new_rest_lengths_ = 0;
+  NetworkHistory history_;
   std::vector<int> pins_;  ///< of the present step
   BodySleep sleep_;
   Vector3<btScalar> origin_ = Vector3<btScalar>::Zero();  ///< that positions are counted from [m]

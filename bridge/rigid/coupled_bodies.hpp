@@ -11,6 +11,7 @@
 #include <weft/bridge/rigid/movable_object.hpp>
 #include <weft/bridge/rigid/multibody_inertia.hpp>
 #include <weft/bridge/rigid/rigid_motion.hpp>
+#include <weft/core/state_archive.hpp>
 #include <weft/fast_solver/implicit_solver.hpp>
 
 namespace weft::bridge {

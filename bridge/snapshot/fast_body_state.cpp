@@ -1,12 +1,10 @@
-// What a snapshot has of a fast body.
-// Tested by tests/bridge/snapshot_test.cpp, tests/engines/snapshot_test.cpp.
+#include <weft/bridge/snapshot/fast_body_state.hpp>
+
 #include <algorithm>
-#include <utility>
+#include <string>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
-#include <weft/bridge/implicit/fast_body.hpp>
 #include <weft/bridge/snapshot/bullet_state.hpp>
-#include <weft/bridge/snapshot/object_table.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -36,104 +34,106 @@ Matrix3X<btScalar> vectors_of(const btSoftBody& body) {
 
 }  // namespace
 
-void FastBody::Structure::serialize(StateArchive& archive, int num_nodes) {
+FastBodyState::FastBodyState(const FastBody& body)
+    : has_solver_(body.solver_ != nullptr),
+      num_new_rest_lengths_(body.history_.num_new_rest_lengths) {
+  if (!has_solver_) return;
+  free_nodes_.assign(body.is_free_.begin(), body.is_free_.end());
+  kinematic_ = fast::SolverState::kinematic_nodes(*body.solver_);
+  step_ = body.limited_.step;
+}
+
+void FastBodyState::serialize_structure(StateArchive& archive, const FastBody& body) {
   archive.part("structure");
-  archive.value(has_solver);
-  archive.value(num_new_rest_lengths);
-  if (!has_solver) return;
-  archive.value(step);
-  free_nodes.resize(static_cast<std::size_t>(num_nodes));
-  archive.runs(std::span(free_nodes));
-  archive.value(kinematic);
-}
-
-FastBody::Structure FastBody::structure() const {
-  Structure present;
-  present.has_solver = solver_ != nullptr;
-  present.num_new_rest_lengths = num_new_rest_lengths_;
-  if (!solver_) return present;
-  present.free_nodes.assign(is_free_.begin(), is_free_.end());
-  present.kinematic = solver_->kinematic_nodes();
-  present.step = limited_.step;
-  return present;
-}
-
-bool FastBody::fits(const Structure& stored) const {
-  if (!is_fresh_) return false;
-  if (!solver_) return true;
-  if (!stored.has_solver || stored.step != limited_.step) return false;
-  const bool are_nodes_alike = std::equal(
-      is_free_.begin(), is_free_.end(), stored.free_nodes.begin(), stored.free_nodes.end(),
-      [](bool is_free, char flag) { return is_free == (flag != 0); });
-  // A solver that has led no node yet begins to with the next step, as the one that was saved did.
-  const std::vector<int>& kinematic = solver_->kinematic_nodes();
-  return are_nodes_alike && (kinematic.empty() || kinematic == stored.kinematic);
-}
-
-void FastBody::make_solver(const Structure& stored) {
-  limited_.asked_step = stored.step;
-  is_free_.assign(stored.free_nodes.begin(), stored.free_nodes.end());
-  solver_pins_.clear();
-  for (std::size_t i = 0; i < is_free_.size(); ++i) {
-    if (!is_free_[i]) solver_pins_.push_back(static_cast<int>(i));
+  archive.value(has_solver_);
+  archive.value(num_new_rest_lengths_);
+  if (num_new_rest_lengths_ != body.history_.num_new_rest_lengths) {
+    archive.refuse("springs had other rest lengths, expected those that they have now");
   }
-  set_free(is_free_);
+  if (!has_solver_) return;
+  archive.value(step_);
+  free_nodes_.resize(static_cast<std::size_t>(body.masses_.size()));
+  archive.runs(std::span(free_nodes_));
+  archive.value(kinematic_);
 }
 
-void FastBody::serialize_motion(StateArchive& archive, const btSoftBody& body) {
-  for (int k = 0; k < 3; ++k) archive.value(origin_[k]);
-  archive.value(starts_);
-  archive.value(start_velocities_);
+bool FastBodyState::fits(const FastBody& body) const {
+  if (!is_fresh(body)) return false;
+  if (!body.solver_) return true;
+  if (!has_solver_ || step_ != body.limited_.step) return false;
+  const bool are_nodes_alike =
+      std::equal(body.is_free_.begin(), body.is_free_.end(), free_nodes_.begin(), free_nodes_.end(),
+                 [](bool is_free, char flag) { return is_free == (flag != 0); });
+  // A solver that has led no node yet begins to with the next step, as the one that was saved did.
+  const std::vector<int>& kinematic = fast::SolverState::kinematic_nodes(*body.solver_);
+  return are_nodes_alike && (kinematic.empty() || kinematic == kinematic_);
+}
+
+void FastBodyState::make_solver(FastBody& body) const {
+  body.limited_.asked_step = step_;
+  body.is_free_.assign(free_nodes_.begin(), free_nodes_.end());
+  body.solver_pins_.clear();
+  for (std::size_t i = 0; i < free_nodes_.size(); ++i) {
+    if (free_nodes_[i] == 0) body.solver_pins_.push_back(static_cast<int>(i));
+  }
+  body.set_free(body.is_free_);
+}
+
+void FastBodyState::serialize_motion(StateArchive& archive, const btSoftBody& nodes,
+                                     FastBody& body) {
+  for (int k = 0; k < 3; ++k) archive.value(body.origin_[k]);
+  archive.value(body.starts_);
+  archive.value(body.start_velocities_);
   serialize_derived(
       archive,
       [&]() -> Matrix3X<btScalar> {
-        return vectors_of<&btSoftBody::Node::m_x>(body).colwise() - origin_;
+        return vectors_of<&btSoftBody::Node::m_x>(nodes).colwise() - body.origin_;
       },
-      positions_);
+      body.positions_);
   serialize_derived(
-      archive, [&] { return vectors_of<&btSoftBody::Node::m_v>(body); }, left_velocities_);
-  const Eigen::Index num_nodes = masses_.size();
+      archive, [&] { return vectors_of<&btSoftBody::Node::m_v>(nodes); }, body.left_velocities_);
+  const Eigen::Index num_nodes = body.masses_.size();
   for (const Matrix3X<btScalar>* matrix :
-       {&starts_, &start_velocities_, &positions_, &left_velocities_}) {
+       {&body.starts_, &body.start_velocities_, &body.positions_, &body.left_velocities_}) {
     if (matrix->cols() <= num_nodes) continue;  // fewer: of steps before it tore
     archive.refuse("vectors of " + std::to_string(matrix->cols()) + " nodes, expected at most " +
                    std::to_string(num_nodes));
   }
 }
 
-void FastBody::serialize(StateArchive& archive, const Structure& stored, const ObjectTable& objects,
-                         const btSoftBody& body) {
+void FastBodyState::serialize(StateArchive& archive, const ObjectTable& objects,
+                              const btSoftBody& nodes, FastBody& body) const {
   archive.part("fast body");
-  const auto num_nodes = static_cast<int>(masses_.size());
+  const auto num_nodes = static_cast<int>(body.masses_.size());
   archive.expect(num_nodes, "number of nodes");
-  if (archive.is_reading() && stored.has_solver && !solver_) make_solver(stored);
-  serialize_motion(archive, body);
-  archive.value(limited_.asked_step);
-  archive.value(last_step_);
-  archive.value(last_spacing_);
-  archive.value(inertia_step_);
-  archive.value(velocity_step_);
-  archive.value(excess_);
-  archive.value(num_substeps_);
-  archive.value(step_error_.distance);
-  archive.value(step_error_.newton_iterations);
-  archive.value(step_error_.is_within_tolerance);
-  force_history_.serialize(archive, num_nodes);
-  sleep_.serialize(archive, objects);
-  pushed_.serialize(archive, objects);
-  pinches_.serialize(archive, num_nodes);
-  swept_.serialize(archive, num_nodes);
-  if (solver_) solver_->serialize(archive);
+  if (archive.is_reading() && has_solver_ && !body.solver_) make_solver(body);
+  serialize_motion(archive, nodes, body);
+  archive.value(body.limited_.asked_step);
+  archive.value(body.last_step_);
+  archive.value(body.last_spacing_);
+  archive.value(body.inertia_step_);
+  archive.value(body.velocity_step_);
+  archive.value(body.excess_);
+  archive.value(body.num_substeps_);
+  archive.value(body.step_error_.distance);
+  archive.value(body.step_error_.newton_iterations);
+  archive.value(body.step_error_.is_within_tolerance);
+  body.force_history_.serialize(archive, num_nodes);
+  body.sleep_.serialize(archive, objects);
+  body.pushed_.serialize(archive, objects);
+  body.pinches_.serialize(archive, num_nodes);
+  body.swept_.serialize(archive, num_nodes);
+  if (body.solver_) fast::SolverState::serialize(archive, *body.solver_);
   if (!archive.is_reading()) return;
-  contacts_.clear();
-  colliders_.clear();
-  impulses_.resize(3, 0);
-  sticking_points_ = {};  // those of links, which no snapshot has
-  led_links_ = {};
-  is_predicted_ = false;
-  has_normals_ = false;
-  is_contact_missing_ = false;
-  is_support_missing_ = false;
+  body.contacts_.clear();
+  body.colliders_.clear();
+  body.impulses_.resize(3, 0);
+  body.sticking_points_ = {};  // those of links, which no snapshot has
+  body.led_links_ = {};
+  body.is_predicted_ = false;
+  body.has_normals_ = false;
+  body.is_contact_missing_ = false;
+  body.is_support_missing_ = false;
 }
 
 void ForceHistory::serialize(StateArchive& archive, Eigen::Index num_nodes) {
