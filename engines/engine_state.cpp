@@ -98,8 +98,10 @@ void LoadedScene::check(const Snapshot& snapshot, std::string_view engine,
   const bool is_same =
       snapshot.scene && (snapshot.scene == text_ || *snapshot.scene == *this->text());
   if (!is_same) {
-    throw Error(fmt::format("snapshot: is of another scene, expected one of '{}' as it is loaded",
-                            scene().name));
+    throw Error(
+        fmt::format("snapshot: is of another scene, expected one of '{}' as it is loaded, but for "
+                    "its duration and frames",
+                    scene().name));
   }
 }
 

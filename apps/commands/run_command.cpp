@@ -280,6 +280,7 @@ int run(RunOptions options, const CommandLine& command_line) {
   if (resumed) {
     provenance["resumed_at_step"] = std::to_string(resumed->step);
     snapshots.resumed = &*resumed;
+    snapshots.resumed_file = options.resume;
   }
   if (snapshot) {
     if (!options.snapshot_at.empty()) {

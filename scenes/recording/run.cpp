@@ -93,6 +93,22 @@ int step_to_save(const RunSnapshots& snapshots, const World& world, int first_st
   return static_cast<int>(whole);
 }
 
+void resume(const RunSnapshots& snapshots, const World& world, int num_steps,
+            Simulator& simulator) {
+  const Snapshot& snapshot = *snapshots.resumed;
+  if (snapshot.step >= num_steps) {
+    throw InvalidArgument(fmt::format(
+        "{}: is the state after step {}, t = {:.6g} s, expected a run that lasts longer, not "
+        "{:.6g} s",
+        snapshots.resumed_file, snapshot.step, snapshot.time, num_steps * world.time_step));
+  }
+  try {
+    resumable(simulator).restore(snapshot);
+  } catch (const Error& error) {
+    throw InvalidArgument(snapshots.resumed_file + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 RunSummary record_run(Simulator& simulator, const Scene& scene, RecordingWriter& writer,
@@ -110,7 +126,7 @@ RunSummary record_run(Simulator& simulator, const Scene& scene, RecordingWriter&
   const int saved_step = step_to_save(snapshots, scene.world, step, num_steps);
   if (saved_step > 0) (void)resumable(simulator);  // before the run, not after it
   simulator.load(scene);
-  if (snapshots.resumed != nullptr) resumable(simulator).restore(*snapshots.resumed);
+  if (snapshots.resumed != nullptr) resume(snapshots, scene.world, num_steps, simulator);
   double written = simulator.state().time;  // [s] of the last frame
   write_frame(simulator, written, writer, summary);
   using Clock = std::chrono::steady_clock;

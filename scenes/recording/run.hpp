@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 #include <weft/scenes/recording/recording.hpp>
 #include <weft/scenes/simulator.hpp>
@@ -23,6 +24,7 @@ struct RunSummary {
 /// A run that begins with a snapshot, or leaves one.
 struct RunSnapshots {
   const Snapshot* resumed = nullptr;  ///< to begin with, in place of the scene's first state
+  std::string resumed_file = {};      ///< its name, for messages
   std::optional<double> save_at =
       std::nullopt;  ///< [s] the first step that ends then or later; none: after the last step
   std::function<void(const Snapshot&)> save =

@@ -48,6 +48,8 @@ fi
 "$weft" run hang -e reference --duration "0.2 s" --snapshot end.weftsnap -o end.weftrec > log 2>&1
 grep -q "end.weftsnap: state after step" log || fail "no word of the snapshot: $(cat log)"
 refuses "is of another scene" run drop_box -e reference --resume end.weftsnap -o other.weftrec
+refuses "expected a run that lasts longer" run hang -e reference --duration "0.2 s" --resume end.weftsnap -o other.weftrec
+refuses "end.weftsnap: snapshot: is of another scene" run hang -e reference --time-step "1/5000 s" --resume end.weftsnap -o other.weftrec
 refuses "is no snapshot" run hang --resume end.weftrec -o other.weftrec
 refuses "expected a time after" run hang -e reference --duration "0.2 s" --snapshot-at "3 s" -o other.weftrec
 head -c 2000 end.weftsnap > cut.weftsnap
