@@ -42,6 +42,8 @@ void bench_swing_truth(const Settings& settings);
 void bench_scenes_truth(const Settings& settings);
 /// A step of a character's cape at each level of detail.
 void bench_detail(const Settings& settings);
+/// Time and size of a snapshot, and a rollback of eight steps.
+void bench_snapshot(const Settings& settings);
 #endif
 
 }  // namespace weft::bench

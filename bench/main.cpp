@@ -32,6 +32,7 @@ int run(int argc, char** argv) {
   benches["threads"] = bench_threads;
   benches["explosions"] = bench_explosions;
   benches["detail"] = bench_detail;
+  benches["snapshot"] = bench_snapshot;
 #endif
   Settings settings{.folder = WEFT_SOURCE_DIR "/bench/results"};
   std::vector<std::string> names;

@@ -19,7 +19,7 @@
 
 namespace weft {
 struct Tear;
-}
+}  // namespace weft
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -28,6 +28,7 @@ class Cloth;
 struct ContactEntry;
 class FastBody;
 struct TornLaws;
+class WorldState;
 
 /// Where the damping laws of a body act in Bullet's step: velocity-level laws (rotation_damping and
 /// the like) and inertia-level laws (acceleration_damping). A force-driven body wants them before
@@ -206,6 +207,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
 
  private:
   friend class Cloth;
+  friend class WorldState;
   explicit SoftBodySolver(const BulletLayout& caller);
   struct Attachment;
   struct Attachments;

@@ -10,6 +10,7 @@
 #include <weft/bridge/cloth.hpp>
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/fast_settings.hpp>
+#include <weft/bridge/snapshot.hpp>
 #include <weft/bridge/soft_world.hpp>
 #include <weft/bridge/solver.hpp>
 #include <weft/bridge/step_error.hpp>

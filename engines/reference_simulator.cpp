@@ -5,6 +5,7 @@
 #include <weft/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
 #include <weft/engines/blow_up_check.hpp>
+#include <weft/engines/engine_state.hpp>
 #include <weft/engines/reference_tears.hpp>
 #include <weft/reference/contact/distance/mesh_surface.hpp>
 #include <weft/reference/solver.hpp>
@@ -17,7 +18,7 @@
 namespace weft::scenes {
 namespace {
 
-class ReferenceSimulator final : public Simulator, public LiveLaws {
+class ReferenceSimulator final : public Simulator, public LiveLaws, public Resumable {
  public:
   explicit ReferenceSimulator(LawFilter filter) : filter_(std::move(filter)) {}
 
@@ -25,13 +26,17 @@ class ReferenceSimulator final : public Simulator, public LiveLaws {
   [[nodiscard]] StepReport step(double time_step) override;
   [[nodiscard]] const SceneState& state() const override { return state_; }
   void replace_laws(std::size_t cloth, const std::vector<forces::LawSpecification>& laws) override;
+  [[nodiscard]] Snapshot save() override;
+  void restore(const Snapshot& snapshot) override;
 
  private:
+  void serialize(StateArchive& archive);
   void begin_step(const Steering& steering, double time_step);
   void end_step(const Steering& steering, double time_step);
   void read_state();
 
   LawFilter filter_;
+  LoadedScene loaded_;
   std::vector<Cloth> cloths_;  ///< as loaded
   std::unique_ptr<reference::SpringSolver> solver_;
   ReferenceTears tears_;
@@ -157,6 +162,7 @@ reference::GuardPolicy to_reference(StepGuard guard) {
 }
 
 void ReferenceSimulator::load(const Scene& scene) {
+  loaded_ = LoadedScene(scene);
   reference::System system;
   system.gravity = scene.world.gravity;
   const bool faces = scene.reference.contact_points == ContactPoints::kNodesAndFaces;
@@ -201,6 +207,37 @@ void ReferenceSimulator::replace_laws(std::size_t cloth,
   body.velocities = now.velocities;
   solver_->replace_body(cloth, std::move(body));
   cloths_[cloth] = std::move(changed);
+}
+
+void ReferenceSimulator::serialize(StateArchive& archive) {
+  scenes::serialize(archive, report_);
+  for (std::size_t c = 0; c < cloths_.size(); ++c) {
+    std::vector<forces::LawSpecification> laws = cloths_[c].laws;
+    scenes::serialize(archive, laws);
+    if (archive.is_reading() && !are_same(laws, cloths_[c].laws)) replace_laws(c, laws);
+  }
+  tears_.serialize(archive, *solver_);
+  solver_->serialize(archive);
+  director_.serialize(archive);
+}
+
+Snapshot ReferenceSimulator::save() {
+  StateArchive archive = StateArchive::writer();
+  Snapshot snapshot{"reference", "float64", report_.step, state_.time, loaded_.text(), {}};
+  serialize(archive);
+  snapshot.state = archive.take();
+  return snapshot;
+}
+
+void ReferenceSimulator::restore(const Snapshot& snapshot) {
+  loaded_.check(snapshot, "reference", "float64");
+  const LoadedScene loaded = loaded_;
+  load(loaded.scene());
+  loaded_ = loaded;
+  StateArchive archive = StateArchive::reader(snapshot.state);
+  serialize(archive);
+  archive.end();
+  read_state();
 }
 
 void ReferenceSimulator::begin_step(const Steering& steering, double time_step) {

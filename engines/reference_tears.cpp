@@ -53,6 +53,18 @@ void ReferenceTears::tear(reference::SpringSolver& solver) {
   }
 }
 
+void ReferenceTears::serialize(StateArchive& archive, reference::SpringSolver& solver) {
+  archive.part("tears");
+  for (Entry& entry : entries_) {
+    const TornCloth loaded = entry.torn;
+    entry.torn.serialize(archive);
+    if (!archive.is_reading() || entry.torn.topology() == loaded.topology()) continue;
+    const TornCloth torn = std::exchange(entry.torn, loaded);
+    apply(torn.tear_since(loaded), entry, solver);
+    entry.torn = torn;
+  }
+}
+
 std::shared_ptr<const ClothTopology> ReferenceTears::topology(std::size_t cloth) const {
   for (const Entry& entry : entries_) {
     if (entry.cloth == cloth) return entry.torn.topology();

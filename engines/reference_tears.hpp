@@ -23,6 +23,8 @@ class ReferenceTears {
   void make_first_cuts(reference::SpringSolver& solver);
   /// Tears what is beyond its limit now.
   void tear(reference::SpringSolver& solver);
+  /// Between the laws and the state of the solver: nodes that have come by tears.
+  void serialize(StateArchive& archive, reference::SpringSolver& solver);
   /// The topology of each cloth of the scene; null for one that is whole.
   [[nodiscard]] std::shared_ptr<const ClothTopology> topology(std::size_t cloth) const;
 

@@ -98,6 +98,7 @@ class ImplicitSolver : TeamLoops {
   [[nodiscard]] double residual() const { return residual_; }
 
  private:
+  friend struct SolverState;
   using Floats = NodeArrays<float>;
   using Nodes = NodeArrays<Scalar>;
   using Floats6 = Eigen::Matrix<float, 6, 1>;
@@ -194,6 +195,7 @@ class ImplicitSolver : TeamLoops {
   VectorX<Scalar> masses_;  ///< [kg], padded with zeros
   std::vector<bool> is_free_;
   std::vector<int> pinned_;
+  int num_changes_ = 0;         ///< of pins, kinematic nodes and springs
   std::vector<int> kinematic_;  ///< those of the last step, ascending
   std::vector<int> next_kinematic_;
   std::vector<int> constrained_;  ///< not kFree; ascending while linear systems are solved
@@ -208,13 +210,10 @@ class ImplicitSolver : TeamLoops {
   VectorX<Scalar> friction_bounds_;  ///< bound of each sliding node by Coulomb's law [N]
   VectorX<Scalar> weights_;          ///< inertia_ in Scalar
   // The present problem [m].
-  Nodes inertial_positions_;
-  Nodes start_positions_;
-  Nodes positions_;
+  Nodes inertial_positions_, start_positions_, positions_;
   Nodes residual_forces_;  ///< residual forces [N]
   Nodes constraint_forces_;
-  Nodes compensation_;
-  Nodes unmoved_;
+  Nodes compensation_, unmoved_;
   Nodes last_positions_;  ///< positions at the start of the iteration
   Nodes last_results_;    ///< result of the last iteration
   AndersonHistory<Scalar> anderson_;
@@ -234,13 +233,11 @@ class ImplicitSolver : TeamLoops {
   double work_left_ = 0;         ///< residual_forces_ . step_ [J]
   double residual_squares_ = 0;  ///< squared norm of residual_forces_ [N^2]
   double work_done_ = 0;         ///< work_left_ before the step was taken [J]
-  double residual_ = 0;
-  LinearGain last_gain_;  ///< gain of the last iteration
-  LinearGains gains_;     ///< of the last linear solve
+  LinearGain last_gain_;         ///< gain of the last iteration
+  LinearGains gains_;            ///< of the last linear solve
   SolverReport report_;
-  double step_energy_ = 0;
-  bool has_constraint_forces_ = false;
-  bool was_clamped_ = false;
+  double residual_ = 0, step_energy_ = 0;
+  bool has_constraint_forces_ = false, was_clamped_ = false;
   bool have_contact_states_changed_ = false;  ///< in the last iteration
 };
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include <weft/core/state_archive.hpp>
 #include <weft/mesh/position_limits.hpp>
 #include <weft/reference/blow_up.hpp>
 #include <weft/reference/contact/contact_model.hpp>
@@ -66,6 +67,10 @@ class SpringSolver {
 
   [[nodiscard]] const SolverOptions& options() const { return options_; }
   [[nodiscard]] double time() const { return time_; }  ///< [s]
+
+  /// All that the next steps depend on beside meshes and laws, for the system that was saved. Integrators that remember
+  /// start anew in both directions, so that going on after a snapshot and coming back to it give the same bits.
+  void serialize(StateArchive& archive);
 
   /// Estimate at the present state, whatever the policy.
   [[nodiscard]] Stability stability();

@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include <weft/core/error.hpp>
+#include <weft/core/state_archive.hpp>
 #include <weft/core/types.hpp>
 #include <weft/mesh/position_limits.hpp>
 #include <weft/scenes/motion/pose.hpp>
@@ -58,6 +60,14 @@ class Controller {
 
   /// Adds to what the others ask for. state is that at the start of the step; end_time [s].
   virtual void steer(const SceneState& state, double end_time, Steering& steering) = 0;
+
+  /// What it knows from the steps before, for snapshots. One that knows nothing writes nothing. A controller that does not
+  /// say refuses the snapshot, because its memory would be lost in silence.
+  virtual void serialize(StateArchive& /*archive*/) {
+    throw InvalidArgument(
+        "snapshot: a controller does not say what it knows from earlier steps, expected one with "
+        "serialize()");
+  }
 };
 
 }  // namespace weft::scenes

@@ -7,6 +7,7 @@
 
 #include <weft/core/error.hpp>
 #include <weft/mesh/hinges.hpp>
+#include <weft/mesh/mesh_state.hpp>
 
 namespace weft::scenes {
 
@@ -49,6 +50,44 @@ void TornCloth::adopt(const Tear& tear) {
   topology.triangles = tear.mesh.triangles;
   topology_ = std::make_shared<const ClothTopology>(std::move(topology));
   mesh_ = tear.mesh;
+}
+
+void TornCloth::serialize(StateArchive& archive) {
+  archive.part("torn cloth");
+  archive.expect(num_first_nodes_, "nodes before it tears");
+  bool is_torn = topology_ != nullptr;
+  archive.value(is_torn);
+  if (!is_torn) return;
+  weft::serialize(archive, mesh_);
+  ClothTopology topology;
+  if (topology_) topology = *topology_;
+  archive.value(topology.origins);
+  archive.value(topology.triangles);
+  if (archive.is_reading()) topology_ = std::make_shared<const ClothTopology>(std::move(topology));
+}
+
+// The node of a triangle's corner that is new was, in the earlier mesh, the node of the same corner.
+Tear TornCloth::tear_since(const TornCloth& earlier) const {
+  const Triangles& before = earlier.mesh_.triangles;
+  const Triangles& now = mesh_.triangles;
+  const int num_before = earlier.mesh_.num_nodes();
+  const int num_new = mesh_.num_nodes() - num_before;
+  if (num_new < 0 || before.cols() != now.cols()) {
+    throw Error("snapshot: torn cloth: " + std::to_string(mesh_.num_nodes()) +
+                " nodes, expected at least the " + std::to_string(num_before) +
+                " of the scene's cloth");
+  }
+  Tear tear{mesh_, std::vector<int>(static_cast<std::size_t>(num_new), -1)};
+  for (Eigen::Index t = 0; t < now.cols(); ++t) {
+    for (int corner = 0; corner < 3; ++corner) {
+      const int node = now(corner, t) - num_before;
+      if (node >= 0) tear.origins[static_cast<std::size_t>(node)] = before(corner, t);
+    }
+  }
+  if (std::find(tear.origins.begin(), tear.origins.end(), -1) != tear.origins.end()) {
+    throw Error("snapshot: torn cloth: a node belongs to no triangle, expected one");
+  }
+  return tear;
 }
 
 ClothMesh drawn_mesh(const ClothMesh& mesh, const ClothTopology* topology) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include <weft/core/state_archive.hpp>
 #include <weft/mesh/cutting/tear.hpp>
 #include <weft/scenes/cloth_tear.hpp>
 
@@ -20,6 +21,9 @@ class TornCloth {
   [[nodiscard]] const ClothMesh& mesh() const { return mesh_; }
   /// None as long as the cloth is whole.
   [[nodiscard]] const std::shared_ptr<const ClothTopology>& topology() const { return topology_; }
+  /// The tear that makes this cloth of one that has torn less, or equally: of the same scene, earlier.
+  /// Throws Error if the two do not belong together.
+  [[nodiscard]] Tear tear_since(const TornCloth& earlier) const;
 
   /// The cuts before the first step; none if nothing comes apart.
   [[nodiscard]] std::optional<Tear> first_cuts() const;
@@ -27,6 +31,8 @@ class TornCloth {
   [[nodiscard]] std::optional<Tear> tear_at(ConstMatrix3XRef<double> positions) const;
   /// The engine has made this tear.
   void adopt(const Tear& tear);
+  /// Mesh and topology, if the cloth has torn.
+  void serialize(StateArchive& archive);
 
  private:
   ClothMesh mesh_;

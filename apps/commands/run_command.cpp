@@ -21,6 +21,7 @@
 #include <weft/scenes/recording/recording.hpp>
 #include <weft/scenes/recording/recording_output.hpp>
 #include <weft/scenes/recording/run.hpp>
+#include <weft/scenes/snapshot/snapshot_file.hpp>
 
 #include "apps/app.hpp"
 #include "apps/hand_over.hpp"
@@ -42,6 +43,9 @@ struct RunOptions {
   std::string time_step;
   std::string integrator;
   std::string trace;
+  std::string resume;
+  std::string snapshot;
+  std::string snapshot_at;
   bool bullet_time_step = false;
   bool force = false;
   int threads = 0;
@@ -144,18 +148,20 @@ struct Recorded {
 };
 
 Recorded record(const scenes::Scene& scene, const scenes::EngineInfo& engine, int threads,
-                scenes::RecordingWriter& writer) {
+                scenes::RecordingWriter& writer, const scenes::RunSnapshots& snapshots) {
   ProgressBar progress(scene.name);
   const std::unique_ptr<scenes::Simulator> simulator = engine.make();
   const Interruption interruption;
   Recorded recorded;
   const auto run = [&] {
-    recorded.summary =
-        scenes::record_run(*simulator, scene, writer, [&](const scenes::StepReport& step) {
+    recorded.summary = scenes::record_run(
+        *simulator, scene, writer,
+        [&](const scenes::StepReport& step) {
           progress.update(step.time / scene.world.duration);
           recorded.last = step;
           Interruption::check();
-        });
+        },
+        snapshots);
   };
   if (threads > 0) {
     // An arena of its own, for the default one has at most one thread per core; and leave to use that many.
@@ -193,11 +199,12 @@ std::string keep_frames(std::unique_ptr<scenes::RecordingWriter> writer,
 
 /// Records into the partial recording; whatever ends the run early, its frames stay there.
 Recorded record(const scenes::Scene& scene, const scenes::EngineInfo& engine, int threads,
-                const scenes::Provenance& provenance, const scenes::RecordingOutput& output) {
+                const scenes::Provenance& provenance, const scenes::RecordingOutput& output,
+                const scenes::RunSnapshots& snapshots) {
   auto writer = std::make_unique<scenes::RecordingWriter>(output.partial(), scene, provenance,
                                                           engine.precision);
   try {
-    return record(scene, engine, threads, *writer);
+    return record(scene, engine, threads, *writer, snapshots);
   } catch (const Interrupted& stop) {
     throw Interrupted(stop.signal(), keep_frames(std::move(writer), output, stop.what()));
   } catch (const InvalidArgument& error) {
@@ -222,7 +229,26 @@ int report(const Recorded& recorded, const std::string& output) {
   return kCaseFailed;
 }
 
+/// The snapshot to go on from; engine and precision are its own unless others are asked for.
+std::optional<scenes::Snapshot> resumed_snapshot(RunOptions& options) {
+  if (options.resume.empty()) return std::nullopt;
+  scenes::Snapshot snapshot = scenes::read_snapshot_file(options.resume);
+  if (options.engine.empty()) options.engine = snapshot.engine;
+  if (options.precision.empty()) options.precision = snapshot.precision;
+  return snapshot;
+}
+
+/// Where the snapshot goes, looked at before the run; a run without --snapshot and --snapshot-at leaves none.
+std::optional<output::OutputFile> begin_snapshot(const RunOptions& options,
+                                                 const std::string& recording) {
+  if (options.snapshot.empty() && options.snapshot_at.empty()) return std::nullopt;
+  std::filesystem::path path = options.snapshot;
+  if (path.empty()) path = std::filesystem::path(recording).replace_extension(".weftsnap");
+  return output::OutputFile(path, scenes::kSnapshotKind);
+}
+
 int run(RunOptions options, const CommandLine& command_line) {
+  const std::optional<scenes::Snapshot> resumed = resumed_snapshot(options);
   scenes::Scene scene = requested_scene(options);
   options.engine = requested_engine(options, scene);
   scene = scenes::with_step_of(std::move(scene), options.engine);
@@ -249,7 +275,24 @@ int run(RunOptions options, const CommandLine& command_line) {
   provenance["threads"] = options.threads > 0 ? std::to_string(options.threads) : "all";
 
   const std::optional<output::OutputFile> trace = begin_trace(options.trace, output);
-  const Recorded recorded = record(scene, *engine, options.threads, provenance, output);
+  const std::optional<output::OutputFile> snapshot = begin_snapshot(options, path);
+  scenes::RunSnapshots snapshots;
+  if (resumed) {
+    provenance["resumed_at_step"] = std::to_string(resumed->step);
+    snapshots.resumed = &*resumed;
+    snapshots.resumed_file = options.resume;
+  }
+  if (snapshot) {
+    if (!options.snapshot_at.empty()) {
+      snapshots.save_at = quantity_option("--snapshot-at", options.snapshot_at, "s");
+    }
+    snapshots.save = [&](const scenes::Snapshot& saved) {
+      snapshot->write(scenes::snapshot_bytes(saved));
+      print("{}: state after step {}, t = {:.6g} s\n", snapshot->path().string(), saved.step,
+            saved.time);
+    };
+  }
+  const Recorded recorded = record(scene, *engine, options.threads, provenance, output, snapshots);
   output.publish();
   report_stable_step(recorded.last);
   const int exit_code = report(recorded, path);
@@ -289,6 +332,15 @@ Action add_run_command(CLI::App& parser, const CommandLine& command_line) {
       ->add_option("-j,--threads", options->threads,
                    "Threads of the force laws (default: all); changes no bit of the result")
       ->check(CLI::Range(1, 1024));
+  command->add_option("--snapshot", options->snapshot,
+                      "Write the state of the run to go on from (default with --snapshot-at: the "
+                      "recording's name with .weftsnap)");
+  command->add_option("--snapshot-at", options->snapshot_at,
+                      "When, e.g. \"1 s\": after the first step that ends then or later (default: "
+                      "after the last step)");
+  command->add_option("--resume", options->resume,
+                      "Go on from such a state of the same scene, engine and precision; the "
+                      "recording begins there");
   command->add_option("--trace", options->trace,
                       "Write which thread did what when, as JSON that chrome://tracing and "
                       "ui.perfetto.dev open; changes no bit of the result");

@@ -9,6 +9,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/bullet/precision.hpp>
+#include <weft/core/state_archive.hpp>
 #include <weft/custom_forces/law_set.hpp>
 #include <weft/fast_solver/network/network_kernel.hpp>
 #include <weft/mesh/cloth_mesh.hpp>
@@ -53,6 +54,7 @@ class FollowedMasses {
   /// Before each step. Which nodes have another mass now: the first of them, or -1. A body with another
   /// number of nodes is left alone.
   int follow(const btSoftBody& body);
+  void serialize(StateArchive& archive);
 
  private:
   VectorX<btScalar> masses_;

@@ -54,6 +54,9 @@ class ClothContact {
   void add_contacts(btSoftBody& body, btSoftBody& other, ClothContact& other_contact,
                     btScalar time_step);
 
+  /// How nodes and faces are sorted, for snapshots.
+  void serialize(StateArchive& archive, const btSoftBody& body);
+
  private:
   void refit(const btSoftBody& body);
   template <class Use>

@@ -119,6 +119,10 @@ void FaceTree::arrange(const btSoftBody& body) {
   }
   std::vector<int> order;
   const std::vector<std::size_t> starts = divide(centers, kWidth, order);
+  make_leaves(order, starts);
+}
+
+void FaceTree::make_leaves(const std::vector<int>& order, const std::vector<std::size_t>& starts) {
   leaves_.assign(starts.size() - 1, Leaf{});
   for (std::size_t l = 0; l < leaves_.size(); ++l) {
     Leaf& leaf = leaves_[l];
@@ -131,7 +135,7 @@ void FaceTree::arrange(const btSoftBody& body) {
     }
   }
   boxes_.assign(2 * leaves_.size(), MotionBox::nowhere());
-  corners_.resize(num_faces);
+  corners_.resize(order.size());
 }
 
 void FaceTree::refit(const btSoftBody& body, const btVector3& shift) {

@@ -9,6 +9,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/bullet/precision.hpp>
+#include <weft/core/state_archive.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -42,6 +43,8 @@ class NodeGroups {
   [[nodiscard]] std::span<const int> operator[](std::size_t group) const {
     return std::span(nodes_).subspan(starts_[group], starts_[group + 1] - starts_[group]);
   }
+  /// For a body of so many nodes.
+  void serialize(StateArchive& archive, int num_nodes);
 
  private:
   std::vector<int> nodes_;
@@ -74,6 +77,8 @@ class FaceTree {
     const auto index = static_cast<std::size_t>(slot);
     return leaves_[index / kWidth].faces[index % kWidth];
   }
+  /// The order of the faces, for a body of so many.
+  void serialize(StateArchive& archive, int num_faces);
 
  private:
   struct Leaf {
@@ -83,6 +88,7 @@ class FaceTree {
   };
 
   void arrange(const btSoftBody& body);
+  void make_leaves(const std::vector<int>& order, const std::vector<std::size_t>& starts);
   void fill(Leaf& leaf, MotionBox& around) const;
   int* collect(int number, const MotionBox& box, int* next) const;
 

@@ -3,12 +3,14 @@
 // Tested by tests/bridge/rigid/gripper_test.cpp.
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/contact/rigid_contacts.hpp>
+#include <weft/core/state_archive.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -51,6 +53,16 @@ class Pinches {
       sum.add(contacts[c].object, -impulse, position_of(contacts[c].node));
     }
     sum.apply();
+  }
+  /// The loads of the last step, for snapshots.
+  void serialize(StateArchive& archive, int num_nodes) {
+    archive.value(loads_);
+    if (!loads_.empty() && static_cast<int>(loads_.size()) != num_nodes)
+      archive.refuse("loads of " + std::to_string(loads_.size()) + " nodes, expected " +
+                     std::to_string(num_nodes));
+    if (!archive.is_reading()) return;
+    held_.clear();
+    nodes_.clear();
   }
   [[nodiscard]] bool has(int node) const {
     return !nodes_.empty() && nodes_[static_cast<std::size_t>(node)] != 0;

@@ -74,6 +74,11 @@ class SweptNodes {
   [[nodiscard]] const std::vector<MotionBox>& boxes() const { return boxes_; }
   [[nodiscard]] std::span<const int> group(std::size_t g) const { return groups_[g]; }
   [[nodiscard]] const MotionBox& all() const { return all_; }
+  /// The groups, for a body of so many nodes.
+  void serialize(StateArchive& archive, int num_nodes) {
+    groups_.serialize(archive, num_nodes);
+    if (archive.is_reading()) invalidate();
+  }
 
   /// work(first group, group behind the last, contacts) for ranges of the groups, by a team; appends what each adds, in
   /// order.

@@ -43,6 +43,12 @@ class RigidResponse {
     }
   }
 
+  /// For snapshots. Contacts are found anew in each step.
+  void serialize(StateArchive& archive, int num_nodes) {
+    if (archive.is_reading()) contacts_.clear();
+    swept_.serialize(archive, num_nodes);
+  }
+
  private:
   struct Contact {
     RigidContact with;  ///< where the object ends the step, before it is pushed

@@ -8,9 +8,12 @@
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/fast_settings.hpp>
+#include <weft/core/state_archive.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
+
+class ObjectTable;
 
 /// Whether a body has come to rest and is not stepped any more, and what wakes it: a node that anybody has moved, pushed,
 /// given a velocity or another mass; another gravity or wind; an object that its bounds meet, leave, or that moves
@@ -31,6 +34,7 @@ class BodySleep {
   /// After a step of time_step [s]. A body that falls asleep loses what velocities it has left.
   void end_step(btSoftBody& body, btScalar time_step, const FastSettings& settings);
   void wake();
+  void serialize(StateArchive& archive, const ObjectTable& objects);
 
  private:
   struct Neighbor {

@@ -45,6 +45,7 @@ void FastBody::set_rest_length(int first, int second, double rest_length) {
   fast::set_rest_length(first, second, rest_length, network_);
   fast::set_rest_length(first, second, rest_length, limited_.as_given);
   if (solver_) solver_->set_rest_length(first, second, rest_length);
+  ++history_.num_new_rest_lengths;
   wake();
 }
 
@@ -52,6 +53,7 @@ void FastBody::set_rest_length(int first, int second, double rest_length) {
 void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>& is_changed,
                     VectorX<double> masses, const std::vector<int>& origins) {
   masses_ = std::move(masses);
+  history_.is_replaced = true;
   set_num_nodes(masses_.size());
   if (solver_) {
     if (limited_.as_given.edges.cols() > 0) {

@@ -47,16 +47,12 @@ class FastBody : public NodeTeam {
            VectorX<double> masses, const FastSettings& settings);
 
   [[nodiscard]] const FastSettings& settings() const { return settings_; }
-  void set_settings(const FastSettings& settings) {
-    settings_ = settings;
-    wake();
-  }
+  void set_settings(const FastSettings& settings) { settings_ = settings, wake(); }
 
   /// The body has torn: springs that replace all that have an end among the changed nodes
   /// (flags), masses of all nodes [kg], the last of which are copies of the origins.
   void tear(const fast::SpringNetwork& springs, const std::vector<char>& is_changed,
             VectorX<double> masses, const std::vector<int>& origins);
-
   /// Another rest length [m], > 0, of the spring between two nodes; does nothing without such a spring.
   void set_rest_length(int first, int second, double rest_length);
   /// Laws of the body; those of bending follow the positions within a step. To be called before each step.
@@ -140,6 +136,7 @@ class FastBody : public NodeTeam {
   [[nodiscard]] const StepError& step_error() const { return step_error_; }
 
  private:
+  friend class FastBodyState;
   enum class Method { kImplicitEuler, kBdf2, kForces };
   /// Kinetic energy of a solution, and the most that what was there and was put in leaves to it [J].
   struct EnergyBalance {
@@ -191,7 +188,8 @@ class FastBody : public NodeTeam {
   std::unique_ptr<fast::ImplicitSolver<btScalar>> solver_;
   std::vector<bool> is_free_;     ///< that solver_ knows
   std::vector<int> solver_pins_;  ///< likewise
-  std::vector<int> pins_;         ///< of the present step
+  NetworkHistory history_;
+  std::vector<int> pins_;  ///< of the present step
   BodySleep sleep_;
   Vector3<btScalar> origin_ = Vector3<btScalar>::Zero();  ///< that positions are counted from [m]
   // The present step, 3 x n.

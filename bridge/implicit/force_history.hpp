@@ -3,6 +3,7 @@
 // Tested by tests/bridge/implicit/fast_body_impact_test.cpp, tests/bridge/implicit/fast_body_test.cpp.
 
 #include <weft/bridge/bullet/precision.hpp>
+#include <weft/core/state_archive.hpp>
 #include <weft/core/types.hpp>
 
 namespace weft::bridge {
@@ -39,6 +40,9 @@ class ForceHistory {
     return coming_.middleCols(first, count);
   }
   void add(Eigen::Index first, Eigen::Index count);
+
+  /// For a body of so many nodes.
+  void serialize(StateArchive& archive, Eigen::Index num_nodes);
 
  private:
   // With Newmark's beta and gamma for second order and damping of what is fast.

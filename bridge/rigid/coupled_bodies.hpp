@@ -11,10 +11,13 @@
 #include <weft/bridge/rigid/movable_object.hpp>
 #include <weft/bridge/rigid/multibody_inertia.hpp>
 #include <weft/bridge/rigid/rigid_motion.hpp>
+#include <weft/core/state_archive.hpp>
 #include <weft/fast_solver/implicit_solver.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
+
+class ObjectTable;
 
 /// Rigid bodies and links of multibodies that a cloth may push in a step: what its solver knows of them, and what they get of
 /// the solution. Links of one multibody are solved for together, with the inertia that joints give them.
@@ -48,6 +51,9 @@ class CoupledBodies {
   [[nodiscard]] btScalar push_in(const MovableObject& object, btScalar time_step) const;
   /// Whether bodies were pushed into others that had not held them in the last solution, or the other way round.
   [[nodiscard]] bool are_supports_wrong(btScalar time_step);
+
+  /// What the next step knows of the last one, for snapshots.
+  void serialize(StateArchive& archive, const ObjectTable& objects);
 
   [[nodiscard]] double kinetic_energy() const;
   /// That exchange_impulses() will give them [J].

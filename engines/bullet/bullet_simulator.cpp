@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <weft/bridge/cloth_body.hpp>
+#include <weft/bridge/snapshot.hpp>
 #include <weft/bridge/soft_world.hpp>
 #include <weft/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
@@ -11,6 +12,8 @@
 #include <weft/engines/bullet/bullet_bodies.hpp>
 #include <weft/engines/bullet/bullet_shapes.hpp>
 #include <weft/engines/bullet/bullet_tears.hpp>
+#include <weft/engines/engine_state.hpp>
+#include <weft/engines/engine_table.hpp>
 #include <weft/scenes/controllers/director.hpp>
 #include <weft/scenes/live_laws.hpp>
 
@@ -19,7 +22,7 @@ namespace {
 
 enum class Tension { kLinks, kLaws, kImplicit };
 
-class BulletSimulator final : public Simulator, public LiveLaws {
+class BulletSimulator final : public Simulator, public LiveLaws, public Resumable {
  public:
   explicit BulletSimulator(Tension tension) : tension_(tension) {}
 
@@ -27,8 +30,14 @@ class BulletSimulator final : public Simulator, public LiveLaws {
   [[nodiscard]] StepReport step(double time_step) override;
   [[nodiscard]] const SceneState& state() const override { return bodies_.state(); }
   void replace_laws(std::size_t cloth, const std::vector<forces::LawSpecification>& laws) override;
+  [[nodiscard]] Snapshot save() override;
+  void restore(const Snapshot& snapshot) override;
 
  private:
+  [[nodiscard]] std::string_view engine_name() const;
+  void serialize(StateArchive& archive);
+  void save_world(StateArchive& archive);
+  void restore_world(StateArchive& archive);
   void add_cloth(const Cloth& cloth, const Scene& scene);
   [[nodiscard]] bridge::LinkSet link_set(const Cloth& cloth,
                                          const forces::LawSpecification& law) const;
@@ -37,6 +46,7 @@ class BulletSimulator final : public Simulator, public LiveLaws {
   [[nodiscard]] SolveReport solve_report() const;
 
   Tension tension_;
+  LoadedScene loaded_;
   std::vector<Cloth> cloths_;  ///< as loaded
   double links_time_step_ = 0.0;
   std::unique_ptr<bridge::SoftWorld> world_;
@@ -48,6 +58,7 @@ class BulletSimulator final : public Simulator, public LiveLaws {
 };
 
 void BulletSimulator::load(const Scene& scene) {
+  loaded_ = LoadedScene(scene);
   bodies_ = {};
   tears_ = {};
   report_ = {};
@@ -149,6 +160,82 @@ void BulletSimulator::replace_laws(std::size_t cloth,
   btSoftBody& body = *bodies_.cloths()[cloth];
   world_->solver().replace_laws(body, make_mesh(loaded), attached);
   cloths_[cloth].laws = laws;
+}
+
+std::string_view BulletSimulator::engine_name() const {
+  switch (tension_) {
+    case Tension::kLinks:
+      return "bullet_soft";
+    case Tension::kLaws:
+      return "bullet_forces";
+    case Tension::kImplicit:
+      break;
+  }
+  return "bullet_weft";
+}
+
+void BulletSimulator::serialize(StateArchive& archive) {
+  scenes::serialize(archive, report_);
+  for (std::size_t c = 0; c < cloths_.size(); ++c) {
+    std::vector<forces::LawSpecification> laws = cloths_[c].laws;
+    scenes::serialize(archive, laws);
+    if (archive.is_reading() && !are_same(laws, cloths_[c].laws)) replace_laws(c, laws);
+  }
+  tears_.serialize(archive, world_->solver(), bodies_);
+  director_.serialize(archive);
+  if (archive.is_reading()) {
+    restore_world(archive);
+  } else {
+    save_world(archive);
+  }
+}
+
+// A solver whose cloth has torn or was pinned elsewhere has a coarse space that no new one would have: this run gets a new one
+// too.
+void BulletSimulator::save_world(StateArchive& archive) {
+  bridge::SoftBodySolver& solver = world_->solver();
+  bool is_fresh = true;
+  for (const btSoftBody* cloth : bodies_.cloths()) {
+    is_fresh = is_fresh && bridge::Snapshot::is_fresh(solver, *cloth);
+  }
+  bridge::Snapshot world;
+  world.write(world_->world(), solver);
+  if (!is_fresh) {
+    tears_.renew_laws(solver, bodies_);
+    world.restore(world_->world(), solver);
+  }
+  std::vector<std::byte> bytes = world.bytes();
+  archive.value(bytes);
+}
+
+void BulletSimulator::restore_world(StateArchive& archive) {
+  std::vector<std::byte> bytes;
+  archive.value(bytes);
+  bridge::Snapshot(std::move(bytes)).restore(world_->world(), world_->solver());
+}
+
+Snapshot BulletSimulator::save() {
+  StateArchive archive = StateArchive::writer();
+  Snapshot snapshot{std::string(engine_name()),
+                    std::string(to_string(bullet_precision())),
+                    report_.step,
+                    report_.time,
+                    loaded_.text(),
+                    {}};
+  serialize(archive);
+  snapshot.state = archive.take();
+  return snapshot;
+}
+
+void BulletSimulator::restore(const Snapshot& snapshot) {
+  loaded_.check(snapshot, engine_name(), to_string(bullet_precision()));
+  const LoadedScene loaded = loaded_;
+  load(loaded.scene());
+  loaded_ = loaded;
+  StateArchive archive = StateArchive::reader(snapshot.state);
+  serialize(archive);
+  archive.end();
+  bodies_.read_state(snapshot.time);
 }
 
 void BulletSimulator::set_freedom(const Steering& steering) {

@@ -36,4 +36,29 @@ bool BulletTears::tear(bridge::SoftBodySolver& solver, BulletBodies& bodies) {
   return any;
 }
 
+void BulletTears::serialize(StateArchive& archive, bridge::SoftBodySolver& solver,
+                            BulletBodies& bodies) {
+  archive.part("tears");
+  for (Entry& entry : entries_) {
+    const TornCloth loaded = entry.torn;
+    entry.torn.serialize(archive);
+    if (!archive.is_reading() || entry.torn.topology() == loaded.topology()) continue;
+    const Tear tear = entry.torn.tear_since(loaded);
+    btSoftBody& body = *bodies.cloths()[entry.cloth];
+    if (tear.any()) {
+      bridge::apply_tear(tear, entry.settings, body);
+      solver.add_copies(body, tear.origins);
+    }
+    bodies.set_torn(entry.cloth, entry.torn.mesh(), entry.torn.topology());
+  }
+  if (archive.is_reading()) renew_laws(solver, bodies);
+}
+
+void BulletTears::renew_laws(bridge::SoftBodySolver& solver, const BulletBodies& bodies) const {
+  for (const Entry& entry : entries_) {
+    if (!entry.torn.topology()) continue;
+    solver.replace_laws(*bodies.cloths()[entry.cloth], entry.torn.mesh(), entry.laws);
+  }
+}
+
 }  // namespace weft::scenes

@@ -39,6 +39,11 @@ class AndersonHistory {
     has_last_ = false;
     count_ = 0;
   }
+  /// As forget(), and begins with the first slot again, so that no sum has the order or the content of earlier steps.
+  void restart() {
+    forget();
+    newest_ = kMemory - 1;
+  }
   /// Slots that have something, after next().
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] int newest() const { return newest_; }

@@ -90,6 +90,7 @@ void ImplicitSolver<Scalar>::set_free(const std::vector<bool>& is_free) {
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::change_correction(const std::vector<int>& changed) {
+  ++num_changes_;
   const Neighborhood neighborhood = forces_.neighborhood_of(changed, 2 * kBasisReach);
   coarse_correction_.set_free(forces_.connectivity_graph(neighborhood.nodes), neighborhood,
                               have_basis_weights(neighborhood.nodes), forces_.slots());
@@ -140,6 +141,7 @@ void ImplicitSolver<Scalar>::tear(const SpringNetwork& springs, const std::vecto
   for (const int origin : origins) is_free.push_back(is_free_[at(origin)]);
   const std::vector<char> blocks =
       forces_.replace(springs, is_changed, static_cast<int>(masses.size()));
+  ++num_changes_;
   set_nodes(masses, is_free);
   coarse_correction_.add_copies(origins);
   coarse_correction_.note_springs(forces_.slots(), blocks);

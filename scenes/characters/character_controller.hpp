@@ -19,6 +19,7 @@ class CharacterController final : public Controller {
   CharacterController(const CharacterSettings& settings, const Scene& scene);
 
   void steer(const SceneState& state, double end_time, Steering& steering) override;
+  void serialize(StateArchive& /*archive*/) override {}
 
  private:
   struct LedCloth {

@@ -22,6 +22,7 @@ class AttachController final : public Controller {
   AttachController(const Attach& attach, std::size_t cloth, const Scene& scene);
 
   void steer(const SceneState& state, double end_time, Steering& steering) override;
+  void serialize(StateArchive& /*archive*/) override {}
 
  private:
   Attach attach_;

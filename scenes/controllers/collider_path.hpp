@@ -29,6 +29,7 @@ class ColliderPathController final : public Controller {
     pose.orientation = (pose.orientation * orientation_).normalized();
     steering.colliders[collider_] = pose;
   }
+  void serialize(StateArchive& /*archive*/) override {}
 
  private:
   std::size_t collider_;

@@ -189,4 +189,18 @@ void DetailController::steer(const SceneState& state, double end_time, Steering&
   last_level_ = level_;
 }
 
+void DetailController::serialize(StateArchive& archive) {
+  archive.part("level of detail");
+  archive.value(next_switch_);
+  archive.value(level_);
+  archive.value(last_level_);
+  archive.value(last_animated_);
+  archive.value(shape_);
+  archive.value(shape_pins_);
+  archive.value(turn_);
+  archive.value(blended_);
+  archive.value(offset_);
+  archive.value(offset_change_);
+}
+
 }  // namespace weft::scenes

@@ -31,6 +31,7 @@ class DetailController final : public Controller {
   [[nodiscard]] DetailLevel level() const { return level_; }
 
   void steer(const SceneState& state, double end_time, Steering& steering) override;
+  void serialize(StateArchive& archive) override;
 
  private:
   /// What the animated places of a step are measured against.

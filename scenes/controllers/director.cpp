@@ -99,4 +99,10 @@ const Steering& Director::steer(const SceneState& state, double end_time) {
   return steering_;
 }
 
+void Director::serialize(StateArchive& archive) {
+  archive.part("controllers");
+  archive.expect(controllers_.size(), "number of controllers");
+  for (const auto& controller : controllers_) controller->serialize(archive);
+}
+
 }  // namespace weft::scenes

@@ -25,6 +25,8 @@ class Director {
 
   /// What controllers do in a step from state to end_time [s]. The result lives until the next call.
   [[nodiscard]] const Steering& steer(const SceneState& state, double end_time);
+  /// What the controllers know from the steps before. Throws InvalidArgument for one that does not say.
+  void serialize(StateArchive& archive);
 
  private:
   void lead_copies(const SceneState& state);

@@ -22,6 +22,7 @@ class PinPathController final : public Controller {
   PinPathController(const Scene& scene, std::size_t cloth);
 
   void steer(const SceneState& state, double end_time, Steering& steering) override;
+  void serialize(StateArchive& /*archive*/) override {}
 
  private:
   struct Lead {

@@ -21,6 +21,7 @@ class RollController final : public Controller {
   RollController(const Roll& roll, std::size_t cloth, const ClothMesh& mesh);
 
   void steer(const SceneState& state, double end_time, Steering& steering) override;
+  void serialize(StateArchive& /*archive*/) override {}
 
  private:
   Roll roll_;

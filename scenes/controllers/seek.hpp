@@ -25,6 +25,7 @@ class SeekController final : public Controller {
   static constexpr double kEase = 0.3;  ///< [rad] from which on it turns slower
 
   void steer(const SceneState& state, double end_time, Steering& steering) override;
+  void serialize(StateArchive& /*archive*/) override {}
 
  private:
   struct Motion;

@@ -2,9 +2,11 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 #include <weft/scenes/recording/recording.hpp>
 #include <weft/scenes/simulator.hpp>
+#include <weft/scenes/snapshot/snapshot.hpp>
 
 namespace weft::scenes {
 
@@ -19,6 +21,16 @@ struct RunSummary {
   double engine_seconds = 0.0;  ///< [s] wall time in Simulator::step alone
 };
 
+/// A run that begins with a snapshot, or leaves one.
+struct RunSnapshots {
+  const Snapshot* resumed = nullptr;  ///< to begin with, in place of the scene's first state
+  std::string resumed_file = {};      ///< its name, for messages
+  std::optional<double> save_at =
+      std::nullopt;  ///< [s] the first step that ends then or later; none: after the last step
+  std::function<void(const Snapshot&)> save =
+      nullptr;  ///< gets the snapshot; nullptr: none is taken
+};
+
 /// Runs the scene for world.duration in steps of world.time_step, and writes the initial state and
 /// then a frame every world.frame_interval, and the last state in any case. A blow-up ends the run; it is
 /// recorded, with the state after it as last frame; that is the frame before if the engine did not take the
@@ -28,5 +40,13 @@ struct RunSummary {
 [[nodiscard]] RunSummary record_run(Simulator& simulator, const Scene& scene,
                                     RecordingWriter& writer,
                                     const std::function<void(const StepReport&)>& progress);
+
+/// The same with snapshots. A run that is resumed takes the steps that are left to world.duration, and its first frame is the
+/// state that was saved. Throws InvalidArgument for an engine that has no snapshots and for a time to save at that the run does
+/// not reach, and what Resumable throws.
+[[nodiscard]] RunSummary record_run(Simulator& simulator, const Scene& scene,
+                                    RecordingWriter& writer,
+                                    const std::function<void(const StepReport&)>& progress,
+                                    const RunSnapshots& snapshots);
 
 }  // namespace weft::scenes

@@ -49,6 +49,14 @@ bool LiveSource::perform_time(Action action) {
     case Action::kStepBack:
       step(action == Action::kStepForward ? 1 : -1);
       return true;
+    case Action::kTakeBack:
+      looked_back_ = nullptr;
+      if (is_playing_) {
+        message_ = "take back: the run goes on, expected a paused one";
+      } else {
+        simulation_->take_back();
+      }
+      return true;
     case Action::kFirstFrame:
       seek(0);
       return true;

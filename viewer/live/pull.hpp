@@ -32,6 +32,8 @@ class WindowForces final : public scenes::Controller {
   [[nodiscard]] double largest_force(std::size_t cloth) const;
 
   void steer(const scenes::SceneState& state, double end_time, scenes::Steering& steering) override;
+  /// Nothing: what the window asks for is not part of a run.
+  void serialize(StateArchive& /*archive*/) override {}
 
  private:
   void pull(const Pull& pull, const scenes::SceneState& state, scenes::Steering& steering);

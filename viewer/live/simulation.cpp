@@ -16,7 +16,10 @@ Simulation::Simulation(SimulationSettings settings)
 Simulation::~Simulation() = default;
 
 void Simulation::set_running(bool is_running) {
-  worker_->ask([w = worker_.get(), is_running] { w->is_running_ = is_running; });
+  worker_->ask([w = worker_.get(), is_running] {
+    w->is_running_ = is_running;
+    w->forget_steps();
+  });
 }
 
 void Simulation::set_speed(double speed) {
@@ -28,6 +31,10 @@ void Simulation::set_speed(double speed) {
 
 void Simulation::step_once() {
   worker_->ask([w = worker_.get()] { ++w->wanted_steps_; });
+}
+
+void Simulation::take_back() {
+  worker_->ask([w = worker_.get()] { w->take_back(); });
 }
 
 void Simulation::set_laws(std::size_t cloth, std::vector<forces::LawSpecification> laws) {

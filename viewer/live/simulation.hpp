@@ -42,6 +42,10 @@ class Simulation {
   void set_speed(double speed);
   /// One step while it is paused.
   void step_once();
+  /// While it is paused: the state before the last step_once() again, and so on for all that were taken since it was paused,
+  /// as far as their states fit into kRollbackBytes. Refused while a recording is written and by engines without snapshots.
+  void take_back();
+  static constexpr std::size_t kRollbackBytes = std::size_t{256} * 1024 * 1024;
   /// Other laws from the next step on.
   void set_laws(std::size_t cloth, std::vector<forces::LawSpecification> laws);
   /// The gravity of rigid bodies [m/s^2]; that of cloth is a law.

@@ -110,7 +110,52 @@ bool Simulation::Worker::wait() {
   }
 }
 
+void Simulation::Worker::refuse(const std::string& why) {
+  const std::lock_guard lock(mutex_);
+  refusal_ = why;
+}
+
+void Simulation::Worker::save() {
+  auto* const resumable = dynamic_cast<scenes::Resumable*>(simulator_.get());
+  if (resumable == nullptr || recorder_) return;  // take_back() says so
+  try {
+    scenes::Snapshot snapshot = resumable->save();
+    snapshot.step = step_;  // whole ones, however many parts they had
+    rollback_.add(std::move(snapshot));
+  } catch (const Error& error) {
+    refuse(error.what());
+  }
+}
+
+void Simulation::Worker::take_back() {
+  auto* const resumable = dynamic_cast<scenes::Resumable*>(simulator_.get());
+  if (resumable == nullptr) {
+    return refuse(std::string(settings_.engine->name) +
+                  ": has no snapshots, expected another engine");
+  }
+  if (recorder_) return refuse("take back: the run is recorded, expected one that is not");
+  const scenes::Snapshot* const before = rollback_.before(step_ - 1);
+  if (before == nullptr) {
+    return refuse("take back: no step was taken by hand since the run was paused, expected one");
+  }
+  try {
+    resumable->restore(*before);
+  } catch (const Error& error) {
+    return refuse(error.what());
+  }
+  step_ = before->step;
+  report_ = {};
+  report_.step = step_;
+  report_.time = simulator_->state().time;
+  {
+    const std::lock_guard lock(mutex_);
+    ring_.drop_after(step_);
+  }
+  publish(ring_.size() == 0 || ring_.at(ring_.size() - 1)->step < step_);
+}
+
 void Simulation::Worker::step() {
+  if (wanted_steps_ > 0 && !is_running_) save();
   const Clock::time_point start = Clock::now();
   const double time_step = settings_.scene.world.time_step;
   num_parts_ = parts_.count(simulator_->state(), time_step);
@@ -175,6 +220,7 @@ void Simulation::Worker::set_laws(std::size_t cloth,
     }
     live->replace_laws(cloth, laws);
     measured_scene_.cloths.at(cloth).laws = laws;
+    forget_steps();  // states that the meter would read with the new laws
     meter_ = Meter(measured_scene_);
     parts_.set_laws(measured_scene_);
   } catch (const InvalidArgument& error) {

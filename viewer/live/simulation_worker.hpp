@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 
+#include <weft/scenes/snapshot/snapshot_ring.hpp>
 #include <weft/viewer/live/run_recorder.hpp>
 #include <weft/viewer/live/simulation.hpp>
 #include <weft/viewer/live/step_parts.hpp>
@@ -46,6 +47,9 @@ class Simulation::Worker {
   double speed_;
   int wanted_steps_ = 0;
   void set_laws(std::size_t cloth, const std::vector<forces::LawSpecification>& laws);
+  /// The state before the last single step.
+  void take_back();
+  void forget_steps() { rollback_.clear(); }
   void begin_pace() { pace_start_.reset(); }
 
   const SimulationSettings settings_;
@@ -59,9 +63,13 @@ class Simulation::Worker {
   void step();
   void publish(bool is_frame);
   void record_frame(bool is_last);
+  /// Before a single step. A run that nobody steps by hand is not touched.
+  void save();
+  void refuse(const std::string& why);
 
   std::unique_ptr<scenes::Simulator> simulator_;
   std::unique_ptr<RunRecorder> recorder_;
+  scenes::SnapshotRing rollback_{kRollbackBytes};
   Meter meter_;
   scenes::Scene measured_scene_;
   StepParts parts_;

@@ -14,6 +14,7 @@ constexpr std::array kTable = std::to_array<ActionInfo>({
     {kPause, "pause", "Time", "Space", "Run or pause"},
     {kStepForward, "step_forward", "Time", "Right", "One frame forward; live, at the end: simulate one step"},
     {kStepBack, "step_back", "Time", "Left", "One frame back; live: look back, nothing is simulated again"},
+    {kTakeBack, "take_back", "Time", "B", "Live and paused: take back a step that was simulated by hand, and go on from there"},
     {kFirstFrame, "first_frame", "Time", "Home", "First frame that is kept"},
     {kLastFrame, "last_frame", "Time", "End", "Last frame"},
     {kFaster, "faster", "Time", "]", "Play faster"},

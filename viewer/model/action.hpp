@@ -15,6 +15,7 @@ enum class Action {
   kRestartAsWritten,
   kStepForward,
   kStepBack,
+  kTakeBack,
   kFirstFrame,
   kLastFrame,
   kFaster,

@@ -28,6 +28,13 @@ void FrameRing::add(SnapshotPtr frame) {
   }
 }
 
+void FrameRing::drop_after(int step) {
+  while (!frames_.empty() && frames_.back()->step > step) {
+    bytes_ -= bytes_of(*frames_.back());
+    frames_.pop_back();
+  }
+}
+
 void FrameRing::clear() {
   frames_.clear();
   bytes_ = 0;

@@ -20,6 +20,8 @@ class FrameRing {
   /// Adds the newest frame; the oldest ones go where there is no room, but never the newest.
   void add(SnapshotPtr frame);
   void clear();
+  /// The run has gone back: frames after a step never were.
+  void drop_after(int step);
 
   [[nodiscard]] std::size_t size() const { return frames_.size(); }
   [[nodiscard]] SnapshotPtr at(std::size_t index) const { return frames_.at(index); }

@@ -175,5 +175,43 @@ TEST(Simulations, ARecordingThatIsCutShortIsKept) {
   std::filesystem::remove(partial);
 }
 
+TEST(TakingBack, LeadsToTheSameStateAgain) {
+  for (const char* engine : {"reference", "bullet_weft"}) {
+    if (engine_named(engine) == nullptr) continue;
+    SimulationSettings paused = settings("hang", engine);
+    paused.is_running = false;
+    Simulation simulation(std::move(paused));
+    const auto is_at = [&](int step) {
+      return comes([&] { return simulation.latest() && simulation.latest()->step == step; });
+    };
+    for (int step = 1; step <= 4; ++step) {
+      simulation.step_once();
+      ASSERT_TRUE(is_at(step));
+    }
+    const Matrix3X<double> positions = simulation.latest()->state.cloths[0].positions;
+    for (int step = 3; step >= 1; --step) {
+      simulation.take_back();
+      ASSERT_TRUE(is_at(step));
+    }
+    EXPECT_EQ(simulation.frame(simulation.num_frames() - 1)->step, 1);
+    for (int step = 2; step <= 4; ++step) {
+      simulation.step_once();
+      ASSERT_TRUE(is_at(step));
+    }
+    EXPECT_EQ(simulation.latest()->state.cloths[0].positions, positions) << engine;
+    EXPECT_EQ(simulation.take_refusal(), "");
+  }
+}
+
+TEST(TakingBack, IsRefusedWithoutAStepByHand) {
+  SimulationSettings paused = settings("hang", "reference");
+  paused.is_running = false;
+  Simulation simulation(std::move(paused));
+  simulation.take_back();
+  std::string refusal;
+  EXPECT_TRUE(comes([&] { return !(refusal = simulation.take_refusal()).empty(); }));
+  EXPECT_THAT(refusal, HasSubstr("no step was taken by hand"));
+}
+
 }  // namespace
 }  // namespace weft::viewer

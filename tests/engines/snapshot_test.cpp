@@ -1,0 +1,238 @@
+#include <weft/scenes/snapshot/snapshot.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <weft/core/error.hpp>
+#include <weft/engines/engine_table.hpp>
+#include <weft/scenes/catalog.hpp>
+#include <weft/scenes/live_laws.hpp>
+#include <weft/scenes/steering.hpp>
+
+namespace weft::scenes {
+namespace {
+
+// A part of a run is enough: what a snapshot forgets shows in the next step or the one after it.
+constexpr int kStepsAfter = 12;
+constexpr int kStepsBetween = 50;
+constexpr int kSnapshots = 3;
+
+std::vector<unsigned char> bytes_of(const SceneState& state) {
+  std::vector<unsigned char> bytes;
+  const auto add = [&](const double* numbers, Eigen::Index count) {
+    const auto* const first = reinterpret_cast<const unsigned char*>(numbers);
+    bytes.insert(bytes.end(), first, first + count * static_cast<Eigen::Index>(sizeof(double)));
+  };
+  add(&state.time, 1);
+  for (const ClothState& cloth : state.cloths) {
+    add(cloth.positions.data(), cloth.positions.size());
+    add(cloth.velocities.data(), cloth.velocities.size());
+  }
+  for (const RigidState& rigid : state.rigids) {
+    add(rigid.position.data(), 3);
+    add(rigid.orientation.coeffs().data(), 4);
+    add(rigid.velocity.data(), 3);
+    add(rigid.angular_velocity.data(), 3);
+  }
+  return bytes;
+}
+
+using States = std::vector<std::vector<unsigned char>>;
+
+States go_on(Simulator& engine, const Scene& scene, int num_steps) {
+  States states;
+  for (int i = 0; i < num_steps; ++i) {
+    (void)engine.step(scene.world.time_step);
+    states.push_back(bytes_of(engine.state()));
+  }
+  return states;
+}
+
+/// The first step whose state differs, or -1.
+int first_difference(const States& a, const States& b) {
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    if (a[i] != b[i]) return static_cast<int>(i);
+  }
+  return a.size() == b.size() ? -1 : static_cast<int>(std::min(a.size(), b.size()));
+}
+
+Resumable& resumable(Simulator& engine) {
+  return dynamic_cast<Resumable&>(engine);
+}
+
+bool can_resume(const EngineInfo& engine) {
+  return dynamic_cast<Resumable*>(engine.make().get()) != nullptr;
+}
+
+/// More of them, for a longer look by hand.
+int num_snapshots() {
+  const char* const number = std::getenv("WEFT_TEST_SNAPSHOTS");
+  return number != nullptr ? std::max(1, std::atoi(number)) : kSnapshots;
+}
+
+struct Run {
+  EngineInfo engine;
+  std::string scene;
+
+  friend void PrintTo(const Run& run, std::ostream* out) {
+    *out << run.engine.name << " " << run.scene;
+  }
+};
+
+std::vector<Run> runs() {
+  std::vector<Run> list;
+  for (const EngineInfo& engine : engine_table()) {
+    if (!can_resume(engine)) continue;
+    for (const CatalogEntry& entry : scene_catalog()) {
+      const Scene scene = load_scene(std::string(entry.name));
+      if (is_for_engine(scene, engine.name)) list.push_back({engine, scene.name});
+    }
+  }
+  return list;
+}
+
+class EveryRun : public testing::TestWithParam<Run> {};
+
+// Each snapshot is taken in a run that went on from the one before.
+TEST_P(EveryRun, GoesOnWithTheSameBits) {
+  const auto& [info, name] = GetParam();
+  const Scene scene = with_step_of(load_scene(name), info.name);
+  const std::unique_ptr<Simulator> engine = info.make();
+  try {
+    engine->load(scene);
+  } catch (const InvalidArgument& error) {
+    GTEST_SKIP() << error.what();
+  }
+  for (int s = 0; s < num_snapshots(); ++s) {
+    const Snapshot snapshot = resumable(*engine).save();
+    const States first = go_on(*engine, scene, kStepsAfter);
+
+    resumable(*engine).restore(snapshot);
+    EXPECT_EQ(engine->state().time, snapshot.time);
+    EXPECT_EQ(first_difference(first, go_on(*engine, scene, kStepsAfter)), -1)
+        << "coming back to step " << snapshot.step;
+
+    const std::unique_ptr<Simulator> fresh = info.make();
+    fresh->load(scene);
+    resumable(*fresh).restore(snapshot);
+    EXPECT_EQ(first_difference(first, go_on(*fresh, scene, kStepsAfter)), -1)
+        << "a new engine at step " << snapshot.step;
+    for (int i = 0; i < kStepsBetween; ++i) (void)engine->step(scene.world.time_step);
+  }
+}
+
+// Nodes and springs come in the middle of a run: a snapshot of each step in which that happens.
+TEST(SnapshotOfATear, GoesOnWithTheSameBits) {
+  int num_tears = 0;
+  for (const EngineInfo& info : engine_table()) {
+    const Scene scene = with_step_of(load_scene("tear"), info.name);
+    if (!can_resume(info) || !is_for_engine(scene, info.name)) continue;
+    const std::unique_ptr<Simulator> engine = info.make();
+    engine->load(scene);
+    const std::unique_ptr<Simulator> fresh = info.make();
+    fresh->load(scene);
+    int num_of_engine = 0;
+    for (int step = 0; step < 2000 && num_of_engine < 3; ++step) {
+      const Eigen::Index before = engine->state().cloths[0].positions.cols();
+      (void)engine->step(scene.world.time_step);
+      if (engine->state().cloths[0].positions.cols() == before) continue;
+      ++num_of_engine;
+      const Snapshot snapshot = resumable(*engine).save();
+      resumable(*fresh).restore(snapshot);
+      EXPECT_EQ(
+          first_difference(go_on(*engine, scene, kStepsAfter), go_on(*fresh, scene, kStepsAfter)),
+          -1)
+          << info.name << " at step " << snapshot.step;
+    }
+    num_tears += num_of_engine;
+  }
+  if (can_resume(engine_table().front()) && engine_table().size() > 1) {
+    EXPECT_GT(num_tears, 0);
+  }
+}
+
+// Suspended, led and let go again.
+TEST(SnapshotOfALevelOfDetail, GoesOnWithTheSameBits) {
+  for (const EngineInfo& info : engine_table()) {
+    Scene scene = with_step_of(load_scene("caped_figure"), info.name);
+    if (!can_resume(info) || !is_for_engine(scene, info.name)) continue;
+    const double h = scene.world.time_step;
+    scene.controllers.emplace_back(Detail{.cloth = "cape",
+                                          .levels = {{10.5 * h, DetailLevel::kSimplified},
+                                                     {20.5 * h, DetailLevel::kSkin},
+                                                     {30.5 * h, DetailLevel::kFull}},
+                                          .blend = 8 * h});
+    const std::unique_ptr<Simulator> engine = info.make();
+    engine->load(scene);
+    const std::unique_ptr<Simulator> fresh = info.make();
+    fresh->load(scene);
+    for (int k = 0; k < 9; ++k) {
+      const Snapshot snapshot = resumable(*engine).save();
+      resumable(*fresh).restore(snapshot);
+      EXPECT_EQ(first_difference(go_on(*engine, scene, 5), go_on(*fresh, scene, 5)), -1)
+          << info.name << " at step " << snapshot.step;
+    }
+  }
+}
+
+// Other laws, as a window sets them.
+TEST(SnapshotOfOtherLaws, GoesOnWithTheSameBits) {
+  const Scene scene = load_scene("hang");
+  for (const EngineInfo& info : engine_table()) {
+    if (!can_resume(info) || !is_for_engine(scene, info.name)) continue;
+    const std::unique_ptr<Simulator> engine = info.make();
+    engine->load(scene);
+    (void)go_on(*engine, scene, 5);
+    std::vector<forces::LawSpecification> laws = scene.cloths[0].laws;
+    laws.push_back({"velocity_damping", {}, {{"rate", {2.0}}}});
+    dynamic_cast<LiveLaws&>(*engine).replace_laws(0, laws);
+    (void)go_on(*engine, scene, 5);
+    const Snapshot snapshot = resumable(*engine).save();
+    const std::unique_ptr<Simulator> fresh = info.make();
+    fresh->load(scene);
+    resumable(*fresh).restore(snapshot);
+    EXPECT_EQ(first_difference(go_on(*engine, scene, 5), go_on(*fresh, scene, 5)), -1) << info.name;
+  }
+}
+
+TEST(Snapshot, OfAnotherSceneOrEngineIsRefused) {
+  const EngineInfo& reference = *find_engine("reference", StoredPrecision::kFloat64);
+  const std::unique_ptr<Simulator> engine = reference.make();
+  EXPECT_THROW((void)resumable(*engine).save(), Error);
+  engine->load(load_scene("hang"));
+  Snapshot snapshot = resumable(*engine).save();
+  engine->load(load_scene("drop_box"));
+  EXPECT_THROW(resumable(*engine).restore(snapshot), Error);
+  engine->load(load_scene("hang"));
+  EXPECT_NO_THROW(resumable(*engine).restore(snapshot));
+  snapshot.engine = "bullet_weft";
+  EXPECT_THROW(resumable(*engine).restore(snapshot), Error);
+}
+
+class Silent final : public Controller {
+ public:
+  void steer(const SceneState&, double, Steering&) override {}
+};
+
+TEST(Snapshot, OfAControllerThatDoesNotSayWhatItKnowsIsRefused) {
+  const std::unique_ptr<Simulator> engine =
+      find_engine("reference", StoredPrecision::kFloat64)->make();
+  engine->set_controllers({std::make_shared<Silent>()});
+  engine->load(load_scene("hang"));
+  EXPECT_THROW((void)resumable(*engine).save(), InvalidArgument);
+}
+
+std::string name_of(const testing::TestParamInfo<Run>& run) {
+  return std::string(run.param.engine.name) + "_" + run.param.scene;
+}
+
+INSTANTIATE_TEST_SUITE_P(Snapshots, EveryRun, testing::ValuesIn(runs()), name_of);
+
+}  // namespace
+}  // namespace weft::scenes
