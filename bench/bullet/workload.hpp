@@ -39,9 +39,9 @@ struct Workload {
 
 /// The distance from surfaces at which nodes come to rest [m], in every solver.
 inline constexpr double kWorkloadMargin = 0.01;
-/// Of everything with everything.
+/// Everything rubs on everything by this coefficient [-].
 inline constexpr double kWorkloadFriction = 0.3;
-/// In a pressurised ball of the workload [Pa].
+/// The pressure in the ball [Pa].
 inline constexpr double kWorkloadPressure = 100.0;
 
 /// A workload with some solver.

@@ -212,6 +212,7 @@ void ClothContact::add_self_contacts(btSoftBody& body, btScalar time_step) {
     for (const int slot : slots) {
       while (next != near.end() && *next < slot) ++next;
       if (next != near.end() && *next == slot) continue;
+      if (!tree_.may_be_over(slot, body.m_nodes[i].m_x, kOverlap)) continue;
       try_contact(body, body.m_nodes[i], body.m_faces[tree_.face(slot)], rules);
     }
   });
@@ -227,6 +228,9 @@ void ClothContact::add_contacts(btSoftBody& body, btSoftBody& other, ClothContac
   for_candidates(body, kReach * rules.thickness, other_contact,
                  [&](int i, std::span<const int> slots) {
                    for (const int slot : slots) {
+                     if (!other_contact.tree_.may_be_over(slot, body.m_nodes[i].m_x, kOverlap)) {
+                       continue;
+                     }
                      btSoftBody::Face& face = other.m_faces[other_contact.tree_.face(slot)];
                      try_contact(body, body.m_nodes[i], face, rules);
                    }

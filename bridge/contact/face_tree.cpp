@@ -10,6 +10,8 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
+/// Faces whose sine between two edges is less are too thin for weights.
+constexpr btScalar kThin = btScalar(0.01);
 constexpr btScalar kFar = std::numeric_limits<btScalar>::max();
 
 /// Divides elements into groups of about equal size: halves them at the median of their centers along the longest
@@ -136,6 +138,7 @@ void FaceTree::make_leaves(const std::vector<int>& order, const std::vector<std:
   }
   boxes_.assign(2 * leaves_.size(), MotionBox::nowhere());
   corners_.resize(order.size());
+  weights_.resize(leaves_.size() * kWidth);
 }
 
 void FaceTree::refit(const btSoftBody& body, const btVector3& shift) {
@@ -158,7 +161,12 @@ void FaceTree::refit(const btSoftBody& body, const btVector3& shift) {
     }
   }
   const std::size_t num_leaves = leaves_.size();
-  for (std::size_t l = 0; l < num_leaves; ++l) fill(leaves_[l], boxes_[num_leaves + l]);
+  for (std::size_t l = 0; l < num_leaves; ++l) {
+    fill(leaves_[l], boxes_[num_leaves + l]);
+    for (std::size_t i = 0; i < leaves_[l].size; ++i) {
+      weights_[l * kWidth + i] = weights_of(body.m_faces[leaves_[l].faces[i]]);
+    }
+  }
   for (std::size_t b = num_leaves - 1; b > 0; --b) {
     boxes_[b] = boxes_[2 * b];
     boxes_[b].include(boxes_[2 * b + 1]);
@@ -178,6 +186,17 @@ void FaceTree::fill(Leaf& leaf, MotionBox& all) const {
     }
     all.include(box);
   }
+}
+
+FaceTree::Weights FaceTree::weights_of(const btSoftBody::Face& face) {
+  const btVector3& a = face.m_n[0]->m_x;
+  const btVector3 ab = face.m_n[1]->m_x - a;
+  const btVector3 ac = face.m_n[2]->m_x - a;
+  const btVector3 normal = btCross(ab, ac);
+  const btScalar squared = normal.length2();
+  const bool is_thin = !(squared > kThin * kThin * ab.length2() * ac.length2());
+  const btScalar scale = is_thin ? btScalar(0) : 1 / squared;
+  return {a, btCross(ac, normal) * scale, btCross(normal, ab) * scale};
 }
 
 void FaceTree::find(const MotionBox& box, Nearby& nearby) const {

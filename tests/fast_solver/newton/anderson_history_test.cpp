@@ -42,5 +42,36 @@ TEST(AndersonHistory, ChangesNothingWhereNothingHasChanged) {
   }
 }
 
+// One node that goes from place to place, three times; a history that was told to forget something else, whatever its slots were
+// last, makes of it what a new one does.
+TEST(AndersonHistory, ForgetsWhatItsSlotsHold) {
+  constexpr int kRows = kNodesPerCacheLine;
+  const auto run = [](AndersonHistory<double>& history, double scale, int iterations) {
+    NodeArrays<double> positions = NodeArrays<double>::Zero(kRows, 3);
+    NodeArrays<double> last = positions;
+    positions.row(5) = scale * Eigen::RowVector3d(1, 2, 3);
+    for (int iteration = 0; iteration < iterations; ++iteration) {
+      NodeArrays<double> results = positions;
+      results.row(5).array() *= Eigen::Array3d(0.9, 0.8, 0.1).transpose();
+      history.next();
+      const auto products = history.add({0, kRows}, positions, results, last);
+      history.added();
+      last = results;
+      positions = results;
+      if (history.count() > 0) history.combine({0, kRows}, history.weights(products), positions);
+    }
+    return positions;
+  };
+  for (int before = 1; before < 5; ++before) {
+    AndersonHistory<double> fresh;
+    fresh.resize(kRows);
+    AndersonHistory<double> used;
+    used.resize(kRows);
+    (void)run(used, 100, before);
+    used.forget();
+    EXPECT_EQ(run(used, 1, 3), run(fresh, 1, 3)) << before << " iterations before";
+  }
+}
+
 }  // namespace
 }  // namespace weft::fast
