@@ -1,5 +1,9 @@
 // Tested by tests/python/test_world.py, tests/python/test_tearing.py, tests/python/test_adoption.py.
 
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
 #include <fmt/format.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -115,34 +119,25 @@ py::tuple contacts_of(const ClothHandle& handle) {
 void move_pins(const ClothHandle& handle, const py::object& nodes, const py::object& targets) {
   ClothRecord& cloth = handle.get();
   const btSoftBody& body = *cloth.body;
-  const std::vector<int> led = nodes_from(nodes, body.m_nodes.size(), in_message(cloth, "nodes"));
+  std::vector<int> led = nodes_from(nodes, body.m_nodes.size(), in_message(cloth, "nodes"));
   for (const int node : led) {
     if (body.m_nodes[node].m_im == 0) continue;
     throw InvalidArgument(
         fmt::format("cloth '{}': node {} is not pinned, expected pins only", cloth.name, node));
   }
-  const auto count = static_cast<Eigen::Index>(py::len(nodes));
-  Matrix3X<double> places = points_from(targets, count, in_message(cloth, "targets"), "m");
-  if (static_cast<Eigen::Index>(led.size()) != count ||
-      !std::is_sorted(nodes.cast<std::vector<int>>().begin(),
-                      nodes.cast<std::vector<int>>().end())) {
-    throw InvalidArgument(in_message(
-        cloth, "nodes are not in ascending order, or one is named twice; expected each once"));
-  }
-  cloth.led_nodes = led;
-  cloth.led_targets = std::move(places);
+  cloth.led_targets = points_from(targets, static_cast<Eigen::Index>(led.size()),
+                                  in_message(cloth, "targets"), "m");
+  cloth.led_nodes = std::move(led);
 }
 
 void add_forces(const ClothHandle& handle, const py::object& nodes, const py::object& forces) {
   ClothRecord& cloth = handle.get();
-  std::vector<int> given;
+  const int num_nodes = cloth.body->m_nodes.size();
+  std::vector<int> given(static_cast<std::size_t>(num_nodes));
   if (nodes.is_none()) {
-    for (int i = 0; i < cloth.body->m_nodes.size(); ++i) given.push_back(i);
+    std::iota(given.begin(), given.end(), 0);
   } else {
-    given = nodes_from(nodes, cloth.body->m_nodes.size(), in_message(cloth, "nodes"));
-    if (given.size() != py::len(nodes)) {
-      throw InvalidArgument(in_message(cloth, "a node is named twice, expected each once"));
-    }
+    given = nodes_from(nodes, num_nodes, in_message(cloth, "nodes"));
   }
   const auto count = static_cast<Eigen::Index>(given.size());
   const Matrix3X<double> acting = points_from(forces, count, in_message(cloth, "forces"), "N");

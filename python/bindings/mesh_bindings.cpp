@@ -41,7 +41,7 @@ MassLumping lumping_from(const std::string& word, const std::string& where) {
 }
 
 void set_pins(ClothMesh& mesh, const py::handle& pins, const std::string& where) {
-  mesh.pinned = nodes_from(pins, mesh.num_nodes(), where + ": pins");
+  mesh.pinned = sorted_nodes_from(pins, mesh.num_nodes(), where + ": pins");
   mesh.pinned_velocities.resize(3, 0);
 }
 
@@ -130,7 +130,7 @@ void add_node_set(ClothMesh& mesh, const std::string& name, const py::object& no
     }
   }
   mesh.node_sets.push_back(
-      {name, nodes_from(nodes, mesh.num_nodes(), "mesh: node set '" + name + "'")});
+      {name, sorted_nodes_from(nodes, mesh.num_nodes(), "mesh: node set '" + name + "'")});
 }
 
 void bind_mesh_class(py::module_& module) {

@@ -57,6 +57,15 @@ Doubles finite_numbers(const py::handle& object, const std::string& where,
   return array;
 }
 
+int node_at(const Integers& array, py::ssize_t i, int num_nodes, const std::string& where) {
+  const std::int64_t node = array.at(i) < 0 ? array.at(i) + num_nodes : array.at(i);
+  if (node < 0 || node >= num_nodes) {
+    throw InvalidArgument(fmt::format("{}[{}] = {}, expected a node from {} to {}", where, i,
+                                      array.at(i), -num_nodes, num_nodes - 1));
+  }
+  return static_cast<int>(node);
+}
+
 }  // namespace
 
 Matrix3X<double> points_from(const py::handle& object, const std::string& where,
@@ -109,21 +118,34 @@ Triangles triangles_from(const py::handle& object, Eigen::Index num_nodes,
   return triangles;
 }
 
+std::vector<int> sorted_nodes_from(const py::handle& object, int num_nodes,
+                                   const std::string& where) {
+  const py::array given = array_from(object, "iu", where, "whole numbers");
+  require_shape(given.ndim() == 1, given, where, "(n,)");
+  const auto array = Integers::ensure(given);
+  std::vector<int> nodes;
+  for (py::ssize_t i = 0; i < array.size(); ++i)
+    nodes.push_back(node_at(array, i, num_nodes, where));
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
 std::vector<int> nodes_from(const py::handle& object, int num_nodes, const std::string& where) {
   const py::array given = array_from(object, "iu", where, "whole numbers");
   require_shape(given.ndim() == 1, given, where, "(n,)");
   const auto array = Integers::ensure(given);
   std::vector<int> nodes;
+  std::vector<bool> is_named(static_cast<std::size_t>(num_nodes), false);
   for (py::ssize_t i = 0; i < array.size(); ++i) {
-    const std::int64_t node = array.at(i) < 0 ? array.at(i) + num_nodes : array.at(i);
-    if (node < 0 || node >= num_nodes) {
-      throw InvalidArgument(fmt::format("{}[{}] = {}, expected a node from {} to {}", where, i,
-                                        array.at(i), -num_nodes, num_nodes - 1));
+    nodes.push_back(node_at(array, i, num_nodes, where));
+    auto named = is_named[static_cast<std::size_t>(nodes.back())];
+    if (named) {
+      throw InvalidArgument(
+          fmt::format("{}: node {} is named twice, expected each once", where, nodes.back()));
     }
-    nodes.push_back(static_cast<int>(node));
+    named = true;
   }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
 

@@ -32,9 +32,13 @@ namespace py = pybind11;
 /// t rows of three whole numbers from 0 to num_nodes - 1, as 3 x t.
 [[nodiscard]] Triangles triangles_from(const py::handle& object, Eigen::Index num_nodes,
                                        const std::string& where);
-/// Whole numbers from 0 to num_nodes - 1 in ascending order, each once; negative ones count from the end, as in NumPy.
+/// Whole numbers from 0 to num_nodes - 1, each once, in the order given; negative ones count from the end, as in NumPy.
 [[nodiscard]] std::vector<int> nodes_from(const py::handle& object, int num_nodes,
                                           const std::string& where);
+
+/// The same in ascending order, each once however often it is named.
+[[nodiscard]] std::vector<int> sorted_nodes_from(const py::handle& object, int num_nodes,
+                                                 const std::string& where);
 
 /// A copy with a row for each column.
 [[nodiscard]] py::array_t<double> rows_of(const Matrix3X<double>& columns);

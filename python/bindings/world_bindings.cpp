@@ -119,7 +119,7 @@ ClothHandle adopt(const std::shared_ptr<World>& world, const std::string& name,
       .friction = friction,
       .damping = damping,
       .meets_cloths = meets_cloths,
-      .pins = nodes_from(pins, static_cast<int>(points.cols()), "adopt: pins")};
+      .pins = sorted_nodes_from(pins, static_cast<int>(points.cols()), "adopt: pins")};
   return {
       world,
       world->adopt(

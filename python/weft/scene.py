@@ -9,6 +9,7 @@ import weakref
 from typing import NamedTuple, Optional
 
 from weft import _core, _native
+from weft._arguments import optional_number
 from weft.errors import Error, InvalidArgument
 from weft.recording import RecordedBlowUp, Recording
 
@@ -78,6 +79,8 @@ class Scene:
         if precision not in _native.PRECISIONS or (engine == "reference" and precision != "float64"):
             raise InvalidArgument(f"scene '{self.name}': precision = {precision!r} of {engine}, expected " +
                                   ("'float64'" if engine == "reference" else "'float32' or 'float64'"))
+        where = f"scene '{self.name}'"
+        duration, time_step = optional_number(where, "duration", duration, "s"), optional_number(where, "time_step", time_step, "s")
         folder = None
         if output is None:
             folder = tempfile.mkdtemp(prefix="weft-")

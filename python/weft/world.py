@@ -3,10 +3,10 @@ import itertools
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from weft import _native
+from weft import _core, _native
 from weft import laws as _laws
+from weft._arguments import count, instance, number, optional_number
 from weft.cloth import Cloth
-from weft.errors import InvalidArgument
 
 _NO_TURN = (0.0, 0.0, 0.0, 1.0)
 _ZERO = (0.0, 0.0, 0.0)
@@ -54,8 +54,8 @@ class World:
 
     def __init__(self, gravity=(0.0, -9.81, 0.0), *, precision=None, solver=Solver(), distance_field_voxel=0.05):
         self._module = _native.world_module(precision or _native.loaded_precision() or "float32")
-        self._native = self._module.World(gravity, distance_field_voxel)
-        self.solver = solver
+        self._native = self._module.World(gravity, number("world", "distance_field_voxel", distance_field_voxel, "m"))
+        self.solver = instance("world", "solver", solver, Solver, "a weft.Solver")
 
     def __repr__(self):
         return f"<weft.World: {len(self.cloths)} cloths, {len(self.bodies)} bodies, t = {self.time:.6g} s, {self.precision}>"
@@ -90,34 +90,38 @@ class World:
 
     def step(self, time_step, steps=1):
         """Takes steps of time_step [s] without the lock of the interpreter. Ctrl-C ends a call between two steps."""
-        found = self._native.step(time_step, steps)
+        found = self._native.step(number("world", "time_step", time_step, "s"), count("world", "steps", steps))
         return StepReport(self.time, *found)
 
     def add_cloth(self, mesh, laws, *, name=None, margin=0.01, friction=0.5, self_collision=False, cloth_collision=False,
                   thickness=None, tear=None, can_be_cut=False, velocity=_ZERO, implicit=True, solver=None):
         """Adds a cloth of a weft.Mesh. margin [m]: distance at which it rests on a surface; thickness [m] that its layers keep
         (None: twice margin); velocity [m/s] of all free nodes; implicit: springs by the fast solver, stable at any step."""
-        fast = self._fast(solver)
-        rule = None
-        if tear is not None:
-            if not isinstance(tear, Tear):
-                raise InvalidArgument(f"cloth: tear = {tear!r}, expected weft.Tear(strain=...)")
-            rule = (tear.edge_set, tear.strain, tear.variation, tear.max_splits, [tuple(one) for one in tear.weak])
-        return Cloth(self._module.add_cloth(self._native, name or self._free_name("cloth"), mesh, self._all_laws(laws), margin, friction,
-                                            implicit, fast, self_collision, cloth_collision, thickness, rule, can_be_cut, velocity))
+        name = self._name(name, "cloth")
+        where = f"cloth '{name}'"
+        instance(where, "mesh", mesh, _core.Mesh, "a weft.Mesh, as of weft.grid() or weft.surface()")
+        return Cloth(self._module.add_cloth(
+            self._native, name, mesh, self._all_laws(laws), number(where, "margin", margin, "m"), number(where, "friction", friction, "1"),
+            bool(implicit), self._fast(where, solver), bool(self_collision), bool(cloth_collision),
+            optional_number(where, "thickness", thickness, "m"), _tear_rule(where, tear), bool(can_be_cut), velocity))
 
     def adopt(self, vertices, triangles, mass, *, name=None, stiffness=None, link_factor=1.0, bending_factor=None, laws=(), time_step=1 / 60,
               iterations=10, margin=0.01, friction=0.5, damping=0.0, cloth_collision=False, pins=(), solver=None):
         """Makes a soft body of arrays by Bullet's own calls, as PyBullet does, and adopts it: its links become implicit springs, with
         stiffness [N/m], or with what link_factor (kLST) means at time_step [s] and so many iterations."""
-        return Cloth(self._module.adopt(self._native, name or self._free_name("cloth"), vertices, triangles, self._all_laws(laws), stiffness,
-                                        time_step, self._fast(solver), mass, link_factor, bending_factor, iterations, margin, friction,
-                                        damping, cloth_collision, pins))
+        name = self._name(name, "cloth")
+        where = f"cloth '{name}'"
+        return Cloth(self._module.adopt(
+            self._native, name, vertices, triangles, self._all_laws(laws), optional_number(where, "stiffness", stiffness, "N/m"),
+            number(where, "time_step", time_step, "s"), self._fast(where, solver), number(where, "mass", mass, "kg"),
+            number(where, "link_factor", link_factor, "1"), optional_number(where, "bending_factor", bending_factor, "1"),
+            count(where, "iterations", iterations), number(where, "margin", margin, "m"), number(where, "friction", friction, "1"),
+            number(where, "damping", damping, "1"), bool(cloth_collision), pins))
 
     def add_sphere(self, radius, **options):
         """Adds a rigid ball. Options of all bodies: name, position [m], orientation (x, y, z, w), mass [kg] (0: fixed), kinematic,
         friction, restitution, velocity [m/s], angular_velocity [rad/s]."""
-        return self._add("sphere", options, radius)
+        return self._add("sphere", options, number("sphere", "radius", radius, "m"))
 
     def add_box(self, half_extents, **options):
         return self._add("box", options, half_extents)
@@ -128,10 +132,10 @@ class World:
 
     def add_capsule(self, radius, height, **options):
         """Adds a capsule along its y axis; height [m] of the cylinder between the caps."""
-        return self._add("capsule", options, radius, height)
+        return self._add("capsule", options, number("capsule", "radius", radius, "m"), number("capsule", "height", height, "m"))
 
     def add_cylinder(self, radius, height, **options):
-        return self._add("cylinder", options, radius, height)
+        return self._add("cylinder", options, number("cylinder", "radius", radius, "m"), number("cylinder", "height", height, "m"))
 
     def add_hull(self, points, **options):
         """Adds the convex hull of points (4 to 128, 3) [m]."""
@@ -152,13 +156,19 @@ class World:
             if option not in known:
                 raise TypeError(f"add_{shape}() has no option '{option}', expected one of {', '.join(known)}")
         known.update(options)
-        known["name"] = known["name"] or self._free_name(shape)
+        name = known["name"] = self._name(known["name"], shape)
+        for option, unit in (("mass", "kg"), ("friction", "1"), ("restitution", "1")):
+            known[option] = number(f"body '{name}'", option, known[option], unit)
+        known["kinematic"] = bool(known["kinematic"])
         return getattr(self._module, f"add_{shape}")(self._native, *known.values(), *arguments)
 
-    def _fast(self, solver):
-        solver = solver or self.solver
-        return self._module.FastSettings(solver.tolerance, solver.newton_iterations, solver.linear_iterations, solver.may_sleep,
-                                         solver.sleep_speed, solver.sleep_time)
+    def _fast(self, where, solver):
+        solver = instance(where, "solver", solver or self.solver, Solver, "a weft.Solver")
+        where += ": solver"
+        return self._module.FastSettings(
+            number(where, "tolerance", solver.tolerance, "1"), count(where, "newton_iterations", solver.newton_iterations),
+            count(where, "linear_iterations", solver.linear_iterations), bool(solver.may_sleep),
+            number(where, "sleep_speed", solver.sleep_speed, "m/s"), number(where, "sleep_time", solver.sleep_time, "s"))
 
     def _all_laws(self, given):
         laws = _laws.laws_from(given)
@@ -166,6 +176,19 @@ class World:
             laws.append(_laws.Law("gravity", {"acceleration": self.gravity}))
         return [_laws._tuple_of(law) for law in laws]
 
-    def _free_name(self, kind):
+    def _name(self, name, kind):
+        if name is not None:
+            return instance("world", "name", name, str, "a text")
         taken = {one.name for one in itertools.chain(self.cloths, self.bodies)}
-        return next(name for number in itertools.count(1) if (name := f"{kind}_{number}") not in taken)
+        return next(free for number in itertools.count(1) if (free := f"{kind}_{number}") not in taken)
+
+
+def _tear_rule(where, tear):
+    """What the extension modules take."""
+    if tear is None:
+        return None
+    instance(where, "tear", tear, Tear, "weft.Tear(strain=...)")
+    where += ": tear"
+    weak = [(instance(where, "node set", name, str, "a name"), number(where, "strain", strain, "1")) for name, strain in tear.weak]
+    return (instance(where, "edge_set", tear.edge_set, str, "a name"), number(where, "strain", tear.strain, "1"),
+            number(where, "variation", tear.variation, "1"), count(where, "max_splits", tear.max_splits), weak)
