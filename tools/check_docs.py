@@ -42,7 +42,7 @@ MAY_NAME_RETIRED = {
     "docs/validation.md": "has a hat that is worn",
 }
 MODULES = ("core", "mesh", "custom_forces", "fast_solver", "bridge", "reference", "characters", "scenes", "playback", "engines",
-           "recorder", "validation", "apps", "bench", "fuzz", "tests")
+           "recorder", "python", "validation", "apps", "bench", "fuzz", "tests")
 FRAGMENT = re.compile(r"^\s*//+<? Of\b")
 
 FENCE = re.compile(r"^(```|~~~).*?^\1[ \t]*$", re.DOTALL | re.MULTILINE)

@@ -27,6 +27,7 @@ MAY_INCLUDE = {
     "recorder": ("scenes", "bridge", "mesh", "core"),
     "validation": ("engines", "playback", "scenes", "reference", "characters", "custom_forces", "mesh", "core"),
     "apps": ("validation", "viewer", "engines", "playback", "scenes", "characters", "custom_forces", "mesh", "core"),
+    "python": ("validation", "recorder", "engines", "scenes", "bridge", "custom_forces", "mesh", "core"),
     # Programs of their own, which nothing of the above includes.
     "bench": ("validation", "engines", "scenes", "bridge", "fast_solver", "custom_forces", "mesh", "core"),
     "fuzz": ("scenes", "characters", "mesh", "core"),
@@ -39,6 +40,7 @@ BULLET_ALLOWED = (
     "bridge/",
     "engines/bullet/",
     "recorder/",
+    "python/",
     "bench/bullet/",
     "tests/bridge/",
     "tests/engines/bullet/",
@@ -56,7 +58,7 @@ def faults_of_include(path, target):
     if target.startswith("../") or "/../" in target:
         yield f"'{target}' climbs out of its folder, expected <weft/module/file.hpp>"
     if BULLET.match(target) and not path.startswith(BULLET_ALLOWED):
-        yield f"'{target}' is Bullet's; Bullet types stay in bridge/, engines/bullet/ and recorder/"
+        yield f"'{target}' is Bullet's; Bullet types stay in bridge/, engines/bullet/, recorder/ and python/"
     if not target.startswith("weft/"):
         return
     includer, included = path.split("/")[0], target.split("/")[1]
@@ -97,6 +99,9 @@ def self_test():
         "playback/bullet.cpp": ("<LinearMath/btVector3.h>", "is Bullet's"),
         "engines/reference.cpp": ("<btBulletDynamicsCommon.h>", "is Bullet's"),
         "apps/unknown.cpp": ("<weft/physics/x.hpp>", "is in no module"),
+        "bridge/up.hpp": ("<weft/python/bindings/world.hpp>", "bridge may not include python"),
+        "python/viewer.cpp": ("<weft/viewer/session.hpp>", "python may not include viewer"),
+        "python/clean.cpp": ("<BulletSoftBody/btSoftBody.h>", None),
         "bridge/clean.cpp": ("<BulletSoftBody/btSoftBody.h>", None),
         "engines/bullet/bullet_soft.cpp": ("<weft/bridge/solver.hpp>", None),
         "custom_forces/clean.cpp": ("<Eigen/Core>", None),

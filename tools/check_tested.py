@@ -15,7 +15,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 MODULES = ("core", "mesh", "custom_forces", "fast_solver", "bridge", "reference", "characters", "scenes", "playback",
-           "engines", "recorder", "validation", "viewer")
+           "engines", "recorder", "validation", "viewer", "python")
 # The least share of the sources that must have a test.
 MIN_SHARE = 0.9
 # The line must stand among so many lines at the top, where a reader sees it first.
