@@ -6,7 +6,8 @@ from weft.cloth import BlowUp, Cloth, Contacts, StepError
 from weft.errors import Error, InvalidArgument, StaleArray
 from weft.recording import Recording
 from weft.scene import ENGINES, Scene, scene_names
+from weft.validation import ValidationReport, validate
 from weft.world import Solver, StepReport, Tear, World
 
 __all__ = ["BlowUp", "Cloth", "Contacts", "ENGINES", "Error", "InvalidArgument", "Mesh", "Recording", "Scene", "Solver", "StaleArray",
-           "StepError", "StepReport", "Tear", "World", "grid", "laws", "read_mesh", "rope", "scene_names", "sphere", "surface"]
+           "StepError", "StepReport", "Tear", "ValidationReport", "World", "grid", "laws", "read_mesh", "rope", "scene_names", "sphere", "surface", "validate"]
