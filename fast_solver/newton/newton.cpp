@@ -47,6 +47,12 @@ std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
 
+/// What further iterations gain if each gains this share of the one before [J].
+double rest_of(double gain, double shrinks) {
+  const double limited = std::min(kSlowest, shrinks);
+  return gain * limited / (1 - limited);
+}
+
 LinearAccuracy accuracy_of(int iteration, bool has_contacts, double asked) {
   LinearAccuracy accuracy = has_contacts || iteration < kRoughIterations ? kRough : kAccurate;
   accuracy.least_gain = kLastShare * asked;
@@ -133,15 +139,13 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     transverse = transverse > kFirstTransverse ? transverse / kTransverseGrowth : 0.0;
     forces_.set_least_transverse_stiffness(static_cast<Scalar>(transverse));
     const double shrinks = before > 0 ? last_gain_.total / before : kFirstShrink;
-    const double limited = std::min(kSlowest, shrinks);
-    const double left = last_gain_.left + last_gain_.total * limited / (1 - limited);
+    const double left = last_gain_.left + rest_of(last_gain_.total, shrinks);
     // Accelerated iterations gain little now and then, with some way to go. That is known here, but too late to stop by.
     last_shrinks[at(iteration) % last_shrinks.size()] = shrinks;
-    const double slowest =
-        std::min(kSlowest, *std::max_element(last_shrinks.begin(), last_shrinks.end()));
+    const double slowest = *std::max_element(last_shrinks.begin(), last_shrinks.end());
     report_.energy_left = last_gain_.is_broken
                               ? step_energy_
-                              : (last_gain_.left + last_gain_.total * slowest / (1 - slowest)) / 2;
+                              : (last_gain_.left + rest_of(last_gain_.total, slowest)) / 2;
     const bool is_stalled = !are_contact_states_new && !is_lower && !(shrinks < kStalled);
     num_stalled = is_stalled ? num_stalled + 1 : 0;
     // Stiff springs keep gaining by rounding while soft ones may still be far from their solution.

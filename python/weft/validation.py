@@ -42,7 +42,7 @@ def validate(*cases, quick=False, output=None, parameters=None):
         folder = os.fspath(output) if output is not None else temporary
         done = subprocess.run([*arguments, "--output", folder], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
         if done.returncode not in (0, 1):  # 1: a check has failed, which the report says
-            lines = [line for line in done.stderr.splitlines() if line.strip()]
+            lines = [line for line in done.stderr.splitlines() if line.strip() and not line.startswith("Try:")]
             raise InvalidArgument(f"validate: {lines[-1] if lines else f'ended with status {done.returncode}'}")
         with open(os.path.join(folder, "report.json"), encoding="utf-8") as file:
             report = json.load(file)

@@ -1,5 +1,6 @@
 """What the tests of the Python module share."""
 import os
+import tempfile
 import unittest
 
 import numpy as np
@@ -23,4 +24,7 @@ LAWS = {"tension": {"stiffness": 500.0}, "velocity_damping": {"rate": 0.5}}
 
 
 def main():
-    unittest.main(verbosity=1)
+    # A folder of its own for temporary files, so that tests which look for what is left see no other test's.
+    with tempfile.TemporaryDirectory(prefix="weft_test_") as folder:
+        tempfile.tempdir = folder
+        unittest.main(verbosity=1)
