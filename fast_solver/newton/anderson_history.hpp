@@ -34,10 +34,15 @@ class AndersonHistory {
       result_changes_[index(k)].setZero(rows, 3);
     }
   }
-  /// Restarts the acceleration, from the first slot: sums read the first count() slots, which must not be of earlier steps.
+  /// Restarts the acceleration. The next slot is the one after the newest: if that is not the first, the first combination may
+  /// read one of an earlier step. Whether it is kept, its energy decides.
   void forget() {
     has_last_ = false;
     count_ = 0;
+  }
+  /// As forget(), and begins with the first slot again, so that no sum has the order or the content of earlier steps.
+  void restart() {
+    forget();
     newest_ = kMemory - 1;
   }
   /// Slots that have something, after next().

@@ -29,8 +29,8 @@ constexpr std::size_t kShrinksSeen = 4;
 /// If the ratio exceeds this so many times in a row, iterations only gain rounding.
 constexpr double kStalled = 0.9;
 constexpr int kMostStalled = 3;
-/// An iteration that lowers the energy by this share of its gain gets somewhere, however slowly, as in a sheet that is pulled in on
-/// itself; rounding has gains too, and lowers nothing.
+/// Without contacts, whose states change energies, an iteration that lowers the energy by this share of its gain gets somewhere,
+/// however slowly, as in a sheet that is pulled in on itself. Rounding has gains too, and lowers nothing.
 constexpr double kLowered = 0.125;
 /// Least transverse over axial stiffness of a spring after an iteration that increased the energy, and its growth if that was not
 /// enough: with 1 no iteration gains any.
@@ -134,7 +134,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
       decides = false;
       continue;
     }
-    const bool is_lower = iteration > 0 && energy_before - now > kLowered * last_gain_.total;
+    const double lowered = has_contacts ? 0 : energy_before - now;
     energy_before = now;
     transverse = transverse > kFirstTransverse ? transverse / kTransverseGrowth : 0.0;
     forces_.set_least_transverse_stiffness(static_cast<Scalar>(transverse));
@@ -146,8 +146,8 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     report_.energy_left = last_gain_.is_broken
                               ? step_energy_
                               : (last_gain_.left + rest_of(last_gain_.total, slowest)) / 2;
-    const bool is_stalled = !are_contact_states_new && !is_lower && !(shrinks < kStalled);
-    num_stalled = is_stalled ? num_stalled + 1 : 0;
+    const bool is_slow = !(shrinks < kStalled) && !(lowered > kLowered * last_gain_.total);
+    num_stalled = is_slow && !are_contact_states_new ? num_stalled + 1 : 0;
     // Stiff springs keep gaining by rounding while soft ones may still be far from their solution.
     const bool is_rounding = last_gain_.total <= rounding && !(shrinks < kStalled);
     const bool is_solved = (left <= asked || is_rounding) && !last_gain_.is_broken;

@@ -42,9 +42,9 @@ TEST(AndersonHistory, ChangesNothingWhereNothingHasChanged) {
   }
 }
 
-// One node that goes from place to place, three times; a history that was told to forget something else, whatever its slots were
+// One node that goes from place to place, three times; a history that restarts after something else, whatever its slots were
 // last, makes of it what a new one does.
-TEST(AndersonHistory, ForgetsWhatItsSlotsHold) {
+TEST(AndersonHistory, RestartsWithoutWhatItsSlotsHold) {
   constexpr int kRows = kNodesPerCacheLine;
   const auto run = [](AndersonHistory<double>& history, double scale, int iterations) {
     NodeArrays<double> positions = NodeArrays<double>::Zero(kRows, 3);
@@ -68,7 +68,7 @@ TEST(AndersonHistory, ForgetsWhatItsSlotsHold) {
     AndersonHistory<double> used;
     used.resize(kRows);
     (void)run(used, 100, before);
-    used.forget();
+    used.restart();
     EXPECT_EQ(run(used, 1, 3), run(fresh, 1, 3)) << before << " iterations before";
   }
 }
