@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -87,6 +88,14 @@ class StateArchive {
   }
   void value(std::vector<std::string>& texts);
 
+  /// Something that may be missing: whether it is there, and what present(value) serializes of it.
+  template <class Value, class Present>
+  void optional(std::optional<Value>& value_or_none, const Present& present) {
+    bool is_set = value_or_none.has_value();
+    value(is_set);
+    if (is_reading()) value_or_none = is_set ? std::optional<Value>(Value{}) : std::nullopt;
+    if (is_set) present(*value_or_none);
+  }
   /// A list whose elements each(element) serializes.
   template <class Element, class Each>
   void list(std::vector<Element>& elements, const Each& each) {

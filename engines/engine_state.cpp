@@ -28,14 +28,6 @@ void serialize(StateArchive& archive, BlowUp& blow_up) {
   archive.value(blow_up.reason);
 }
 
-template <class Value>
-void serialize_optional(StateArchive& archive, std::optional<Value>& optional) {
-  bool is_set = optional.has_value();
-  archive.value(is_set);
-  if (archive.is_reading()) optional = is_set ? std::optional<Value>(Value{}) : std::nullopt;
-  if (is_set) serialize(archive, *optional);
-}
-
 bool is_same(const forces::LawSpecification& a, const forces::LawSpecification& b) {
   return a.law == b.law && a.sets == b.sets && a.parameters == b.parameters;
 }
@@ -43,15 +35,16 @@ bool is_same(const forces::LawSpecification& a, const forces::LawSpecification& 
 }  // namespace
 
 void serialize(StateArchive& archive, StepReport& report) {
+  const auto each = [&](auto& value) { serialize(archive, value); };
   archive.part("step");
   archive.value(report.step);
   archive.value(report.time);
   archive.value(report.time_step);
   archive.value(report.substeps);
   archive.value(report.num_contacts);
-  serialize_optional(archive, report.stable_time_step);
-  serialize_optional(archive, report.solve);
-  serialize_optional(archive, report.blow_up);
+  archive.optional(report.stable_time_step, each);
+  archive.optional(report.solve, each);
+  archive.optional(report.blow_up, each);
 }
 
 void serialize(StateArchive& archive, std::vector<forces::LawSpecification>& laws) {

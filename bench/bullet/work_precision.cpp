@@ -26,7 +26,7 @@ void compare(const Matrix3X<double>& x, const Matrix3X<double>& exact,
   c.last_places = x;
 }
 
-/// What takes no solver: places that stay as they are at the start, and for a hanging sheet a rigid plate and one at rest.
+/// A predictor takes no solver: places stay as they are at the start, and a hanging sheet is a rigid plate, or at rest.
 struct Predictor {
   std::string name;
   validation::Places places;

@@ -102,7 +102,7 @@ class FaceTree {
   struct Weights {
     btVector3 corner, slope_of_b, slope_of_c;
   };
-  /// What rounding can make of a weight [-], with room: a thin face's is a hundred times that of its edges.
+  /// Rounding changes a weight by less [-], also where a face is so thin that it is multiplied by a hundred.
   static constexpr btScalar kRounding = btScalar(0.01);
 
   void arrange(const btSoftBody& body);

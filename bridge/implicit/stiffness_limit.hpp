@@ -16,7 +16,7 @@ inline constexpr double kMostStiffness = sizeof(btScalar) == sizeof(float) ? 1e6
 /// of the nodes [kg], of which the lighter end counts. Says whether there were any.
 bool limit_stiffness(double time_step, const VectorX<double>& masses, fast::SpringNetwork& network);
 
-/// What has become of a body's springs since they were made of its laws.
+/// A body's springs change after they are made of its laws; this says how.
 struct NetworkHistory {
   bool is_replaced = false;  ///< some of them, or masses: by a tear, or the program
   int num_new_rest_lengths = 0;

@@ -52,7 +52,7 @@ class CoupledBodies {
   /// Whether bodies were pushed into others that had not held them in the last solution, or the other way round.
   [[nodiscard]] bool are_supports_wrong(btScalar time_step);
 
-  /// What the next step knows of the last one, for snapshots.
+  /// Snapshots save what the next step reads of the last one.
   void serialize(StateArchive& archive, const ObjectTable& objects);
 
   [[nodiscard]] double kinetic_energy() const;

@@ -1,4 +1,4 @@
-// What a snapshot has of the search for contacts: how nodes and faces were sorted when they were first looked at. Contacts are
+// A snapshot has this of the search for contacts: how nodes and faces were sorted when they were first looked at. Contacts are
 // found in that order.
 // Tested by tests/bridge/snapshot_test.cpp, tests/engines/snapshot_test.cpp.
 #include <bit>

@@ -15,7 +15,7 @@ template <class Derive>
 void serialize_derived(StateArchive& archive, const Derive& derive, Matrix3X<btScalar>& matrix) {
   bool is_derived = false;
   if (!archive.is_reading() && matrix.cols() > 0) {
-    // Of steps before a tear a matrix has fewer nodes.
+    // A tear adds nodes: a matrix of the step before it is shorter.
     const Matrix3X<btScalar> derived = derive();
     is_derived = matrix.cols() == derived.cols() && matrix == derived;
   }

@@ -14,7 +14,7 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// What a snapshot has of a fast body: first what its solver was made of beside springs and masses, then what the next step
+/// A snapshot has this of a fast body: first what its solver was made of beside springs and masses, then what the next step
 /// knows of the last ones. The second is restored into a body whose solver is made of the same.
 class FastBodyState {
  public:

@@ -22,7 +22,7 @@ class BulletTears {
   /// Tears what is beyond its limit in bodies.state(); read_state() must follow if that is true.
   [[nodiscard]] bool tear(bridge::SoftBodySolver& solver, BulletBodies& bodies);
 
-  /// What has torn. A reader makes the tears that the cloths of the scene do not have yet.
+  /// Writes the tears so far. A reader makes the tears that the cloths of the scene do not have yet.
   void serialize(StateArchive& archive, bridge::SoftBodySolver& solver, BulletBodies& bodies);
   /// Gives torn cloths their laws anew, by their names: what their solvers know of the steps before is lost.
   void renew_laws(bridge::SoftBodySolver& solver, const BulletBodies& bodies) const;

@@ -10,6 +10,7 @@
 #include <weft/core/error.hpp>
 #include <weft/python/bindings/core_module.hpp>
 #include <weft/python/bindings/numpy_arrays.hpp>
+#include <weft/python/bindings/scene_run.hpp>
 #include <weft/scenes/recording/recording.hpp>
 
 namespace weft::python {
@@ -80,18 +81,6 @@ py::array_t<double> times_of(const RecordingReader& reader) {
   return times;
 }
 
-py::object blow_up_of(const RecordingReader& reader) {
-  const auto blow_up = reader.blow_up();
-  if (!blow_up) return py::none();
-  py::dict result;
-  result["step"] = blow_up->step;
-  result["time"] = blow_up->time;
-  result["body"] = blow_up->body;
-  result["node"] = blow_up->node;
-  result["reason"] = blow_up->reason;
-  return result;
-}
-
 py::tuple metric_of(const RecordingReader& reader, const std::string& name) {
   const std::vector<std::string> names = reader.metric_names();
   if (std::find(names.begin(), names.end(), name) == names.end()) {
@@ -131,7 +120,8 @@ void bind_recordings(py::module_& module) {
           })
       .def_property_readonly("finished", &RecordingReader::finished)
       .def_property_readonly("content_hash", &RecordingReader::content_hash)
-      .def_property_readonly("blow_up", &blow_up_of)
+      .def_property_readonly("blow_up",
+                             [](const RecordingReader& r) { return blow_up_dict(r.blow_up()); })
       .def_property_readonly("metric_names", &RecordingReader::metric_names)
       .def("metric", &metric_of, py::arg("name"))
       .def("first_mesh", [](const RecordingReader& r, const std::string& cloth) {

@@ -62,7 +62,9 @@ Recorded record(const scenes::Scene& scene, const RunRequest& request,
   return recorded;
 }
 
-py::object as_object(const std::optional<scenes::BlowUp>& blow_up) {
+}  // namespace
+
+py::object blow_up_dict(const std::optional<scenes::BlowUp>& blow_up) {
   if (!blow_up) return py::none();
   py::dict result;
   result["step"] = blow_up->step;
@@ -72,8 +74,6 @@ py::object as_object(const std::optional<scenes::BlowUp>& blow_up) {
   result["reason"] = blow_up->reason;
   return result;
 }
-
-}  // namespace
 
 py::dict run_scene(const scenes::Scene& scene, const RunRequest& request) {
   Recorded recorded;
@@ -86,7 +86,7 @@ py::dict run_scene(const scenes::Scene& scene, const RunRequest& request) {
   result["steps"] = recorded.summary.steps;
   result["frames"] = recorded.summary.frames;
   result["time"] = recorded.time;
-  result["blow_up"] = as_object(recorded.summary.blow_up);
+  result["blow_up"] = blow_up_dict(recorded.summary.blow_up);
   result["largest_error"] = recorded.summary.largest_error
                                 ? py::object(py::float_(*recorded.summary.largest_error))
                                 : py::object(py::none());

@@ -33,4 +33,7 @@ struct RunRequest {
 /// recording. Throws as record_run() and RecordingOutput.
 [[nodiscard]] py::dict run_scene(const scenes::Scene& scene, const RunRequest& request);
 
+/// The step, the time [s], the body, the node and the reason of a blow-up as a dict; None if there is none.
+[[nodiscard]] py::object blow_up_dict(const std::optional<scenes::BlowUp>& blow_up);
+
 }  // namespace weft::python

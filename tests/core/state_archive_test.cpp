@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct Everything {
   std::string name;
   Matrix3X<float> positions;
   std::vector<std::string> words;
+  std::optional<double> present;
+  std::optional<double> missing = 3.0;  ///< before something without it is read
   std::vector<float> masses = std::vector<float>(5);
 
   void serialize(StateArchive& archive) {
@@ -31,6 +34,9 @@ struct Everything {
     archive.value(name);
     archive.value(positions);
     archive.value(words);
+    const auto each = [&](double& number) { archive.value(number); };
+    archive.optional(present, each);
+    archive.optional(missing, each);
     archive.runs(std::span(masses));
   }
 };
@@ -44,6 +50,8 @@ Everything example() {
   one.name = "cloth";
   one.positions = Matrix3X<float>::Random(3, 7);
   one.words = {"a", "", "long word"};
+  one.present = 0.25;
+  one.missing.reset();
   one.masses = {1.0F, 1.0F, 1.0F, -0.0F, 0.0F};
   return one;
 }
@@ -74,6 +82,8 @@ TEST(StateArchive, GivesBackEveryBit) {
   archive.end();
   EXPECT_EQ(bytes_of(read), bytes);
   EXPECT_EQ(read.name, "cloth");
+  EXPECT_EQ(read.present, 0.25);
+  EXPECT_EQ(read.missing, std::nullopt);
   EXPECT_TRUE(std::isnan(read.nothing));
   EXPECT_TRUE(std::signbit(read.masses[3]));
   EXPECT_FALSE(std::signbit(read.masses[4])) << "0 and -0 are no run";
