@@ -111,6 +111,7 @@ class ImplicitSolver : TeamLoops {
   void set_nodes(const VectorX<double>& masses, const std::vector<bool>& is_free);
   void list_pinned();
   void change_correction(const std::vector<int>& changed);
+  [[nodiscard]] std::vector<int> nodes_without_weights() const;
   [[nodiscard]] std::vector<bool> have_basis_weights(const std::vector<int>& nodes) const;
   void follow_kinematic(const StepProblem<Scalar>& problem);
   void load(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> guess);
@@ -195,7 +196,7 @@ class ImplicitSolver : TeamLoops {
   VectorX<Scalar> masses_;  ///< [kg], padded with zeros
   std::vector<bool> is_free_;
   std::vector<int> pinned_;
-  int num_changes_ = 0;         ///< of pins, kinematic nodes and springs
+  bool has_torn_ = false;
   std::vector<int> kinematic_;  ///< those of the last step, ascending
   std::vector<int> next_kinematic_;
   std::vector<int> constrained_;  ///< not kFree; ascending while linear systems are solved

@@ -11,7 +11,6 @@ void SolverState::serialize(StateArchive& archive, ImplicitSolver<Scalar>& solve
   archive.expect(solver.num_nodes(), "number of nodes");
   auto& states = solver.contact_states_;
   archive.runs(std::span(states).first(static_cast<std::size_t>(solver.num_nodes())));
-  solver.anderson_.restart();
   if (!archive.is_reading()) return;
   const bool are_known = std::all_of(states.begin(), states.end(), [](ContactState state) {
     return state == ContactState::kFree || state == ContactState::kOnPlane ||

@@ -15,19 +15,11 @@ struct SolverState {
   template <class Scalar>
   static void serialize(StateArchive& archive, ImplicitSolver<Scalar>& solver);
 
-  /// Whether a new solver of the same network, pins and masses would do the same, to the bit: its coarse space depends on how
-  /// it came about. Nodes that became kinematic once do so again in the next step of the new one.
+  /// Whether a new solver of the same network, pins and masses would do the same, to the bit: the coarse space of cloth that has
+  /// torn is that of the cloth before.
   template <class Scalar>
   [[nodiscard]] static bool is_fresh(const ImplicitSolver<Scalar>& solver) {
-    constexpr int kOfConstructor = 1;
-    return solver.num_changes_ <= kOfConstructor + (solver.kinematic_.empty() ? 0 : 1);
-  }
-
-  /// Nodes that were kinematic in the last step, ascending.
-  template <class Scalar>
-  [[nodiscard]] static const std::vector<int>& kinematic_nodes(
-      const ImplicitSolver<Scalar>& solver) {
-    return solver.kinematic_;
+    return !solver.has_torn_;
   }
 };
 

@@ -43,7 +43,6 @@ FastBodyState::FastBodyState(const FastBody& body)
       num_new_rest_lengths_(body.history_.num_new_rest_lengths) {
   if (!has_solver_) return;
   free_nodes_.assign(body.is_free_.begin(), body.is_free_.end());
-  kinematic_ = fast::SolverState::kinematic_nodes(*body.solver_);
   step_ = body.limited_.step;
 }
 
@@ -58,19 +57,15 @@ void FastBodyState::serialize_structure(StateArchive& archive, const FastBody& b
   archive.value(step_);
   free_nodes_.resize(static_cast<std::size_t>(body.masses_.size()));
   archive.runs(std::span(free_nodes_));
-  archive.value(kinematic_);
 }
 
 bool FastBodyState::fits(const FastBody& body) const {
   if (!is_fresh(body)) return false;
   if (!body.solver_) return true;
   if (!has_solver_ || step_ != body.limited_.step) return false;
-  const bool are_nodes_alike =
-      std::equal(body.is_free_.begin(), body.is_free_.end(), free_nodes_.begin(), free_nodes_.end(),
-                 [](bool is_free, char flag) { return is_free == (flag != 0); });
-  // A solver that has led no node yet begins to with the next step, as the one that was saved did.
-  const std::vector<int>& kinematic = fast::SolverState::kinematic_nodes(*body.solver_);
-  return are_nodes_alike && (kinematic.empty() || kinematic == kinematic_);
+  return std::equal(body.is_free_.begin(), body.is_free_.end(), free_nodes_.begin(),
+                    free_nodes_.end(),
+                    [](bool is_free, char flag) { return is_free == (flag != 0); });
 }
 
 void FastBodyState::make_solver(FastBody& body) const {

@@ -40,7 +40,6 @@ class FastBodyState {
 
   bool has_solver_ = false;
   std::vector<char> free_nodes_;  ///< flags
-  std::vector<int> kinematic_;    ///< nodes that anchors led in the last step
   btScalar step_ = 0;             ///< [s] that stiffness is limited for
   int num_new_rest_lengths_ = 0;
 };

@@ -190,8 +190,7 @@ void BulletSimulator::serialize(StateArchive& archive) {
   }
 }
 
-// A solver whose cloth has torn or was pinned elsewhere has a coarse space that no new one would have: this run gets a new one
-// too.
+// A solver whose cloth has torn has a coarse space that no new one would have: this run gets a new one too.
 void BulletSimulator::save_world(StateArchive& archive) {
   bridge::SoftBodySolver& solver = world_->solver();
   bool is_fresh = true;

@@ -52,6 +52,7 @@ CoarseCorrection::CoarseCorrection(const ConnectivityGraph& network, const EdgeS
   std::vector<int> node_ids(at(num_nodes_));
   std::iota(node_ids.begin(), node_ids.end(), 0);
   find_pairs(couplings_of(network, node_ids));
+  pairs_of_free_ = pairs_;
   make_factor();
   note_springs(slots, {});
 }
@@ -81,15 +82,30 @@ void CoarseCorrection::set_free(const ConnectivityGraph& network, const Neighbor
       smoothed_aggregation(network, is_free, aggregates, neighborhood.ends);
   for (int k = 0; k < basis_functions.size(); ++k)
     set_basis_weights(node_ids[at(k)], basis_functions, k);
-  if (add_pairs(couplings_of(network, node_ids))) {
-    make_factor();
-  } else {
-    for (int k = 0; k < basis_functions.size(); ++k) note_alone(node_ids[at(k)]);
-  }
+  for (int k = 0; k < basis_functions.size(); ++k) note_alone(node_ids[at(k)]);
   std::vector<char> blocks(at(slots.num_blocks()), 0);
   for (int k = 0; k < neighborhood.ends[kBasisReach + 1]; ++k)
     blocks[at(node_ids[at(k)] / kNodeBlock)] = 1;
   note_springs(slots, blocks);
+}
+
+void CoarseCorrection::couple(const ConnectivityGraph& network, const std::vector<int>& nodes,
+                              const EdgeSlots& slots) {
+  if (num_basis_ == 0) return;
+  std::vector<std::pair<int, int>> pairs = pairs_of_free_;
+  const Couplings couplings = couplings_of(network, nodes);
+  for (int basis = 0; basis < num_basis_; ++basis) {
+    for (const auto& [other, coupling] : couplings[at(basis)]) {
+      const std::pair both(basis, other);
+      const bool is_known = std::binary_search(pairs_of_free_.begin(), pairs_of_free_.end(), both);
+      if (!is_known && is_strong(basis, other, coupling)) pairs.push_back(both);
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  if (pairs == pairs_) return;
+  pairs_ = std::move(pairs);
+  make_factor();
+  note_springs(slots, {});
 }
 
 void CoarseCorrection::set_basis_weights(int node, const Prolongation& basis_functions,
@@ -183,20 +199,6 @@ void CoarseCorrection::find_pairs(const Couplings& couplings) {
       if (is_strong(basis, other, coupling)) pairs_.emplace_back(basis, other);
     }
   }
-}
-
-// False: there are none that count and are new.
-bool CoarseCorrection::add_pairs(const Couplings& couplings) {
-  const std::size_t num_before = pairs_.size();
-  for (int basis = 0; basis < num_basis_; ++basis) {
-    for (const auto& [other, coupling] : couplings[at(basis)]) {
-      if (is_strong(basis, other, coupling) && pair_of(basis, other) < 0)
-        pairs_.emplace_back(basis, other);
-    }
-  }
-  if (pairs_.size() == num_before) return false;
-  std::sort(pairs_.begin(), pairs_.end());
-  return true;
 }
 
 /// The difference between the rows of two nodes.

@@ -43,9 +43,14 @@ class CoarseCorrection {
   CoarseCorrection(const ConnectivityGraph& network, const EdgeSlots& slots);
 
   /// Toggles whether the nodes of ring 0 are free, and recomputes the coarse basis functions within kBasisReach springs of them.
-  /// neighborhood: rings up to twice that; network, is_free: for its nodes. set_masses() must be called afterwards.
+  /// neighborhood: rings up to twice that; network, is_free: for its nodes. couple() must be called afterwards.
   void set_free(const ConnectivityGraph& network, const Neighborhood& neighborhood,
                 const std::vector<bool>& is_free, const EdgeSlots& slots);
+  /// Couples basis functions as the free network does, and where the surroundings of constrained nodes need more: without
+  /// couplings of nodes that are free again, so that the bits do not depend on what was constrained before. network: for the
+  /// nodes within 2 kBasisReach springs of all that are constrained. set_masses() must be called afterwards.
+  void couple(const ConnectivityGraph& network, const std::vector<int>& nodes,
+              const EdgeSlots& slots);
 
   /// Appends copies of these nodes behind the others. A copy has the weights of its origin.
   void add_copies(const std::vector<int>& origins);
@@ -114,7 +119,6 @@ class CoarseCorrection {
                                        const std::vector<int>& node_ids) const;
   [[nodiscard]] bool is_strong(int basis, int other, float coupling) const;
   void find_pairs(const Couplings& couplings);
-  [[nodiscard]] bool add_pairs(const Couplings& couplings);
   void make_factor();
   void add_terms(const Row& row, std::vector<CoarseTerm>& terms) const;
   void note_alone(int node);
@@ -130,6 +134,7 @@ class CoarseCorrection {
   std::vector<BasisWeights> weights_;
   std::vector<float> largest_couplings_;    ///< for each coarse basis function
   std::vector<std::pair<int, int>> pairs_;  ///< for coarse basis functions, ascending
+  std::vector<std::pair<int, int>> pairs_of_free_;  ///< those of the free network, ascending
   std::vector<int>
       first_pairs_;  ///< for each coarse basis function as the lower one, and behind the last
   std::vector<Block> blocks_;

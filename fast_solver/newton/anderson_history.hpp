@@ -34,15 +34,10 @@ class AndersonHistory {
       result_changes_[index(k)].setZero(rows, 3);
     }
   }
-  /// Restarts the acceleration. The next slot is the one after the newest: if that is not the first, the first combination may
-  /// read one of an earlier step. Whether it is kept, its energy decides.
+  /// Restarts the acceleration, with the first slot: nothing that slots hold from before is read again.
   void forget() {
     has_last_ = false;
     count_ = 0;
-  }
-  /// As forget(), and begins with the first slot again, so that no sum has the order or the content of earlier steps.
-  void restart() {
-    forget();
     newest_ = kMemory - 1;
   }
   /// Slots that have something, after next().

@@ -90,12 +90,23 @@ void ImplicitSolver<Scalar>::set_free(const std::vector<bool>& is_free) {
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::change_correction(const std::vector<int>& changed) {
-  ++num_changes_;
   const Neighborhood neighborhood = forces_.neighborhood_of(changed, 2 * kBasisReach);
   coarse_correction_.set_free(forces_.connectivity_graph(neighborhood.nodes), neighborhood,
                               have_basis_weights(neighborhood.nodes), forces_.slots());
+  const Neighborhood surroundings = forces_.neighborhood_of(nodes_without_weights(), 2 * kBasisReach);
+  coarse_correction_.couple(forces_.connectivity_graph(surroundings.nodes), surroundings.nodes,
+                            forces_.slots());
   coarse_correction_.set_masses(masses_.template cast<float>());
   forces_.note_bending(coarse_correction_);
+}
+
+// Nodes that are pinned or kinematic, ascending.
+template <class Scalar>
+std::vector<int> ImplicitSolver<Scalar>::nodes_without_weights() const {
+  std::vector<int> result;
+  std::set_union(pinned_.begin(), pinned_.end(), kinematic_.begin(), kinematic_.end(),
+                 std::back_inserter(result));
+  return result;
 }
 
 // Flags of some nodes: neither pinned nor kinematic.
@@ -141,7 +152,7 @@ void ImplicitSolver<Scalar>::tear(const SpringNetwork& springs, const std::vecto
   for (const int origin : origins) is_free.push_back(is_free_[at(origin)]);
   const std::vector<char> blocks =
       forces_.replace(springs, is_changed, static_cast<int>(masses.size()));
-  ++num_changes_;
+  has_torn_ = true;
   set_nodes(masses, is_free);
   coarse_correction_.add_copies(origins);
   coarse_correction_.note_springs(forces_.slots(), blocks);

@@ -60,6 +60,8 @@ struct Sheet {
     for (const int i : neighborhood.nodes) are_free.push_back(is_free[at(i)]);
     correction.set_free(forces->connectivity_graph(neighborhood.nodes), neighborhood, are_free,
                         forces->slots());
+    const std::vector<int> near = forces->neighborhood_of(pins, 2 * kBasisReach).nodes;
+    correction.couple(forces->connectivity_graph(near), near, forces->slots());
   }
   void factorize() {
     correction.set_masses(inertia);

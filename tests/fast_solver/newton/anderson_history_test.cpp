@@ -68,7 +68,7 @@ TEST(AndersonHistory, RestartsWithoutWhatItsSlotsHold) {
     AndersonHistory<double> used;
     used.resize(kRows);
     (void)run(used, 100, before);
-    used.restart();
+    used.forget();
     EXPECT_EQ(run(used, 1, 3), run(fresh, 1, 3)) << before << " iterations before";
   }
 }
