@@ -119,6 +119,9 @@ class ImplicitSolver : TeamLoops {
   void evaluate_step_forces();
   [[nodiscard]] double energy_of_step_forces(const Nodes& positions);
   void decide_contact_states(const StepProblem<Scalar>& problem, const NewtonIteration& iteration);
+  void let_go(const StepProblem<Scalar>& problem);
+  void slide(const PlaneContact<Scalar>& contact, Scalar most, Scalar expected);
+  [[nodiscard]] Scalar resistance_of(int node) const;
   void set_friction(const PlaneContact<Scalar>& contact, Scalar expected);
   [[nodiscard]] Scalar slip_of(const PlaneContact<Scalar>& contact,
                                const Vector3<Scalar>& position) const;
@@ -220,7 +223,10 @@ class ImplicitSolver : TeamLoops {
   AndersonHistory<Scalar> anderson_;
   Matrix3X<Scalar> step_force_positions_;  ///< positions as StepForces takes them
   Matrix3X<Scalar> step_forces_;
-  std::vector<ContactState> contact_states_;         ///< for each node, padded
+  std::vector<ContactState> contact_states_;  ///< for each node, padded
+  /// Flags: nodes that stuck in a solution of this step and bore more than friction can. They slide for the rest of the step, by
+  /// a drag that holds what it can, so that decisions come to an end.
+  std::vector<char> has_let_go_;
   std::vector<ContactState> contact_states_before_;  ///< contact states of the iteration before
   std::vector<int> contact_of_;                      ///< for each node: its active contact, or -1
   Matrix3X<float> normals_;                          ///< for each node on a plane

@@ -16,6 +16,8 @@ std::size_t at(int i) {
 
 /// A node sticks once the slip that is left would take this share of its friction to stop [-].
 constexpr double kStopped = 0.01;
+/// In the last decision a node sticks that bears this share of its friction at most [-]: others may come to bear more.
+constexpr double kSafeShare = 0.5;
 /// Over what resists the motion of a node: a drag. Much more, and conjugate gradients would see nothing else.
 constexpr double kStiffestDrag = 30;
 /// A moving node's least inertia [N/m], which keeps a quotient finite.
@@ -37,6 +39,8 @@ void ImplicitSolver<Scalar>::decide_contact_states(const StepProblem<Scalar>& pr
       !problem.contacts.empty() || !problem.kinematic.empty() || !problem.bodies.empty();
   have_contact_states_changed_ = false;
   if (!can_hold && constrained_.empty()) return;
+  if (iteration.is_first && !iteration.continues)
+    std::fill(has_let_go_.begin(), has_let_go_.end(), 0);
   contact_states_before_.swap(contact_states_);
   std::fill(contact_states_.begin(), contact_states_.end(), ContactState::kFree);
   std::fill(contact_of_.begin(), contact_of_.end(), -1);
@@ -146,7 +150,11 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const Scalar slipped = (slip - normal.dot(slip) * normal).norm();
   // One that has slid would be drawn back to where the step began, and let go by the next decision: its drag stops it first.
   const bool has_stopped = inertia * slipped <= kStopped * most;
-  const bool sticks = size <= most - doubt && (!was_held || did_stick || has_stopped);
+  const Scalar bearable =
+      iteration.is_last_decision && contact.body < 0 ? Scalar(kSafeShare) * most : most;
+  const bool sticks = size <= bearable - doubt && (!was_held || did_stick || has_stopped) &&
+                      has_let_go_[at(i)] == 0;
+  if (iteration.is_settled && did_stick && !sticks) has_let_go_[at(i)] = 1;
   contact_states_[at(i)] = sticks ? ContactState::kFixed : ContactState::kOnPlane;
   normals_.col(i) = normal.template cast<float>();
   friction_.col(i).setZero();
@@ -156,14 +164,25 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
     friction_.col(i) = (-(most / size) * tendency).template cast<float>();
     return;
   }
-  // Friction that slides is solved for as a drag that has Coulomb's size at the slip that is expected: unlike a constant force
-  // it never drives a node, however wrong the pressure still is. Forces foretell the slip of a node alone; after that the
-  // motion so far does (iteratively reweighted least squares, which converge for any pressure).
-  friction_bounds_[i] = most;
-  const Scalar resistance = std::max(inertia + largest_stiffness(i), Scalar(kLeastInertia));
   const bool is_foretold = is_first || did_stick || !(slipped > 0);
-  const Scalar expected = is_foretold ? (size - most) / resistance : slipped;
+  slide(contact, most, is_foretold ? (size - most) / resistance_of(i) : slipped);
+}
+
+// Friction that slides is solved for as a drag that has Coulomb's size at the slip that is expected: unlike a constant force it
+// never drives a node, however wrong the pressure still is. Forces foretell the slip of a node alone; after that the motion so
+// far does (iteratively reweighted least squares, which converge for any pressure).
+template <class Scalar>
+void ImplicitSolver<Scalar>::slide(const PlaneContact<Scalar>& contact, Scalar most,
+                                   Scalar expected) {
+  contact_states_[at(contact.node)] = ContactState::kOnPlane;
+  friction_bounds_[contact.node] = most;
   set_friction(contact, expected);
+}
+
+// What resists the motion of a node whose neighbors stand still [N/m].
+template <class Scalar>
+Scalar ImplicitSolver<Scalar>::resistance_of(int node) const {
+  return std::max(Scalar(inertia_[node]) + largest_stiffness(node), Scalar(kLeastInertia));
 }
 
 // The friction of a node that slides on a one-way coupled surface, at its present position.
@@ -171,9 +190,7 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::set_friction(const PlaneContact<Scalar>& contact, Scalar expected) {
   const int i = contact.node;
   const Scalar most = friction_bounds_[i];
-  const Scalar resistance =
-      std::max(Scalar(inertia_[i]) + largest_stiffness(i), Scalar(kLeastInertia));
-  drag_[i] = most / std::max(expected, most / (Scalar(kStiffestDrag) * resistance));
+  drag_[i] = most / std::max(expected, most / (Scalar(kStiffestDrag) * resistance_of(i)));
   if (!(most > 0)) drag_[i] = 0;
   Vector3<Scalar> slip = at_node(positions_, i) - at_node(start_positions_, i) - contact.motion;
   slip -= contact.normal.dot(slip) * contact.normal;
@@ -190,6 +207,27 @@ Scalar ImplicitSolver<Scalar>::slip_of(const PlaneContact<Scalar>& contact,
 template <class Scalar>
 Scalar ImplicitSolver<Scalar>::largest_stiffness(int node) const {
   return Scalar(forces_.diagonal_blocks().row(node).template head<3>().maxCoeff());
+}
+
+// Lets nodes go that stick and bear more than friction can, on what no iteration moves. On the way to a solution that may be too early,
+// and costs little: a node that slides by less than its drag lets it is held as well. Without it a step whose budget ends
+// between two decisions would leave nodes that bear any force.
+template <class Scalar>
+void ImplicitSolver<Scalar>::let_go(const StepProblem<Scalar>& problem) {
+  have_contact_states_changed_ = false;
+  for (const int i : constrained_) {
+    if (contact_of_[at(i)] < 0 || contact_states_[at(i)] != ContactState::kFixed) continue;
+    const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
+    if (contact.body >= 0) continue;
+    const Vector3<Scalar> residual = at_node(residual_forces_, i);
+    const Scalar pressure = contact.squeeze - contact.normal.dot(residual);
+    const Scalar most = contact.friction * std::max(Scalar(0), pressure);
+    const Scalar size = (residual - contact.normal.dot(residual) * contact.normal).norm();
+    if (size <= most + contact.friction * rounding_of_force(i)) continue;
+    has_let_go_[at(i)] = 1;
+    have_contact_states_changed_ = true;
+    slide(contact, most, (size - most) / resistance_of(i));
+  }
 }
 
 template <class Scalar>

@@ -49,6 +49,7 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
   contact_of_.assign(at(static_cast<int>(n)), -1);
   for (auto* vectors : {&normals_, &friction_}) vectors->setZero(3, n);
   const Eigen::Index num_rows = rows_for(static_cast<int>(n));
+  has_let_go_.assign(at(static_cast<int>(n)), 0);
   for (auto* holds : {&contact_states_, &contact_states_before_}) {
     holds->assign(static_cast<std::size_t>(num_rows), ContactState::kFree);
   }
@@ -93,7 +94,8 @@ void ImplicitSolver<Scalar>::change_correction(const std::vector<int>& changed) 
   const Neighborhood neighborhood = forces_.neighborhood_of(changed, 2 * kBasisReach);
   coarse_correction_.set_free(forces_.connectivity_graph(neighborhood.nodes), neighborhood,
                               have_basis_weights(neighborhood.nodes), forces_.slots());
-  const Neighborhood surroundings = forces_.neighborhood_of(nodes_without_weights(), 2 * kBasisReach);
+  const Neighborhood surroundings =
+      forces_.neighborhood_of(nodes_without_weights(), 2 * kBasisReach);
   coarse_correction_.couple(forces_.connectivity_graph(surroundings.nodes), surroundings.nodes,
                             forces_.slots());
   coarse_correction_.set_masses(masses_.template cast<float>());

@@ -69,6 +69,7 @@ void ImplicitSolver<Scalar>::iterate_once(const StepProblem<Scalar>& problem,
   } else {
     list_constrained();
     update_friction(problem);
+    let_go(problem);
   }
   set_system_inertia();
   if (iteration.is_first || iteration.factorizes) {
@@ -102,6 +103,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
   int num_stalled = 0;
   int num_decisions = 0;
   bool decides = true;
+  bool is_settled = false;
   report_ = {.is_converged = false};
   anderson_.forget();
   for (int iteration = 0; iteration < solver_settings.newton_iterations && !report_.is_converged;
@@ -112,11 +114,13 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
                            .accuracy = accuracy_of(iteration, has_contacts, asked),
                            .is_first = iteration == 0,
                            .decides = decides,
+                           .is_settled = decides && is_settled,
+                           .is_last_decision = num_decisions + 1 == kMostDecisions,
                            .continues = problem.continues,
                            .factorizes = iteration % kIterationsPerFactor == 0});
     if (decides) ++num_decisions;
     if (iteration == 0) rounding = kRoundings * gain_of_rounding();
-    const bool are_contact_states_new = decides && (iteration == 0 || have_contact_states_changed_);
+    const bool are_contact_states_new = iteration == 0 || have_contact_states_changed_;
     const double now = energy(problem, positions_, &Body::motion);
     if (!are_contact_states_new && !(now <= energy_before * (1 + kEnergyRounding) + asked)) {
       if (transverse == 1) {
@@ -156,9 +160,10 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     // With these contacts. Whether they are the right ones is asked of a solution: on the way there forces say little.
     const bool can_decide = has_contacts && num_decisions < kMostDecisions;
     report_.is_converged =
-        is_solved && (!has_contacts || (decides && !are_contact_states_new) || !can_decide);
-    if (is_over && !report_.is_converged && !can_decide) break;
+        is_solved && (!has_contacts || (!are_contact_states_new && (decides || !can_decide)));
+    if (is_over && !are_contact_states_new && !report_.is_converged && !can_decide) break;
     decides = can_decide && ((iteration < kFirstDecisions && !problem.continues) || is_over);
+    is_settled = is_over;
     if (decides) num_stalled = 0;
     before = last_gain_.total;
     if (are_contact_states_new) {
