@@ -22,7 +22,7 @@ struct ImportedBody {
 struct ImportOptions {
   double frame_rate = 0.0;  ///< [1/s] of the other program's frames, > 0
   /// Why the first frame is not the scene's start; empty: it must be within start_tolerance() of the scene's start.
-  std::string other_start;
+  std::string other_start = {};
 };
 
 /// What an import made of the files.
