@@ -111,7 +111,7 @@ void judge_recording(const ValidateOptions& options, validation::SuiteOptions& s
   suite.cases.recorded = std::move(recorded);
 }
 
-/// What the report says of the recording: its file, its content and where it comes from.
+/// Adds the recording's file, its content hash and where it comes from to the report.
 void add_provenance(const std::string& file, validation::Report& report) {
   const scenes::RecordingReader reader(file);
   note_if_partial(reader, file);

@@ -8,7 +8,7 @@
 
 namespace weft::scenes {
 
-/// What keeps the faces of a file from being the mesh's triangles, node for node; none if they are. Faces with more than three
+/// Says why the faces of a file are not the mesh's triangles, node for node; nothing if they are. Faces with more than three
 /// corners may be divided along either diagonal, and may turn either way round: each triangle of the mesh must lie in one face, and
 /// the faces must hold no other triangle. Points of other places that are numbered otherwise do not pass.
 /// Shapes   faces: numbers of nodes from 0, each below mesh.num_nodes()

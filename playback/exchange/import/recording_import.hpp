@@ -25,7 +25,7 @@ struct ImportOptions {
   std::string other_start = {};
 };
 
-/// What an import made of the files.
+/// The frames that an import makes of the files, and where they come from.
 struct Import {
   std::vector<SceneState> frames;  ///< bodies in the order of the scene; the first at time 0
   Provenance provenance;           ///< from what, how velocities were made, where the start differs

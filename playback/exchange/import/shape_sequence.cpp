@@ -35,7 +35,7 @@ Matrix3X<double> to_world(Matrix3X<double> points, const FileAxes& axes) {
   return axes.length_unit * points;
 }
 
-/// Refuses what no node can be at; OBJ files are looked at by their reader.
+/// Refuses places that no node can be at; OBJ files are looked at by their reader.
 void check_finite(const Matrix3X<double>& sample, std::size_t number, const std::string& file) {
   for (Eigen::Index i = 0; i < sample.cols(); ++i) {
     if (sample.col(i).allFinite()) continue;
