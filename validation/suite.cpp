@@ -68,6 +68,9 @@ Report run_suite(const SuiteOptions& options,
 
   Report report;
   report.title = "Weft validation";
+  if (options.cases.recorded) {
+    report.title += " of " + options.cases.recorded->path.filename().string();
+  }
   double done = 0;
   for (const CaseInfo* info : cases) {
     progress("judge " + std::string(info->id), done / static_cast<double>(cases.size()));

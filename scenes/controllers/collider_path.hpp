@@ -9,7 +9,7 @@
 
 namespace weft::scenes {
 
-/// Where a collider that does not move freely is at a time [s]: on its path, or where it always is.
+/// The pose at a time [s] of a collider that does not move freely: on its path, or as it always is.
 [[nodiscard]] inline Pose prescribed_pose(const Collider& collider, double time) {
   if (!collider.path) return {collider.position, collider.orientation};
   Pose pose = PathMotion(*collider.path).pose(time);

@@ -20,7 +20,7 @@ std::vector<std::vector<int>> faces_at_nodes(int num_nodes,
 
 bool share_a_face(const std::vector<int>& a, const std::vector<int>& b, const std::vector<int>& c) {
   const auto has = [](const std::vector<int>& list, int face) {
-    return std::find(list.begin(), list.end(), face) != list.end();
+    return std::binary_search(list.begin(), list.end(), face);
   };
   return std::any_of(a.begin(), a.end(), [&](int face) { return has(b, face) && has(c, face); });
 }

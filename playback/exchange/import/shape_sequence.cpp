@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <span>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -136,7 +137,7 @@ ShapeSequence read_point_cache_sequence(const fs::path& path, const FileAxes& ax
   sequence.precision = StoredPrecision::kFloat32;
   sequence.frames_per_sample = static_cast<double>(cache.frame_step);
   StreamHash hash;
-  hash.add(bytes);
+  hash.add(std::as_bytes(std::span(bytes)));
   sequence.content_hash = hash.hex();
   for (const Eigen::Matrix3Xf& sample : cache.samples) {
     sequence.samples.push_back(to_world(sample.cast<double>(), axes));
@@ -164,7 +165,7 @@ ShapeSequence read_obj_sequence(const fs::path& place, const FileAxes& axes) {
   StreamHash hash;
   for (const NumberedFile& file : files) {
     const std::string text = read_file(file.path);
-    hash.add(text);
+    hash.add(std::as_bytes(std::span(text)));
     ObjShape shape = read_obj_shape(text, file.path.string());
     if (sequence.samples.empty()) sequence.faces = shape.faces;
     const Eigen::Index points =

@@ -24,7 +24,8 @@ struct ShapeSequence {
   std::vector<std::vector<int>> faces;
   std::string faces_source;                               ///< the file that says them
   StoredPrecision precision = StoredPrecision::kFloat64;  ///< the files' own
-  std::string content_hash;  ///< XXH3-128 of the files' bytes, in the order of the samples
+  std::string
+      content_hash;  ///< XXH3-128 of the files' bytes, one file after the other, as xxh128sum prints it
 };
 
 /// A PC2 point cache. If a file of the same name with the ending .obj stands beside it, its faces come along and it must have as
