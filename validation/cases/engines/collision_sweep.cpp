@@ -195,7 +195,7 @@ void add_rows(const Comparison& of, Table& distances, Table& own) {
 /// Whether a row is part of what was asked for: all rows, or that of a recording.
 bool is_judged(const CaseOptions& options, const CollisionScene& row, int nodes) {
   return !options.recorded ||
-         ask_the_same(options.recorded->scene, make_collision_scene(row, nodes));
+         ask_the_same(options.recorded->scene, written_collision_scene(row, nodes));
 }
 
 }  // namespace
@@ -204,7 +204,7 @@ std::vector<scenes::Scene> sweep_scenes(const CaseInfo&) {
   std::vector<scenes::Scene> scenes;
   for (const CollisionScene& row : collision_scenes()) {
     for (const int nodes : sweep_resolutions(row)) {
-      scenes.push_back(make_collision_scene(row, nodes));
+      scenes.push_back(written_collision_scene(row, nodes));
     }
   }
   return scenes;

@@ -153,12 +153,12 @@ void add_departures(const CaseInfo& info, const SceneMetrics& metrics,
 }  // namespace
 
 std::vector<scenes::Scene> catalog_scene(const CaseInfo& info) {
-  return {scenes::with_bullets_time_step(scenes::load_scene(std::string(info.id)))};
+  return {scenes::load_scene(std::string(info.id))};
 }
 
 void plan_scene(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
   const std::string id(info.id);
-  const scenes::Scene scene = catalog_scene(info).front();
+  const scenes::Scene scene = scenes::with_bullets_time_step(catalog_scene(info).front());
   for (const EngineChoice& engine : judged_engines(options)) {
     plan_run(options, id, engine, scene_for(scene, engine), runs);
   }
@@ -168,7 +168,7 @@ void plan_scene(const CaseInfo& info, const CaseOptions& options, EngineRuns& ru
 void evaluate_scene(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
                     Report& report) {
   const std::string id(info.id);
-  const SceneMetrics metrics(catalog_scene(info).front());
+  const SceneMetrics metrics(scenes::with_bullets_time_step(catalog_scene(info).front()));
   std::vector<History> histories;
   for (const EngineChoice& engine : judged_engines(options)) {
     histories.push_back(load_history(runs, id, engine));

@@ -64,7 +64,7 @@ struct CaseInfo {
   /// Scenes of this case that every engine can run and of which a theory knows a number; may be null. Given beside evaluate,
   /// which may be null then.
   std::vector<TheoryScene> (*theory)(const CaseInfo& info, const CaseOptions& options) = nullptr;
-  /// Scenes of which a recording can be judged in place of an engine (CaseOptions::recorded), as the engines run them; null: none.
+  /// Scenes of which a recording can be judged in place of an engine (CaseOptions::recorded), as scene files have them; null: none.
   std::vector<scenes::Scene> (*recordable)(const CaseInfo& info) = nullptr;
 };
 
