@@ -101,6 +101,13 @@ std::string write(const scenes::Scene& scene, const scenes::Import& imported,
   return writer.finish();
 }
 
+std::string faces_text(const scenes::ShapeSequence& shapes) {
+  if (!shapes.faces.empty()) return "faces as in the scene (" + shapes.faces_source + ")";
+  return shapes.faces_source.empty()
+             ? "no OBJ file of the same name beside it, so its faces are not checked"
+             : shapes.faces_source + " has no faces, so they are not checked";
+}
+
 void report(const scenes::Scene& scene, const scenes::Import& imported,
             const std::vector<scenes::ImportedBody>& bodies, const std::string& output) {
   const double interval = imported.frames[1].time - imported.frames[0].time;
@@ -109,13 +116,10 @@ void report(const scenes::Scene& scene, const scenes::Import& imported,
       "start\n",
       output, imported.frames.size(), scene.name, interval, imported.start_distance);
   for (const scenes::ImportedBody& body : bodies) {
-    print("  '{}' from {}: {}\n", body.name, body.shapes.source,
-          body.shapes.faces.empty()
-              ? "no OBJ file of the same name beside it, so its faces are not checked"
-              : "faces as in the scene (" + body.shapes.faces_source + ")");
+    print("  '{}' from {}: {}\n", body.name, body.shapes.source, faces_text(body.shapes));
   }
   if (std::abs(interval - scene.world.frame_interval) > 1e-3 * scene.world.frame_interval) {
-    print("  weft validate needs frames {:.6g} s apart, as the scene's are\n",
+    print("  weft validate --recording needs frames {:.6g} s apart, as the scene has them\n",
           scene.world.frame_interval);
   }
 }

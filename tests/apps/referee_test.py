@@ -154,7 +154,7 @@ def spoil_hang(weft, cache, take):
         rows = weft.judge(1, "--recording", "theirs.weftrec")
         check(f"{name}: the motion fails", failed(rows) == {"stays near the reference"}, str(rows))
     output, _ = weft(0, *take, "25 Hz", "--pc2", "caches/cloth.pc2")
-    check("another rate: says so", "weft validate needs frames 0.02 s apart" in output, output)
+    check("another rate: says so", "weft validate --recording needs frames 0.02 s apart" in output, output)
     weft.refuses("another rate", "theirs.weftrec: frame 1, t = 0.04 s: expected t = 0.02 s", "validate", "--recording",
                  "theirs.weftrec", "-o", "report")
 
