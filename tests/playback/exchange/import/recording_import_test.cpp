@@ -153,7 +153,10 @@ TEST(RecordingImport, RefusesAnotherStart) {
   expect_fault(late, elsewhere);
   const Import result =
       import_states(samples::make_scene(), late, {.frame_rate = kRate, .other_start = "a throw"});
-  EXPECT_NEAR(result.start_distance, shift(1).norm(), 1e-12);
+  // The cloths are as far as the throw; points of the ball, which spins, go a little farther.
+  constexpr double kBallRadius = 0.5;  // [m]
+  EXPECT_GE(result.start_distance, shift(1).norm());
+  EXPECT_LE(result.start_distance, shift(1).norm() + kBallRadius * kSpin.norm() / kRate);
   EXPECT_NE(result.provenance.at("imported_start").find("m from the scene's: a throw"),
             std::string::npos);
 }
