@@ -44,6 +44,7 @@ struct CommandLine {
 [[nodiscard]] Action add_render_command(CLI::App& parser);
 [[nodiscard]] Action add_contact_sheet_command(CLI::App& parser);
 [[nodiscard]] Action add_export_command(CLI::App& parser);
+[[nodiscard]] Action add_import_command(CLI::App& parser);
 [[nodiscard]] Action add_stability_command(CLI::App& parser);
 [[nodiscard]] Action add_check_command(CLI::App& parser);
 [[nodiscard]] Action add_check_mesh_command(CLI::App& parser);

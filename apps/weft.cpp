@@ -24,6 +24,8 @@ constexpr const char* kFooter = R"(Examples:
   weft view drape_sphere                     a window: simulate, look, pull; recordings too
   weft render drape.weftrec -o drape.png     a picture of the last frame
   weft export --html d.html drape.weftrec    a page that plays it in any browser
+  weft import hang --pc2 cloth.pc2 --frame-rate "50 Hz" -o theirs.weftrec
+  weft validate --recording theirs.weftrec   another program's result, judged as an engine's is
   weft check my_scene.toml                   is this scene file right?
   weft check-mesh shirt.obj                  can a body be made of this mesh?
   weft stability hang                        the largest stable step, over stiffness and inertia
@@ -69,6 +71,7 @@ int run(int argc, char** argv) {
   actions["render"] = add_render_command(parser);
   actions["contact-sheet"] = add_contact_sheet_command(parser);
   actions["export"] = add_export_command(parser);
+  actions["import"] = add_import_command(parser);
   actions["check"] = add_check_command(parser);
   actions["check-mesh"] = add_check_mesh_command(parser);
   actions["contact-table"] = add_contact_table_command(parser);

@@ -6,6 +6,7 @@
 #include <weft/validation/cases.hpp>
 #include <weft/validation/cases/support/parameters.hpp>
 #include <weft/validation/departures/stated_departures.hpp>
+#include <weft/validation/referee/judged_cases.hpp>
 #include <weft/validation/theory/theory_runs.hpp>
 
 namespace weft::validation {
@@ -18,7 +19,7 @@ bool evaluates_itself(const CaseInfo& info, const CaseOptions& options) {
 
 /// One point of a case is the reference's alone, unless an engine is named for it.
 bool runs_theory(const CaseInfo& info, const CaseOptions& options) {
-  if (info.theory == nullptr) return false;
+  if (info.theory == nullptr || options.recorded) return false;
   if (info.evaluate == nullptr) return true;
   if (!options.engine.empty()) return options.engine != "reference";
   return !asks_for_point(options);
@@ -67,6 +68,9 @@ Report run_suite(const SuiteOptions& options,
 
   Report report;
   report.title = "Weft validation";
+  if (options.cases.recorded) {
+    report.title += " of " + options.cases.recorded->path.filename().string();
+  }
   double done = 0;
   for (const CaseInfo* info : cases) {
     progress("judge " + std::string(info->id), done / static_cast<double>(cases.size()));
@@ -77,9 +81,9 @@ Report run_suite(const SuiteOptions& options,
     ++done;
   }
   std::vector<std::string_view> judged;
-  // One point or one engine is a part of a case: what was stated of the rest cannot be missed there.
-  const bool is_whole =
-      options.cases.bullet && options.cases.engine.empty() && !asks_for_point(options.cases);
+  // One point, one engine or a recording is a part of a case: what was stated of the rest cannot be missed there.
+  const bool is_whole = options.cases.bullet && options.cases.engine.empty() &&
+                        !asks_for_point(options.cases) && !options.cases.recorded;
   for (const CaseInfo* info : cases) {
     if (is_whole) judged.push_back(info->id);
   }
@@ -93,6 +97,9 @@ Report run_suite(const SuiteOptions& options,
       "purpose.",
       "No comparison with measured fabric.",
   };
+  if (options.cases.recorded) {
+    for (std::string& text : not_judged_texts()) report.limits.push_back(std::move(text));
+  }
   return report;
 }
 

@@ -13,11 +13,14 @@
 #include <weft/engines/engine_table.hpp>
 #include <weft/validation/cases.hpp>
 #include <weft/validation/cases/support/parameters.hpp>
+#include <weft/validation/referee/judged_cases.hpp>
 #include <weft/validation/report/write.hpp>
 #include <weft/validation/suite.hpp>
 
 #include "apps/app.hpp"
 #include "apps/hand_over.hpp"
+#include "apps/judged_scenes.hpp"
+#include "apps/partial_note.hpp"
 #include "apps/progress_bar.hpp"
 #include "apps/progress_lines.hpp"
 #include "apps/provenance.hpp"
@@ -36,6 +39,8 @@ struct ValidateOptions {
   bool all = false;
   bool list = false;
   std::string engine;
+  std::string recording;
+  std::string scenes_folder;
   validation::CaseValues values;
 };
 
@@ -91,6 +96,32 @@ class SuiteProgress {
   int num_runs_ = 0;
 };
 
+/// Puts the recording in the place of the engines, and its case in that of the cases.
+void judge_recording(const ValidateOptions& options, validation::SuiteOptions& suite) {
+  if (!options.values.empty()) {
+    throw InvalidArgument(
+        fmt::format("--recording {}: with --{}, expected no parameter: a recording "
+                    "is of one scene",
+                    options.recording, options.values.begin()->first));
+  }
+  validation::RecordedResult recorded = validation::recorded_result(options.recording);
+  if (!options.engine.empty()) recorded.judged_as = options.engine;
+  suite.case_ids = {std::string(validation::case_of_recording(options.cases, recorded).id)};
+  suite.cases.engine.clear();
+  suite.cases.recorded = std::move(recorded);
+}
+
+/// Adds the recording's file, its content hash and where it comes from to the report.
+void add_provenance(const std::string& file, validation::Report& report) {
+  const scenes::RecordingReader reader(file);
+  note_if_partial(reader, file);
+  report.provenance.emplace_back("recording", file);
+  report.provenance.emplace_back("recording content hash", reader.content_hash());
+  for (const auto& [key, value] : reader.provenance()) {
+    report.provenance.emplace_back("recording " + key, value);
+  }
+}
+
 int validate(const ValidateOptions& options, const CommandLine& command_line) {
   const bool with_bullet = scenes::bullet_description() != "none";
   validation::SuiteOptions suite;
@@ -104,6 +135,7 @@ int validate(const ValidateOptions& options, const CommandLine& command_line) {
                  .bullet = with_bullet,
                  .values = options.values,
                  .engine = options.engine};
+  if (!options.recording.empty()) judge_recording(options, suite);
   if (options.list) return list_cases(suite);
 
   const int num_cases = static_cast<int>(validation::chosen_cases(suite).size());
@@ -116,10 +148,20 @@ int validate(const ValidateOptions& options, const CommandLine& command_line) {
         suite, [&](const std::string& what, double fraction) { progress.update(what, fraction); });
   }
   for (const auto& [key, value] : build_provenance()) report.provenance.emplace_back(key, value);
+  if (suite.cases.recorded) add_provenance(options.recording, report);
   validation::write_report(report, folder);
   print("{}", validation::to_text(report));
+  if (suite.cases.recorded) {
+    for (const std::string& text : validation::not_judged_texts()) print("{}\n", text);
+  }
   print("Report: {}\n", page_path(options));
   return report.passed() ? kOk : kCaseFailed;
+}
+
+int write_scenes(const ValidateOptions& options) {
+  const int count = write_judged_scenes(judged_scenes_folder(options.scenes_folder));
+  print("{}: {} scenes, each with an OBJ file for every body\n", options.scenes_folder, count);
+  return kOk;
 }
 
 int render_again(const ValidateOptions& options) {
@@ -166,20 +208,34 @@ Action add_validate_command(CLI::App& parser, const CommandLine& command_line) {
   command->add_option("-j,--jobs", options->jobs, "Simulations at a time (default: one per core)")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--no-pictures", options->no_pictures, "Numbers and plots only");
-  command
-      ->add_flag(
-          "--render-only", options->render_only,
-          "Run nothing: write index.html anew from the report.json in the folder of --output")
-      ->excludes(names);
+  CLI::Option* render = command->add_flag(
+      "--render-only", options->render_only,
+      "Run nothing: write index.html anew from the report.json in the folder of --output");
+  render->excludes(names);
   CLI::Option* quick =
       command->add_flag("--quick", options->quick, "Only the cases of the commit tier: minutes");
   quick->excludes(names);
   command->add_flag("--all", options->all, "Every case: as without --quick")->excludes(quick);
   command->add_flag("--list", options->list, "Show the cases with their parameters and stop");
   command->add_option("-e,--engine", options->engine,
-                      "Only this engine, of one case: reference, bullet_weft, bullet_forces");
+                      "Only this engine, of one case: reference, bullet_weft, bullet_forces. With "
+                      "--recording: whose bounds hold (default bullet_weft)");
+  command
+      ->add_option(
+          "--recording", options->recording,
+          "Judge this recording in place of an engine, by the case of its scene or by CASE; "
+          "what it cannot show is listed as not judged")
+      ->excludes(quick)
+      ->excludes(render);
+  command
+      ->add_option("--write-scenes", options->scenes_folder,
+                   "Run nothing: write the scenes that --recording can judge into this folder, for "
+                   "other programs, as scene files and OBJ files")
+      ->excludes(names)
+      ->excludes(render);
   add_parameters(*command, options->values);
   return [options, command_line] {
+    if (!options->scenes_folder.empty()) return write_scenes(*options);
     return options->render_only ? render_again(*options) : validate(*options, command_line);
   };
 }

@@ -16,4 +16,8 @@ struct StartState {
 /// and moves with them.
 [[nodiscard]] StartState start_state(const Cloth& cloth, const ClothMesh& mesh);
 
+/// How far a node of a result that others have computed may be from start_state() in its first frame [m]: 1e-5 of the largest cloth's
+/// size. Text with six digits and single precision stay below that; a frame too late, another unit or axis do not.
+[[nodiscard]] double start_tolerance(const Scene& scene);
+
 }  // namespace weft::scenes

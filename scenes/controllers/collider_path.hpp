@@ -9,12 +9,17 @@
 
 namespace weft::scenes {
 
-/// Where a collider is at the start.
-[[nodiscard]] inline Pose start_pose(const Collider& collider) {
+/// The pose at a time [s] of a collider that does not move freely: on its path, or as it always is.
+[[nodiscard]] inline Pose prescribed_pose(const Collider& collider, double time) {
   if (!collider.path) return {collider.position, collider.orientation};
-  Pose pose = PathMotion(*collider.path).pose(0.0);
+  Pose pose = PathMotion(*collider.path).pose(time);
   pose.orientation = (pose.orientation * collider.orientation).normalized();
   return pose;
+}
+
+/// Where a collider is at the start.
+[[nodiscard]] inline Pose start_pose(const Collider& collider) {
+  return prescribed_pose(collider, 0.0);
 }
 
 /// Leads a collider along its path.

@@ -160,6 +160,12 @@ void EngineRuns::add(const RunRequest& request) {
   if (!known) runs_.push_back({request, {}, false});
 }
 
+void EngineRuns::add_recording(const std::string& label, const std::filesystem::path& recording) {
+  RunRequest request;
+  request.label = label;
+  runs_.push_back({request, {.exit_code = 0, .log = "", .recording = recording}, true});
+}
+
 std::vector<std::string> EngineRuns::command(const Run& run) const {
   const RunRequest& request = run.request;
   const bool is_single = request.precision == scenes::StoredPrecision::kFloat32;

@@ -29,6 +29,8 @@ class EngineRuns {
 
   /// Adds a run. A second request with the same label is the same run.
   void add(const RunRequest& request);
+  /// Adds the outcome of a run that somebody else has done: nothing is run for it.
+  void add_recording(const std::string& label, const std::filesystem::path& recording);
 
   /// Runs everything that was added and not run yet. progress: fraction done, 0 to 1.
   void run_all(const std::function<void(double fraction, const std::string& label)>& progress);

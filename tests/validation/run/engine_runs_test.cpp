@@ -57,6 +57,17 @@ TEST_F(EngineRunsTest, EveryWayToEndIsAResult) {
   EXPECT_EQ(all.outcome("crashes").exit_code, 128 + SIGSEGV);
 }
 
+TEST_F(EngineRunsTest, ARecordingIsARunThatNobodyStarts) {
+  EngineRuns all = runs(2);
+  all.add_recording("theirs", folder_ / "theirs.weftrec");
+  all.add(request("works"));
+  all.run_all([](double, const std::string&) {});
+  EXPECT_EQ(all.outcome("theirs").exit_code, 0);
+  EXPECT_EQ(all.outcome("theirs").recording, folder_ / "theirs.weftrec");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "runs" / "theirs.log"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "runs" / "works.log"));
+}
+
 TEST_F(EngineRunsTest, TheCommandGetsSceneEngineAndPrecision) {
   EngineRuns all = runs(1);
   RunRequest wanted = request("works");

@@ -33,11 +33,12 @@ std::string SweepEngine::id(const std::string& run) const {
 }
 
 bool SweepEngine::has_coulomb_friction() const {
-  return choice.engine != "bullet_soft";
+  return choice.bounds() != "bullet_soft";
 }
 
-std::vector<SweepEngine> sweep_engines(const CollisionScene& scene, bool with_bullet) {
-  if (!with_bullet) return {};
+std::vector<SweepEngine> sweep_engines(const CollisionScene& scene, const CaseOptions& options) {
+  if (options.recorded) return {{recording_choice(options)}};
+  if (!options.bullet) return {};
   std::vector<SweepEngine> list{{{"bullet_weft", kFloat32}},
                                 {{"bullet_weft", kFloat32}, kLongStep},
                                 {{"bullet_weft", kFloat64}, kLongStep},
@@ -67,16 +68,15 @@ LevelPlan Comparison::level_plan() const {
   return {id_, metrics_.scene(), row_.finest_division};
 }
 
-void Comparison::plan(bool with_bullet, EngineRuns& runs) const {
+void Comparison::plan(const CaseOptions& options, EngineRuns& runs) const {
   const scenes::Scene& scene = metrics_.scene();
-  for (const SweepEngine& engine : sweep_engines(row_, with_bullet)) {
+  for (const SweepEngine& engine : sweep_engines(row_, options)) {
     scenes::Scene own = scene;
     own.world.time_step *= engine.step_factor;
-    runs.add(
-        {engine.choice.label(engine.id(id_)), own, engine.choice.engine, engine.choice.precision});
+    plan_run(options, engine.id(id_), engine.choice, own, runs);
   }
   plan_levels(level_plan(), runs);
-  if (!is_coarsest()) return;
+  if (!has_wrong_runs(options)) return;
   const auto add_wrong = [&](const char* name, const Sabotage& sabotage) {
     runs.add({kReference.label(id_ + name), edited(scene, sabotage), kReference.engine,
               kReference.precision});
@@ -85,13 +85,13 @@ void Comparison::plan(bool with_bullet, EngineRuns& runs) const {
   add_wrong("_wrong_late", row_.late());
 }
 
-void Comparison::load(bool with_bullet, const EngineRuns& runs) {
+void Comparison::load(const CaseOptions& options, const EngineRuns& runs) {
   levels_ = {ReferenceLevels(level_plan(), runs)};
-  engines_ = sweep_engines(row_, with_bullet);
+  engines_ = sweep_engines(row_, options);
   for (const SweepEngine& engine : engines_) {
     histories_.push_back(load_history(runs, engine.id(id_), engine.choice));
   }
-  if (!is_coarsest()) return;
+  if (!has_wrong_runs(options)) return;
   wrong_early_ = load_history(runs, id_ + "_wrong_early", kReference).frames;
   wrong_late_ = load_history(runs, id_ + "_wrong_late", kReference).frames;
 }

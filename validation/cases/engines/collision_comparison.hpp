@@ -22,8 +22,9 @@ struct SweepEngine {
   [[nodiscard]] bool has_coulomb_friction() const;
 };
 
-/// Engines that can run a scene of the sweep; none in a program without Bullet.
-[[nodiscard]] std::vector<SweepEngine> sweep_engines(const CollisionScene& scene, bool with_bullet);
+/// Engines that can run a scene of the sweep, none in a program without Bullet; or the recording to judge alone.
+[[nodiscard]] std::vector<SweepEngine> sweep_engines(const CollisionScene& scene,
+                                                     const CaseOptions& options);
 
 /// How many nodes along each side a scene is run with.
 [[nodiscard]] std::vector<int> sweep_resolutions(const CollisionScene& scene);
@@ -36,8 +37,8 @@ class Comparison {
  public:
   Comparison(const CaseInfo& info, const CollisionScene& row, int nodes);
 
-  void plan(bool with_bullet, EngineRuns& runs) const;
-  void load(bool with_bullet, const EngineRuns& runs);
+  void plan(const CaseOptions& options, EngineRuns& runs) const;
+  void load(const CaseOptions& options, const EngineRuns& runs);
 
   [[nodiscard]] const CollisionScene& row() const { return row_; }
   [[nodiscard]] int nodes() const { return nodes_; }
@@ -46,7 +47,7 @@ class Comparison {
   [[nodiscard]] const Frames& reference() const { return levels().finest(); }
   [[nodiscard]] const std::vector<SweepEngine>& engines() const { return engines_; }
   [[nodiscard]] const std::vector<History>& histories() const { return histories_; }
-  /// Runs with the row's mistakes; empty but in the coarsest resolution.
+  /// Runs with the row's mistakes; empty but in the coarsest resolution, and where a recording is judged.
   [[nodiscard]] const Frames& wrong(bool at_rest) const {
     return at_rest ? wrong_late_ : wrong_early_;
   }
@@ -60,6 +61,9 @@ class Comparison {
 
  private:
   [[nodiscard]] LevelPlan level_plan() const;
+  [[nodiscard]] bool has_wrong_runs(const CaseOptions& options) const {
+    return is_coarsest() || options.recorded.has_value();
+  }
 
   const CollisionScene& row_;
   int nodes_;

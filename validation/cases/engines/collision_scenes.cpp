@@ -185,7 +185,7 @@ std::span<const CollisionScene> collision_scenes() {
   return kScenes;
 }
 
-scenes::Scene make_collision_scene(const CollisionScene& scene, int nodes) {
+scenes::Scene written_collision_scene(const CollisionScene& scene, int nodes) {
   const std::string text =
       fmt::format(fmt::runtime(kCloth), fmt::arg("id", scene.id), fmt::arg("nodes", nodes),
                   fmt::arg("duration", scene.duration),
@@ -194,7 +194,11 @@ scenes::Scene make_collision_scene(const CollisionScene& scene, int nodes) {
                   fmt::arg("collider", scene.collider));
   scenes::Scene made = scenes::read_scene_text(text, fmt::format("collision_sweep/{}", scene.id));
   if (scene.edit) scene.edit(made);
-  return scenes::with_bullets_time_step(made);
+  return made;
+}
+
+scenes::Scene make_collision_scene(const CollisionScene& scene, int nodes) {
+  return scenes::with_bullets_time_step(written_collision_scene(scene, nodes));
 }
 
 }  // namespace weft::validation

@@ -34,7 +34,9 @@ struct CollisionScene {
 /// Sphere, cylinder, table edge, cone, box, capsule, mesh, led sphere, free ball, incline; then those that slide.
 [[nodiscard]] std::span<const CollisionScene> collision_scenes();
 
-/// The scene with so many nodes along each side, with Bullet's time step.
+/// The scene with so many nodes along each side, as a scene file has it.
+[[nodiscard]] scenes::Scene written_collision_scene(const CollisionScene& scene, int nodes);
+/// The same with Bullet's time step, as engines run it.
 [[nodiscard]] scenes::Scene make_collision_scene(const CollisionScene& scene, int nodes);
 
 }  // namespace weft::validation

@@ -12,6 +12,7 @@
 #include <weft/playback/rendering/renderer.hpp>
 #include <weft/validation/cases/engines/collision_comparison.hpp>
 #include <weft/validation/cases/scenes/scene_cases.hpp>
+#include <weft/validation/referee/start_check.hpp>
 
 namespace weft::validation {
 namespace {
@@ -53,12 +54,12 @@ void judge_with(CheckResult& check, Tolerance tolerance) {
 }
 
 Tolerance gap_of(const EngineChoice& engine, bool at_rest) {
-  if (engine.engine == "bullet_soft") {
+  if (engine.bounds() == "bullet_soft") {
     return {at_rest ? kSweepGap : kDampedGap, Basis::kModelGap,
             "links are projected one after the other, springs act together; measured up to 1.1 % "
             "in motion, 0.5 % at rest"};
   }
-  if (engine.engine == "bullet_weft") {
+  if (engine.bounds() == "bullet_weft") {
     return {at_rest ? kSweepGap : kDampedGap, Basis::kModelGap,
             "implicit Euler damps a spring by k h / 2 = 5 mN s/m, the scene by 2: measured up to "
             "1.4 % in "
@@ -164,7 +165,8 @@ void add_pictures(const Comparison& of, PictureRow& row) {
     const SweepEngine& engine = of.engines()[e];
     const bool is_fast = engine.choice.engine == "bullet_weft" && engine.step_factor > 1 &&
                          engine.choice.precision == scenes::StoredPrecision::kFloat32;
-    if (!is_fast || of.histories()[e].frames.empty()) continue;
+    const bool is_recording = engine.choice.engine == kRecordingEngine;
+    if ((!is_fast && !is_recording) || of.histories()[e].frames.empty()) continue;
     row.pictures.push_back(picture_of(of, of.histories()[e].frames.back(), engine.title()));
   }
   if (!of.reference().empty()) {
@@ -190,12 +192,28 @@ void add_rows(const Comparison& of, Table& distances, Table& own) {
   }
 }
 
+/// Whether a row is part of what was asked for: all rows, or that of a recording.
+bool is_judged(const CaseOptions& options, const CollisionScene& row, int nodes) {
+  return !options.recorded ||
+         ask_the_same(options.recorded->scene, written_collision_scene(row, nodes));
+}
+
 }  // namespace
+
+std::vector<scenes::Scene> sweep_scenes(const CaseInfo&) {
+  std::vector<scenes::Scene> scenes;
+  for (const CollisionScene& row : collision_scenes()) {
+    for (const int nodes : sweep_resolutions(row)) {
+      scenes.push_back(written_collision_scene(row, nodes));
+    }
+  }
+  return scenes;
+}
 
 void plan_collision_sweep(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
   for (const CollisionScene& row : collision_scenes()) {
     for (const int nodes : sweep_resolutions(row)) {
-      Comparison(info, row, nodes).plan(options.bullet, runs);
+      if (is_judged(options, row, nodes)) Comparison(info, row, nodes).plan(options, runs);
     }
   }
 }
@@ -208,7 +226,7 @@ void evaluate_collision_sweep(const CaseInfo& info, const CaseOptions& options,
                   {}};
   Table own{
       "The reference's own error, RMS over the cloth's size [1]", {"scene", "nodes", "time"}, {}};
-  for (const SweepEngine& engine : sweep_engines(collision_scenes()[0], options.bullet)) {
+  for (const SweepEngine& engine : sweep_engines(collision_scenes()[0], options)) {
     distances.columns.push_back(engine.title());
   }
   for (std::string& column : own_error_columns()) own.columns.push_back(std::move(column));
@@ -216,9 +234,14 @@ void evaluate_collision_sweep(const CaseInfo& info, const CaseOptions& options,
   std::map<std::string, std::pair<double, std::string>> long_steps;
   for (const CollisionScene& row : collision_scenes()) {
     for (const int nodes : sweep_resolutions(row)) {
+      if (!is_judged(options, row, nodes)) continue;
       Comparison of(info, row, nodes);
-      of.load(options.bullet, runs);
+      of.load(options, runs);
       add_own(info, of, report);
+      if (options.recorded) {
+        report.checks.push_back(
+            start_check(info, of.metrics().scene(), of.histories().front(), of.reference()));
+      }
       for (std::size_t e = 0; e < of.engines().size(); ++e) {
         add_pair(info, of, e, false, report);
         const double moving = report.checks.back().measured;
@@ -229,8 +252,8 @@ void evaluate_collision_sweep(const CaseInfo& info, const CaseOptions& options,
       }
       add_friction_departures(of, report);
       add_rows(of, distances, own);
-      const bool is_shown =
-          options.pictures && nodes == sweep_resolutions(row).back() && !row.slides;
+      const bool is_one_of_many = nodes != sweep_resolutions(row).back() || row.slides;
+      const bool is_shown = options.pictures && (options.recorded || !is_one_of_many);
       if (is_shown) add_pictures(of, pictures);
     }
   }

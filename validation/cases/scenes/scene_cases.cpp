@@ -9,6 +9,7 @@
 #include <weft/scenes/catalog.hpp>
 #include <weft/validation/cases/scenes/scene_section.hpp>
 #include <weft/validation/cases/scenes/scene_truth.hpp>
+#include <weft/validation/referee/start_check.hpp>
 
 namespace weft::validation {
 namespace {
@@ -22,6 +23,33 @@ scenes::Scene scene_for(const scenes::Scene& scene, const EngineChoice& engine) 
   scenes::Scene own = scenes::load_scene(scene.name);
   own.world.time_step = std::max(own.world.time_step, kFastStep);
   return scenes::with_bullets_time_step(std::move(own));
+}
+
+/// The gates of the engines that are judged. Without Bullet the reference has nobody to serve; a recording has the gates of one engine.
+std::vector<SceneGate> judged_gates(const std::string& id, const CaseOptions& options) {
+  std::vector<SceneGate> gates = scene_gates(id);
+  if (options.recorded) {
+    const EngineChoice recording = recording_choice(options);
+    std::erase_if(gates, [&](const SceneGate& gate) {
+      return gate.engine.engine != recording.bounds() ||
+             gate.engine.precision != recording.precision;
+    });
+    for (SceneGate& gate : gates) gate.engine = recording;
+  } else if (!options.bullet) {
+    std::erase_if(gates, [](const SceneGate& gate) { return gate.engine.engine != "reference"; });
+  }
+  return gates;
+}
+
+std::string steps_text(const CaseOptions& options, const scenes::Scene& scene,
+                       const EngineChoice& first) {
+  if (options.recorded) {
+    return fmt::format("; the recording {} is held to the bounds of {}",
+                       options.recorded->path.string(), first.bounds());
+  }
+  if (!options.bullet) return "";
+  return fmt::format("; bullet_weft takes steps of 1/{:.0f} s, the others of 1/{:.0f} s",
+                     1 / scene_for(scene, first).world.time_step, 1 / scene.world.time_step);
 }
 
 const History* find_history(const std::vector<History>& histories, const EngineChoice& engine) {
@@ -124,25 +152,33 @@ void add_departures(const CaseInfo& info, const SceneMetrics& metrics,
 
 }  // namespace
 
+std::vector<scenes::Scene> catalog_scene(const CaseInfo& info) {
+  return {scenes::load_scene(std::string(info.id))};
+}
+
 void plan_scene(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
   const std::string id(info.id);
-  const scenes::Scene scene = scenes::with_bullets_time_step(scenes::load_scene(id));
-  for (const EngineChoice& engine : cross_validated_engines(options.bullet)) {
-    runs.add({engine.label(id), scene_for(scene, engine), engine.engine, engine.precision});
+  const scenes::Scene scene = scenes::with_bullets_time_step(catalog_scene(info).front());
+  for (const EngineChoice& engine : judged_engines(options)) {
+    plan_run(options, id, engine, scene_for(scene, engine), runs);
   }
-  SceneTruth(id, scene, options.bullet).plan(runs);
+  SceneTruth(id, scene, judged_gates(id, options)).plan(runs);
 }
 
 void evaluate_scene(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
                     Report& report) {
   const std::string id(info.id);
-  const SceneMetrics metrics(scenes::with_bullets_time_step(scenes::load_scene(id)));
+  const SceneMetrics metrics(scenes::with_bullets_time_step(catalog_scene(info).front()));
   std::vector<History> histories;
-  for (const EngineChoice& engine : cross_validated_engines(options.bullet)) {
+  for (const EngineChoice& engine : judged_engines(options)) {
     histories.push_back(load_history(runs, id, engine));
   }
-  SceneTruth truth(id, metrics.scene(), options.bullet);
+  SceneTruth truth(id, metrics.scene(), judged_gates(id, options));
   truth.load(metrics, runs);
+  if (options.recorded) {
+    report.checks.push_back(
+        start_check(info, metrics.scene(), histories.front(), histories.back().frames));
+  }
   for (const SceneGate& gate : truth.gates()) {
     const History* history = find_history(histories, gate.engine);
     if (!history) continue;
@@ -152,12 +188,7 @@ void evaluate_scene(const CaseInfo& info, const CaseOptions& options, const Engi
   for (CheckResult& check : truth.own_checks(info, metrics))
     report.checks.push_back(std::move(check));
   Section section = scene_section(metrics, histories, options.pictures);
-  if (options.bullet) {
-    section.summary +=
-        fmt::format("; bullet_weft takes steps of 1/{:.0f} s, the others of 1/{:.0f} s",
-                    1 / scene_for(metrics.scene(), histories.front().engine).world.time_step,
-                    1 / metrics.scene().world.time_step);
-  }
+  section.summary += steps_text(options, metrics.scene(), histories.front().engine);
   Table own = truth.own_table(metrics);
   if (!own.rows.empty()) section.tables.push_back(std::move(own));
   report.sections.push_back(std::move(section));

@@ -6,6 +6,8 @@
 
 namespace weft::validation {
 
+/// The scene of a case that is one of the catalog's.
+[[nodiscard]] std::vector<scenes::Scene> catalog_scene(const CaseInfo&);
 /// Cross-validation of a catalog scene: every engine runs it and is compared with the reference.
 void plan_scene(const CaseInfo&, const CaseOptions&, EngineRuns&);
 void evaluate_scene(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
@@ -31,6 +33,8 @@ void evaluate_damped_hang(const CaseInfo&, const CaseOptions&, const EngineRuns&
 void plan_third_opinion(const CaseInfo&, const CaseOptions&, EngineRuns&);
 void evaluate_third_opinion(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
+/// All rows of the sweep in all their resolutions.
+[[nodiscard]] std::vector<scenes::Scene> sweep_scenes(const CaseInfo&);
 /// A cloth on ten bodies in three resolutions: every engine beside the reference.
 void plan_collision_sweep(const CaseInfo&, const CaseOptions&, EngineRuns&);
 void evaluate_collision_sweep(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);

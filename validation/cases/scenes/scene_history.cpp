@@ -26,6 +26,25 @@ std::vector<EngineChoice> cross_validated_engines(bool with_bullet) {
   return engines;
 }
 
+EngineChoice recording_choice(const CaseOptions& options) {
+  const RecordedResult& recorded = options.recorded.value();
+  return {kRecordingEngine, recorded.precision, recorded.judged_as};
+}
+
+std::vector<EngineChoice> judged_engines(const CaseOptions& options) {
+  if (!options.recorded) return cross_validated_engines(options.bullet);
+  return {recording_choice(options), cross_validated_engines(false).back()};
+}
+
+void plan_run(const CaseOptions& options, const std::string& id, const EngineChoice& engine,
+              const scenes::Scene& scene, EngineRuns& runs) {
+  if (engine.engine == kRecordingEngine) {
+    runs.add_recording(engine.label(id), options.recorded.value().path);
+  } else {
+    runs.add({engine.label(id), scene, engine.engine, engine.precision});
+  }
+}
+
 History load_history(const EngineRuns& runs, const std::string& case_id,
                      const EngineChoice& engine) {
   History history;

@@ -7,14 +7,17 @@
 #include <vector>
 
 #include <weft/scenes/recording/recording.hpp>
+#include <weft/validation/cases/support/case.hpp>
 #include <weft/validation/run/engine_runs.hpp>
 
 namespace weft::validation {
 
-/// An engine in one precision.
+/// An engine in one precision, or a recording that stands in for one.
 struct EngineChoice {
   std::string engine;
   scenes::StoredPrecision precision;
+  std::string judged_as = {};  ///< of a recording: the engine whose bounds hold for it
+  [[nodiscard]] const std::string& bounds() const { return judged_as.empty() ? engine : judged_as; }
   [[nodiscard]] std::string title() const;  ///< "bullet_forces float64"
   [[nodiscard]] std::string label(
       const std::string& case_id) const;  ///< "hang_bullet_forces_float64"
@@ -22,6 +25,13 @@ struct EngineChoice {
 
 /// Every engine that takes part in cross-validation; the reference last.
 [[nodiscard]] std::vector<EngineChoice> cross_validated_engines(bool with_bullet);
+/// The recording to judge as one more engine. options.recorded must be set.
+[[nodiscard]] EngineChoice recording_choice(const CaseOptions& options);
+/// cross_validated_engines(), or the recording to judge and the reference.
+[[nodiscard]] std::vector<EngineChoice> judged_engines(const CaseOptions& options);
+/// Asks for the engine's run of the scene; a recording is there already and is taken as it is.
+void plan_run(const CaseOptions& options, const std::string& id, const EngineChoice& engine,
+              const scenes::Scene& scene, EngineRuns& runs);
 
 using Frames = std::vector<scenes::SceneState>;
 

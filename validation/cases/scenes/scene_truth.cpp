@@ -34,11 +34,8 @@ std::string metric_text(Quantity quantity) {
   return "deepest node below a surface";
 }
 
-SceneTruth::SceneTruth(std::string id, const scenes::Scene& scene, bool with_bullet)
-    : id_(std::move(id)), scene_(scene), gates_(scene_gates(id_)) {
-  if (with_bullet) return;
-  std::erase_if(gates_, [](const SceneGate& gate) { return gate.engine.engine != "reference"; });
-}
+SceneTruth::SceneTruth(std::string id, const scenes::Scene& scene, std::vector<SceneGate> gates)
+    : id_(std::move(id)), scene_(scene), gates_(std::move(gates)) {}
 
 std::vector<SceneTruth::Served> SceneTruth::served(Against against) const {
   std::vector<Served> list;

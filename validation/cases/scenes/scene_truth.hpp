@@ -15,8 +15,8 @@ namespace weft::validation {
 /// What the gates of a catalog scene are held against, and how exact that is.
 class SceneTruth {
  public:
-  /// scene: as the engines run it. with_bullet: without it the reference has nobody to serve.
-  SceneTruth(std::string id, const scenes::Scene& scene, bool with_bullet);
+  /// scene: as the engines run it. gates: those of the engines that are judged.
+  SceneTruth(std::string id, const scenes::Scene& scene, std::vector<SceneGate> gates);
 
   [[nodiscard]] const std::vector<SceneGate>& gates() const { return gates_; }
   void plan(EngineRuns& runs) const;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include <weft/validation/referee/recorded_result.hpp>
 #include <weft/validation/report/report.hpp>
 #include <weft/validation/run/engine_runs.hpp>
 
@@ -42,6 +43,8 @@ struct CaseOptions {
   /// Asked for on the command line: the case is evaluated at this one point in place of its table.
   CaseValues values = {};
   std::string engine = {};  ///< asked for; empty: all of the case's
+  /// Is judged in place of every engine but the reference; by the case that case_of_recording() finds.
+  std::optional<RecordedResult> recorded = std::nullopt;
 };
 
 struct CaseInfo;
@@ -61,6 +64,8 @@ struct CaseInfo {
   /// Scenes of this case that every engine can run and of which a theory knows a number; may be null. Given beside evaluate,
   /// which may be null then.
   std::vector<TheoryScene> (*theory)(const CaseInfo& info, const CaseOptions& options) = nullptr;
+  /// Scenes of which a recording can be judged in place of an engine (CaseOptions::recorded), as scene files have them; null: none.
+  std::vector<scenes::Scene> (*recordable)(const CaseInfo& info) = nullptr;
 };
 
 }  // namespace weft::validation
