@@ -5,11 +5,14 @@
 #include <string>
 #include <vector>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <weft/core/error.hpp>
+#include <weft/playback/exchange/gltf/glb_writer.hpp>
+#include <weft/playback/exchange/gltf/gltf_export.hpp>
 #include <weft/playback/exchange/point_cache_export.hpp>
+#include <weft/playback/exchange/unfit_recording.hpp>
 #include <weft/playback/exchange/vtp_export.hpp>
 #include <weft/playback/export/cloth_energy.hpp>
 #include <weft/playback/export/player_page.hpp>
@@ -39,6 +42,8 @@ struct ExportOptions {
   std::string error;
   std::string pc2;
   std::string vtp;
+  std::string gltf;
+  std::string gltf_error;
 };
 
 /// The next 1, 2 or 5 times a power of ten that is not larger.
@@ -128,22 +133,73 @@ void write_vtp_series(const scenes::RecordingReader& reader, const ExportOptions
   print("{}: {} VTP files and series.pvd\n", options.vtp, files);
 }
 
+/// Says how near each cloth is, and warns of those that are farther away than was asked for.
+void print_gltf(const ExportOptions& options, const scenes::GltfOptions& asked,
+                const scenes::GltfExport& result, int num_frames) {
+  print("{}: {} frames, {} cloths, {} rigid bodies; {:.2f} MB\n", options.gltf, num_frames,
+        result.report.cloths.size(), result.report.num_rigid_bodies,
+        1e-6 * static_cast<double>(result.bytes.size()));
+  for (const scenes::GltfClothReport& cloth : result.report.cloths) {
+    print(
+        "  cloth '{}': {} morph targets; nodes at most {:.3g} mm from the recording, rms {:.3g} "
+        "mm\n",
+        cloth.name, cloth.num_targets, 1e3 * cloth.largest_error, 1e3 * cloth.rms_error);
+  }
+  if (!result.report.left_out.empty()) {
+    print("  left out: {}\n", fmt::join(result.report.left_out, ", "));
+  }
+  for (const scenes::GltfClothReport& cloth : result.report.cloths) {
+    if (cloth.is_within_error) continue;
+    print(stderr,
+          "warning: {}: cloth '{}' is up to {:.3g} mm from the recording with {} morph targets, "
+          "expected at most {:.3g} mm (--gltf-error)\n",
+          options.gltf, cloth.name, 1e3 * cloth.largest_error, cloth.num_targets,
+          1e3 * asked.error);
+  }
+}
+
+scenes::GltfOptions gltf_options(const ExportOptions& options) {
+  scenes::GltfOptions asked;
+  if (options.gltf_error.empty()) return asked;
+  if (options.gltf.empty()) {
+    throw InvalidArgument("export: --gltf-error without --gltf, expected the file to write");
+  }
+  asked.error = quantity_option("--gltf-error", options.gltf_error, "m");
+  if (!(asked.error > 0.0) || !std::isfinite(asked.error)) {
+    throw InvalidArgument(fmt::format("--gltf-error = {} [m], expected > 0", options.gltf_error));
+  }
+  return asked;
+}
+
+void write_gltf(const scenes::RecordingReader& reader, const ExportOptions& options) {
+  const output::OutputFile output(options.gltf, scenes::kGlbKind);
+  const scenes::GltfOptions asked = gltf_options(options);
+  const scenes::GltfExport result = [&] {
+    ProgressBar progress("gltf");
+    return scenes::export_gltf(reader, asked, [&](double part) { progress.update(part); });
+  }();
+  output.write(result.bytes);
+  print_gltf(options, asked, result, reader.num_frames());
+}
+
 /// Files for other programs, of one recording.
 int export_files(const ExportOptions& options) {
   if (!options.page.empty() || !options.player.empty()) {
-    throw InvalidArgument("export: --pc2 or --vtp with a page, expected one or the other");
+    throw InvalidArgument("export: --gltf, --pc2 or --vtp with a page, expected one or the other");
   }
   if (options.recordings.size() != 1) {
-    throw InvalidArgument(fmt::format("export: {} recordings with --pc2 or --vtp, expected one",
-                                      options.recordings.size()));
+    throw InvalidArgument(
+        fmt::format("export: {} recordings with --gltf, --pc2 or --vtp, expected one",
+                    options.recordings.size()));
   }
   const std::string& file = options.recordings.front();
   const scenes::RecordingReader reader(file);
   if (reader.num_frames() == 0) throw Error(file + ": has no frame to export");
   note_if_partial(reader, file);
   try {
+    if (!options.gltf.empty()) write_gltf(reader, options);
     if (!options.pc2.empty()) write_point_caches(reader, options);
-  } catch (const scenes::UnfitForPointCache& error) {
+  } catch (const scenes::UnfitRecording& error) {
     throw Error(file + ": " + error.what());
   }
   if (!options.vtp.empty()) write_vtp_series(reader, options);
@@ -153,8 +209,8 @@ int export_files(const ExportOptions& options) {
 int export_pages(const ExportOptions& options) {
   if (options.page.empty() && options.player.empty()) {
     throw InvalidArgument(
-        "export: expected --html OUT.html RECORDING, --player OUT.html, --pc2 FOLDER "
-        "RECORDING or --vtp FOLDER RECORDING");
+        "export: expected --html OUT.html RECORDING, --player OUT.html, --gltf FILE.glb RECORDING, "
+        "--pc2 FOLDER RECORDING or --vtp FOLDER RECORDING");
   }
   if (options.page.empty() != options.recordings.empty()) {
     throw InvalidArgument(options.page.empty()
@@ -198,8 +254,19 @@ Action add_export_command(CLI::App& parser) {
       "--vtp", options->vtp,
       "Folder to write: a VTP file for each body and frame with velocity, mass, pins "
       "and strain, and series.pvd with the times, as ParaView reads them");
+  command->add_option(
+      "--gltf", options->gltf,
+      "File to write, FILE.glb: cloths with morph targets, rigid bodies, the camera and one "
+      "animation, as Blender, game engines and viewers read it");
+  command->add_option(
+      "--gltf-error", options->gltf_error,
+      "By how much a node may be elsewhere than in the recording, e.g. \"0.5 mm\" (default: 1 mm). "
+      "The smallest number of morph targets is taken that reaches it, at most 64; if they do not, "
+      "a warning says how near they come, and the exit code is 0");
   return [options] {
-    const bool for_programs = !options->pc2.empty() || !options->vtp.empty();
+    (void)gltf_options(*options);
+    const bool for_programs =
+        !options->gltf.empty() || !options->pc2.empty() || !options->vtp.empty();
     return for_programs ? export_files(*options) : export_pages(*options);
   };
 }

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include <weft/core/error.hpp>
 #include <weft/playback/exchange/exchange_body.hpp>
 #include <weft/playback/exchange/obj_file.hpp>
 #include <weft/playback/exchange/point_cache.hpp>
+#include <weft/playback/exchange/unfit_recording.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -31,7 +31,7 @@ double frame_interval(const RecordingReader& reader) {
   for (int frame = 1; frame < last; ++frame) {
     const double expected = first + frame * interval;
     if (std::abs(reader.frame_time(frame) - expected) <= kTimeTolerance * interval) continue;
-    throw UnfitForPointCache(
+    throw UnfitRecording(
         fmt::format("frame {} is at t = {:.6g} s, expected {:.6g} s: a point cache has "
                     "equally spaced frames only (weft export --vtp has times)",
                     frame, reader.frame_time(frame), expected));
@@ -39,20 +39,12 @@ double frame_interval(const RecordingReader& reader) {
   return interval;
 }
 
-void check_cloth(const ClothState& cloth, int frame, double time) {
-  if (cloth.topology) {
-    throw UnfitForPointCache(
-        fmt::format("cloth '{}' is torn at t = {:.6g} s, expected the same points in every "
-                    "frame (weft export --vtp writes cloths that tear)",
-                    cloth.name, time));
-  }
-  for (Eigen::Index i = 0; i < cloth.positions.cols(); ++i) {
-    if (cloth.positions.col(i).allFinite()) continue;
-    throw UnfitForPointCache(
-        fmt::format("frame {}, t = {:.6g} s: position of node {} of cloth '{}' is not "
-                    "finite, expected finite ones (weft trim --to keeps those before)",
-                    frame, time, i, cloth.name));
-  }
+void check_whole(const ClothState& cloth, double time) {
+  if (!cloth.topology) return;
+  throw UnfitRecording(
+      fmt::format("cloth '{}' is torn at t = {:.6g} s, expected the same points in every "
+                  "frame (weft export --vtp and --gltf write cloths that tear)",
+                  cloth.name, time));
 }
 
 }  // namespace
@@ -71,17 +63,12 @@ PointCacheReport export_point_caches(const RecordingReader& reader,
   std::vector<PointCache> caches(bodies.size());
   for (int frame = 0; frame < reader.num_frames(); ++frame) {
     const SceneState state = reader.frame(frame);
-    for (const ClothState& cloth : state.cloths) check_cloth(cloth, frame, state.time);
+    for (const ClothState& cloth : state.cloths) check_whole(cloth, state.time);
+    check_finite(state, frame);
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const Matrix3X<double> exact = world_positions(bodies[b], state);
       const Eigen::Matrix3Xf rounded = exact.cast<float>();
       const double error = (rounded.cast<double>() - exact).cwiseAbs().maxCoeff();
-      if (!std::isfinite(error)) {
-        throw UnfitForPointCache(
-            fmt::format("frame {}, t = {:.6g} s: body '{}' is not at a finite place in "
-                        "single precision, expected one",
-                        frame, state.time, bodies[b].name));
-      }
       report.largest_rounding = std::max(report.largest_rounding, error);
       caches[b].samples.push_back(rounded);
     }

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <functional>
 
-#include <weft/core/error.hpp>
 #include <weft/scenes/output/output_folder.hpp>
 #include <weft/scenes/recording/recording.hpp>
 
@@ -11,12 +10,6 @@ namespace weft::scenes {
 
 /// The folder for OBJ files and point caches; belongs to Weft once it is filled.
 [[nodiscard]] output::OutputFolder point_cache_folder(const std::filesystem::path& path);
-
-/// The recording has something that a point cache cannot hold; the message does not name the file.
-class UnfitForPointCache : public Error {
- public:
-  using Error::Error;
-};
 
 struct PointCacheReport {
   int num_bodies = 0;
@@ -26,7 +19,7 @@ struct PointCacheReport {
 };
 
 /// Writes BODY.obj at rest and BODY.pc2 with one sample for each frame, for every body but planes. Everything is checked before
-/// the first file is written. Throws UnfitForPointCache for a cloth that tears, whose points change, for frames that are not equally spaced in time, which a
+/// the first file is written. Throws UnfitRecording for a cloth that tears, whose points change, for frames that are not equally spaced in time, which a
 /// point cache cannot say, and for a position that is not finite.
 PointCacheReport export_point_caches(const RecordingReader& reader,
                                      const output::OutputFolder& folder,

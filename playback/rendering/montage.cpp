@@ -87,7 +87,7 @@ Image filmstrip(const std::vector<Image>& pictures, int columns) {
   const int count = static_cast<int>(pictures.size());
   const int across = std::min(columns, count);
   const int rows = (count + across - 1) / across;
-  const int gap = std::max(2, first.height / 90);
+  const int gap = 2 * std::max(1, first.height / 180);  // even, because films have even sizes
   Image page = blank(across * (first.width + gap) - gap, rows * (first.height + gap) - gap);
   for (int i = 0; i < count; ++i) {
     const Image& picture = pictures[static_cast<std::size_t>(i)];

@@ -154,15 +154,18 @@ StudioLights studio_lights(const Camera& camera) {
   return lights;
 }
 
+Eigen::Matrix3d camera_axes(const Camera& camera) {
+  Eigen::Matrix3d axes;
+  axes.col(2) = (camera.position - camera.target).normalized();
+  axes.col(0) = up_vector(-axes.col(2)).cross(axes.col(2)).normalized();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  return axes;
+}
+
 View make_view(const Camera& camera, const Stage& stage, double aspect_ratio) {
   const Vector3<double> eye = camera.position - stage.center;
-  const Vector3<double> back = (camera.position - camera.target).normalized();
-  const Vector3<double> right = up_vector(-back).cross(back).normalized();
-  const Vector3<double> up = back.cross(right);
   Eigen::Matrix4d eye_from_world = Eigen::Matrix4d::Identity();
-  eye_from_world.block<1, 3>(0, 0) = right.transpose();
-  eye_from_world.block<1, 3>(1, 0) = up.transpose();
-  eye_from_world.block<1, 3>(2, 0) = back.transpose();
+  eye_from_world.block<3, 3>(0, 0) = camera_axes(camera).transpose();
   eye_from_world.block<3, 1>(0, 3) = -eye_from_world.block<3, 3>(0, 0) * eye;
 
   // The near plane at 1/100 of the way leaves 1e-5 of the distance as depth resolution with 24

@@ -44,6 +44,9 @@ struct StudioLights {
 };
 [[nodiscard]] StudioLights studio_lights(const Camera& camera);
 
+/// Axes of a camera in the world, as columns: to the right, upwards, and backwards, away from what it looks at.
+[[nodiscard]] Eigen::Matrix3d camera_axes(const Camera& camera);
+
 /// Camera of a picture, relative to the stage's centre.
 struct View {
   Eigen::Matrix4f clip_from_world;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <weft/playback/rendering/view.hpp>
+
 namespace weft::viewer {
 namespace {
 
@@ -14,14 +16,8 @@ constexpr double kFarthest = 1e5;                     // [m]
 }  // namespace
 
 CameraFrame frame_of(const scenes::Camera& camera) {
-  CameraFrame frame;
-  frame.back = (camera.position - camera.target).normalized();
-  const bool is_vertical = std::abs(frame.back.y()) > 0.999;
-  const Vector3<double> helper =
-      is_vertical ? Vector3<double>(-Vector3<double>::UnitZ()) : Vector3<double>::UnitY();
-  frame.right = helper.cross(frame.back).normalized();
-  frame.up = frame.back.cross(frame.right);
-  return frame;
+  const Eigen::Matrix3d axes = scenes::camera_axes(camera);
+  return {axes.col(0), axes.col(1), axes.col(2)};
 }
 
 void rotate(scenes::Camera& camera, double azimuth, double elevation) {

@@ -1,10 +1,9 @@
 #include <weft/playback/rendering/paint/body_paint.hpp>
 
-#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 
-#include <weft/core/error.hpp>
-#include <weft/playback/rendering/paint/palette.hpp>
-#include <weft/scenes/format/scene_file.hpp>
+#include <weft/playback/rendering/paint/color_map.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -12,9 +11,6 @@ namespace {
 // From EXT_texture_filter_anisotropic; core OpenGL only since 4.6. Without it a picture that is seen
 // at a glancing angle is blurred.
 constexpr GLenum kMaxAnisotropy = 0x84FE;
-
-constexpr int kSimpleSize = 512;   // [pixel]
-constexpr int kDetailSize = 1024;  // [pixel]
 
 GLuint upload(const GlFunctions& gl, const Image& image) {
   // OpenGL's first row is the lowest.
@@ -42,37 +38,19 @@ GLuint upload(const GlFunctions& gl, const Image& image) {
   return texture;
 }
 
-/// Colours and texture of an appearance; the mapping is that of a body with coordinates.
-void apply(const GlFunctions& gl, const Scene& scene, const Appearance& appearance,
-           const Rgb& body_color, BodyPaint& paint) {
-  paint.is_flat = !appearance.smooth;
-  paint.is_visible = appearance.visible;
+BodyPaint paint_of(const GlFunctions& gl, const BodyLook& look, const Appearance& appearance) {
+  BodyPaint paint;
+  paint.front = linear_light(look.front);
+  paint.back = look.back;
+  paint.mapping = look.mapping;
+  if (look.picture) paint.texture = upload(gl, *look.picture);
   paint.repeat = {static_cast<float>(appearance.texture_repeat[0]),
                   static_cast<float>(appearance.texture_repeat[1])};
-  if (!appearance.image.empty()) {
-    const std::optional<std::string> bytes = files_of(scene)(appearance.image);
-    if (!bytes) {
-      throw InvalidArgument("texture '" + appearance.image +
-                            "': not among the scene's files, expected it there");
-    }
-    paint.texture = upload(gl, decode_image(*bytes));
-  } else if (appearance.pattern != Pattern::kPlain) {
-    PatternColors colors = default_colors(appearance.pattern, body_color);
-    if (appearance.pattern_color) colors.figure = *appearance.pattern_color;
-    const bool has_detail =
-        appearance.pattern == Pattern::kCarpet || appearance.pattern == Pattern::kEyeball;
-    paint.texture = upload(
-        gl, pattern_image(appearance.pattern, colors, has_detail ? kDetailSize : kSimpleSize));
-  }
-  if (paint.texture == 0) return;
-  paint.mapping = appearance.pattern == Pattern::kEyeball && appearance.image.empty()
-                      ? BodyPaint::Mapping::kFromFront
-                      : BodyPaint::Mapping::kByCoordinates;
-}
-
-/// The other side of a dyed cloth: paler and warmer.
-Eigen::Vector3f back_of(const Rgb& front) {
-  return 0.45f * linear_light(front) + 0.55f * linear_light({236, 222, 196});
+  paint.texture_on_back = look.texture_on_back;
+  paint.is_flat = !appearance.smooth;
+  paint.is_visible = appearance.visible;
+  paint.is_two_tone = look.is_two_tone;
+  return paint;
 }
 
 }  // namespace
@@ -91,36 +69,11 @@ void BodyPaint::set(const GlFunctions& gl, const ShaderProgram& program, GLint t
 
 BodyPaint cloth_paint(const GlFunctions& gl, const Scene& scene, std::size_t index,
                       bool has_coordinates) {
-  const Appearance& appearance = scene.cloths[index].appearance;
-  const ClothColors& palette = kClothPalette[index % kClothPalette.size()];
-  const Rgb color = appearance.color.value_or(palette.front);
-  BodyPaint paint;
-  apply(gl, scene, appearance, color, paint);
-  if (paint.mapping == BodyPaint::Mapping::kByCoordinates && !has_coordinates) {
-    paint.mapping = BodyPaint::Mapping::kByDirection;
-  }
-  paint.front = linear_light(color);
-  paint.back = appearance.back_color ? linear_light(*appearance.back_color)
-               : appearance.color    ? back_of(color)
-                                     : linear_light(palette.back);
-  paint.texture_on_back = !appearance.back_color;
-  return paint;
+  return paint_of(gl, cloth_look(scene, index, has_coordinates), scene.cloths[index].appearance);
 }
 
 BodyPaint collider_paint(const GlFunctions& gl, const Scene& scene, const Collider& collider) {
-  const Appearance& appearance = collider.appearance;
-  const bool is_moving = collider.mass.has_value();
-  const Rgb color =
-      appearance.color.value_or(is_moving ? kMovingBodyColors.front : kFixedBodyColor);
-  BodyPaint paint;
-  apply(gl, scene, appearance, color, paint);
-  paint.front = linear_light(color);
-  paint.back = is_moving ? linear_light(kMovingBodyColors.back) : paint.front;
-  paint.is_two_tone = is_moving && !appearance.color &&
-                      paint.mapping == BodyPaint::Mapping::kNoTexture &&
-                      std::holds_alternative<SphereShape>(collider.shape);
-  paint.texture_on_back = true;
-  return paint;
+  return paint_of(gl, collider_look(scene, collider), collider.appearance);
 }
 
 }  // namespace weft::scenes

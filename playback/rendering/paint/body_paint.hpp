@@ -5,20 +5,14 @@
 #include <vector>
 
 #include <weft/playback/rendering/opengl/shader_program.hpp>
-#include <weft/playback/rendering/paint/pattern.hpp>
+#include <weft/playback/rendering/paint/body_look.hpp>
 #include <weft/scenes/scene.hpp>
 
 namespace weft::scenes {
 
 /// How a body is painted. It lives as long as its context.
 struct BodyPaint {
-  /// Where in its picture a place of the body is; as in surface.frag.
-  enum class Mapping {
-    kNoTexture,
-    kByCoordinates,  ///< texture coordinates
-    kByDirection,    ///< longitude and latitude of the place at rest, seen from the middle
-    kFromFront,      ///< angle from the body's z axis, as Pattern::kEyeball
-  };
+  using Mapping = TextureMapping;
 
   Eigen::Vector3f front{1, 1, 1};  ///< linear light
   Eigen::Vector3f back{1, 1, 1};   ///< linear light

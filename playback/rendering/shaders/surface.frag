@@ -11,7 +11,7 @@ const int kWireframe = 2;
 const int kSolid = 3;
 const int kTwoTone = 4;
 
-// As BodyPaint::Mapping.
+// As TextureMapping.
 const int kNoTexture = 0;
 const int kByCoordinates = 1;
 const int kByDirection = 2;

@@ -8,6 +8,7 @@
 #include <weft/playback/exchange/exchange_body.hpp>
 #include <weft/playback/exchange/obj_file.hpp>
 #include <weft/playback/exchange/point_cache.hpp>
+#include <weft/playback/exchange/unfit_recording.hpp>
 #include <weft/scenes/cloth_tear.hpp>
 
 #include "tests/scenes/recording/recording_samples.hpp"
@@ -26,7 +27,7 @@ std::string fault_of(const samples::TemporaryFolder& folder) {
   const RecordingReader reader(folder / "a.weftrec");
   try {
     export_point_caches(reader, point_cache_folder(folder / "out"));
-  } catch (const UnfitForPointCache& error) {
+  } catch (const UnfitRecording& error) {
     return error.what();
   }
   return "none";

@@ -84,8 +84,27 @@ mkdir other && echo mine >other/cloth.pc2
 check "pc2: another folder" exits 2 export --pc2 other hang.weftrec
 check "pc2: another folder stays" test "$(cat other/cloth.pc2)" = mine
 check "pc2: two recordings" exits 2 export --pc2 two hang.weftrec hang.weftrec
-check "pc2: two recordings: says so" one_line "2 recordings with --pc2 or --vtp, expected one"
+check "pc2: two recordings: says so" one_line "2 recordings with --gltf, --pc2 or --vtp, expected one"
 check "pc2 with a page" exits 2 export --pc2 two --html two.html hang.weftrec
+check "gltf" exits 0 export --gltf hang.glb hang.weftrec
+check "gltf: says how near it is" grep -Eq "morph targets; nodes at most [0-9.e-]+ mm from the recording, rms" out
+check "gltf: no warning" test ! -s err
+check "gltf: over its own file" exits 0 export --gltf hang.glb --gltf-error "0.1 mm" hang.weftrec
+check "gltf: an error that single precision cannot reach" exits 0 export --gltf fine.glb --gltf-error "0.001 um" hang.weftrec
+check "gltf: warns of it" one_line "warning: fine.glb: cloth 'cloth' is up to .* mm from the recording with .* morph targets, expected at most 1e-06 mm"
+check "gltf: writes it all the same" grep -q '"is_within_error":false' fine.glb
+printf 'glTF of somebody else' >other.glb
+check "gltf: another file" exits 2 export --gltf other.glb hang.weftrec
+check "gltf: another file: says why" one_line "is not a glTF file made by Weft"
+check "gltf: another file stays" test "$(cat other.glb)" = "glTF of somebody else"
+for error in "1 kg" "0 mm" "-1 mm" "nan m" "1"; do
+  check "gltf: error $error" exits 2 export --gltf bad.glb --gltf-error="$error" hang.weftrec
+  check "gltf: error $error: names it" one_line "gltf-error"
+done
+check "gltf: error without a file" exits 2 export --pc2 two --gltf-error "1 mm" hang.weftrec
+check "gltf: error without a file: says so" one_line "gltf-error without --gltf"
+check "gltf with a page" exits 2 export --gltf bad.glb --html two.html hang.weftrec
+check "gltf: nothing is written after bad input" test ! -e bad.glb
 "$weft" run tear --duration "1 s" -o tear.weftrec >out 2>err  # not in a build without Bullet
 if [ -s tear.weftrec ]; then
   check "pc2: a torn cloth" exits 2 export --pc2 torn tear.weftrec
