@@ -96,12 +96,11 @@ void CoarseCorrection::couple(const ConnectivityGraph& network, const std::vecto
   const Couplings couplings = couplings_of(network, nodes);
   for (int basis = 0; basis < num_basis_; ++basis) {
     for (const auto& [other, coupling] : couplings[at(basis)]) {
-      const std::pair both(basis, other);
-      const bool is_known = std::binary_search(pairs_of_free_.begin(), pairs_of_free_.end(), both);
-      if (!is_known && is_strong(basis, other, coupling)) pairs.push_back(both);
+      if (is_strong(basis, other, coupling)) pairs.emplace_back(basis, other);
     }
   }
   std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   if (pairs == pairs_) return;
   pairs_ = std::move(pairs);
   make_factor();

@@ -132,8 +132,8 @@ class CoarseCorrection {
   NodePartition parts_;
   Aggregates aggregates_;
   std::vector<BasisWeights> weights_;
-  std::vector<float> largest_couplings_;    ///< for each coarse basis function
-  std::vector<std::pair<int, int>> pairs_;  ///< for coarse basis functions, ascending
+  std::vector<float> largest_couplings_;            ///< for each coarse basis function
+  std::vector<std::pair<int, int>> pairs_;          ///< for coarse basis functions, ascending
   std::vector<std::pair<int, int>> pairs_of_free_;  ///< those of the free network, ascending
   std::vector<int>
       first_pairs_;  ///< for each coarse basis function as the lower one, and behind the last

@@ -16,8 +16,6 @@ std::size_t at(int i) {
 
 /// A node sticks once the slip that is left would take this share of its friction to stop [-].
 constexpr double kStopped = 0.01;
-/// In the last decision a node sticks that bears this share of its friction at most [-]: others may come to bear more.
-constexpr double kSafeShare = 0.5;
 /// Over what resists the motion of a node: a drag. Much more, and conjugate gradients would see nothing else.
 constexpr double kStiffestDrag = 30;
 /// A moving node's least inertia [N/m], which keeps a quotient finite.
@@ -138,8 +136,8 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   if (!(contact.squeeze > 0 || (was_held ? pressure > 0 : is_near))) return;
   const Vector3<Scalar> slip =
       at_node(positions_, i) - at_node(start_positions_, i) - contact.motion - with_body;
-  Vector3<Scalar> tendency = at_node(residual_forces_, i) + inertia * slip;
-  tendency -= normal.dot(tendency) * normal;
+  const Vector3<Scalar> tendency =
+      contact.tangential(at_node(residual_forces_, i) + inertia * slip);
   const Scalar friction = contact.friction;
   const Scalar most = friction * std::max(Scalar(0), pressure);
   const Scalar size = tendency.norm();
@@ -147,14 +145,11 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   // may be rounding.
   const bool did_stick = contact_states_before_[at(i)] == ContactState::kFixed;
   const Scalar doubt = is_first || did_stick ? Scalar(0) : friction * rounding_of_force(i);
-  const Scalar slipped = (slip - normal.dot(slip) * normal).norm();
+  const Scalar slipped = contact.tangential(slip).norm();
   // One that has slid would be drawn back to where the step began, and let go by the next decision: its drag stops it first.
   const bool has_stopped = inertia * slipped <= kStopped * most;
-  const Scalar bearable =
-      iteration.is_last_decision && contact.body < 0 ? Scalar(kSafeShare) * most : most;
-  const bool sticks = size <= bearable - doubt && (!was_held || did_stick || has_stopped) &&
-                      has_let_go_[at(i)] == 0;
-  if (iteration.is_settled && did_stick && !sticks) has_let_go_[at(i)] = 1;
+  const bool sticks =
+      size <= most - doubt && (!was_held || did_stick || has_stopped) && has_let_go_[at(i)] == 0;
   contact_states_[at(i)] = sticks ? ContactState::kFixed : ContactState::kOnPlane;
   normals_.col(i) = normal.template cast<float>();
   friction_.col(i).setZero();
@@ -179,12 +174,6 @@ void ImplicitSolver<Scalar>::slide(const PlaneContact<Scalar>& contact, Scalar m
   set_friction(contact, expected);
 }
 
-// What resists the motion of a node whose neighbors stand still [N/m].
-template <class Scalar>
-Scalar ImplicitSolver<Scalar>::resistance_of(int node) const {
-  return std::max(Scalar(inertia_[node]) + largest_stiffness(node), Scalar(kLeastInertia));
-}
-
 // The friction of a node that slides on a one-way coupled surface, at its present position.
 template <class Scalar>
 void ImplicitSolver<Scalar>::set_friction(const PlaneContact<Scalar>& contact, Scalar expected) {
@@ -192,21 +181,16 @@ void ImplicitSolver<Scalar>::set_friction(const PlaneContact<Scalar>& contact, S
   const Scalar most = friction_bounds_[i];
   drag_[i] = most / std::max(expected, most / (Scalar(kStiffestDrag) * resistance_of(i)));
   if (!(most > 0)) drag_[i] = 0;
-  Vector3<Scalar> slip = at_node(positions_, i) - at_node(start_positions_, i) - contact.motion;
-  slip -= contact.normal.dot(slip) * contact.normal;
-  friction_.col(i) = (-drag_[i] * slip).template cast<float>();
+  friction_.col(i) =
+      (-drag_[i] * contact.slip(at_node(start_positions_, i), at_node(positions_, i)))
+          .template cast<float>();
 }
 
+// What resists the motion of a node whose neighbors stand still [N/m].
 template <class Scalar>
-Scalar ImplicitSolver<Scalar>::slip_of(const PlaneContact<Scalar>& contact,
-                                       const Vector3<Scalar>& position) const {
-  const Vector3<Scalar> slip = position - at_node(start_positions_, contact.node) - contact.motion;
-  return (slip - contact.normal.dot(slip) * contact.normal).norm();
-}
-
-template <class Scalar>
-Scalar ImplicitSolver<Scalar>::largest_stiffness(int node) const {
-  return Scalar(forces_.diagonal_blocks().row(node).template head<3>().maxCoeff());
+Scalar ImplicitSolver<Scalar>::resistance_of(int node) const {
+  const float stiffness = forces_.diagonal_blocks().row(node).template head<3>().maxCoeff();
+  return std::max(Scalar(inertia_[node]) + Scalar(stiffness), Scalar(kLeastInertia));
 }
 
 // Lets nodes go that stick and bear more than friction can, on what no iteration moves. On the way to a solution that may be too early,
@@ -222,7 +206,7 @@ void ImplicitSolver<Scalar>::let_go(const StepProblem<Scalar>& problem) {
     const Vector3<Scalar> residual = at_node(residual_forces_, i);
     const Scalar pressure = contact.squeeze - contact.normal.dot(residual);
     const Scalar most = contact.friction * std::max(Scalar(0), pressure);
-    const Scalar size = (residual - contact.normal.dot(residual) * contact.normal).norm();
+    const Scalar size = contact.tangential(residual).norm();
     if (size <= most + contact.friction * rounding_of_force(i)) continue;
     has_let_go_[at(i)] = 1;
     have_contact_states_changed_ = true;
@@ -235,7 +219,9 @@ void ImplicitSolver<Scalar>::update_friction(const StepProblem<Scalar>& problem)
   for (const int i : constrained_) {
     if (contact_of_[at(i)] < 0 || contact_states_[at(i)] != ContactState::kOnPlane) continue;
     const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
-    if (contact.body < 0) set_friction(contact, slip_of(contact, at_node(positions_, i)));
+    if (contact.body < 0)
+      set_friction(contact,
+                   contact.slip(at_node(start_positions_, i), at_node(positions_, i)).norm());
   }
 }
 
@@ -243,7 +229,7 @@ void ImplicitSolver<Scalar>::update_friction(const StepProblem<Scalar>& problem)
 template <class Scalar>
 Scalar ImplicitSolver<Scalar>::rounding_of_force(int node) const {
   constexpr Scalar kRoundings = 8;
-  return kRoundings * std::numeric_limits<Scalar>::epsilon() * largest_stiffness(node) *
+  return kRoundings * std::numeric_limits<Scalar>::epsilon() * resistance_of(node) *
          at_node(positions_, node).cwiseAbs().maxCoeff();
 }
 

@@ -103,7 +103,6 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
   int num_stalled = 0;
   int num_decisions = 0;
   bool decides = true;
-  bool is_settled = false;
   report_ = {.is_converged = false};
   anderson_.forget();
   for (int iteration = 0; iteration < solver_settings.newton_iterations && !report_.is_converged;
@@ -114,8 +113,6 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
                            .accuracy = accuracy_of(iteration, has_contacts, asked),
                            .is_first = iteration == 0,
                            .decides = decides,
-                           .is_settled = decides && is_settled,
-                           .is_last_decision = num_decisions + 1 == kMostDecisions,
                            .continues = problem.continues,
                            .factorizes = iteration % kIterationsPerFactor == 0});
     if (decides) ++num_decisions;
@@ -163,7 +160,6 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
         is_solved && (!has_contacts || (!are_contact_states_new && (decides || !can_decide)));
     if (is_over && !are_contact_states_new && !report_.is_converged && !can_decide) break;
     decides = can_decide && ((iteration < kFirstDecisions && !problem.continues) || is_over);
-    is_settled = is_over;
     if (decides) num_stalled = 0;
     before = last_gain_.total;
     if (are_contact_states_new) {

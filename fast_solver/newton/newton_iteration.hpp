@@ -12,8 +12,6 @@ struct NewtonIteration {
   LinearAccuracy accuracy = {};
   bool is_first = false;    ///< whether it is the first of a step
   bool decides = true;      ///< whether contact states are decided
-  bool is_settled = false;  ///< whether that is of a solution with the contact states so far
-  bool is_last_decision = false;
   bool continues = false;   ///< in the first iteration: contact states of the last solve are kept
   bool linearizes = true;   ///< whether forces are linearized afterwards
   bool factorizes = false;  ///< whether the coarse matrix is factorized again

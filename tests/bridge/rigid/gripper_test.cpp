@@ -110,16 +110,15 @@ class Gripper {
 };
 
 struct Outcome {
-  double lifted;   ///< [m] that the gripper has gone up
-  double carried;  ///< [m] that the held node has gone up with it
-  double load;     ///< [N] on the lift, mean while it stands
-  double slip;     ///< [m] of the held node after that, in the time that was asked for
-  double fallen;   ///< [m] in half a second after the fingers have opened
-  double
-      friction;  ///< [N] upwards on the towel, mean over the lift until it has slipped by kSlipped
+  double lifted;    ///< [m] that the gripper has gone up
+  double carried;   ///< [m] that the held node has gone up with it
+  double load;      ///< [N] on the lift, mean while it stands
+  double slip;      ///< [m] of the held node after that, in the time that was asked for
+  double fallen;    ///< [m] in half a second after the fingers have opened
+  double friction;  ///< [N] on the towel, mean over the lift until it has slipped by kSlipped
 };
 
-/// Of all contacts in the last step [N].
+/// The sum over all contacts in the last step, upwards on the towel [N].
 double vertical_force(const Cloth& cloth) {
   double sum = 0;
   for (const ClothContactPoint& contact : cloth.contacts()) {
