@@ -146,7 +146,7 @@ void print_gltf(const ExportOptions& options, const scenes::GltfOptions& asked,
         cloth.name, cloth.num_targets, 1e3 * cloth.largest_error, 1e3 * cloth.rms_error);
   }
   if (!result.report.left_out.empty()) {
-    print("  left out: {}\n", fmt::join(result.report.left_out, ", "));
+    print("  left out: {}\n", fmt::format("{}", fmt::join(result.report.left_out, ", ")));
   }
   for (const scenes::GltfClothReport& cloth : result.report.cloths) {
     if (cloth.is_within_error) continue;

@@ -22,8 +22,8 @@ constexpr Eigen::Index kMostFrames = 1024;
 /// Modes with a smaller part of the largest eigenvalue are round-off of the Gram matrix.
 constexpr double kSmallestEigenvalue = 1e-15;
 
-/// Normals whose mean over time is shorter change sides; their direction is then not scaled up further.
-constexpr float kShortestMeanNormal = 0.1f;
+/// The fitted base of a normal that is shorter is not scaled up to unit length; its direction is then off by as much [rad].
+constexpr float kShortestBaseNormal = 1e-3f;
 
 struct Distances {
   double largest = 0.0;  ///< [m]
@@ -86,10 +86,14 @@ Eigen::Matrix3Xf points_of(const Eigen::VectorXf& coordinates) {
 MorphTargets fit_morph_targets(Eigen::MatrixXd motion, double error, int most_targets) {
   check_arguments(motion, error, most_targets);
   MorphTargets result;
-  const Eigen::VectorXf base = motion.rowwise().mean().cast<float>();
-  result.base = points_of(base);
-  // From here on motion is what the base and the targets so far leave over.
-  motion.colwise() -= base.cast<double>();
+  // From here on motion is what the rounded base and the rounded targets so far leave over.
+  Eigen::VectorXd base = Eigen::VectorXd::Zero(motion.rows());  // before it is rounded
+  const auto shift_base = [&](const Eigen::VectorXd& shift) {
+    const Eigen::VectorXd before = base.cast<float>().cast<double>();
+    base += shift;
+    motion.colwise() -= base.cast<float>().cast<double>() - before;
+  };
+  shift_base(motion.rowwise().mean());
   const Eigen::Index stride = (motion.cols() + kMostFrames - 1) / kMostFrames;
   Distances left = distances(motion);
   Eigen::MatrixXd modes;
@@ -99,19 +103,21 @@ MorphTargets fit_morph_targets(Eigen::MatrixXd motion, double error, int most_ta
   Eigen::Index count = 0;
   for (; count < most && left.largest > error; ++count) {
     const Eigen::VectorXd direction = some_frames(motion, stride) * modes.col(count);
-    const double largest_weight =
-        (direction.transpose() * motion).cwiseAbs().maxCoeff() / direction.squaredNorm();
-    // Weights stay within -1 and 1: Blender's sliders end at 10.
-    const Eigen::VectorXf target = (largest_weight * direction).cast<float>();
+    const Eigen::RowVectorXd factors = direction.transpose() * motion / direction.squaredNorm();
+    // The base moves to one end of the mode and the target to the other, so that weights are from 0 to 1: Blender cuts off others.
+    const Eigen::VectorXf target =
+        ((factors.maxCoeff() - factors.minCoeff()) * direction).cast<float>();
     const Eigen::VectorXd rounded = target.cast<double>();
     if (!(rounded.squaredNorm() > 0.0)) break;  // less than single precision has
+    shift_base(factors.minCoeff() * direction);
     // Weights of the rounded target and of what is left now, so that its rounding is made up for by the targets after it.
-    result.weights.row(count) =
-        (rounded.transpose() * motion / rounded.squaredNorm()).cast<float>();
+    const Eigen::RowVectorXd exact = rounded.transpose() * motion / rounded.squaredNorm();
+    result.weights.row(count) = exact.cwiseMax(0.0).cwiseMin(1.0).cast<float>();
     motion.noalias() -= rounded * result.weights.row(count).cast<double>();
     result.targets.push_back(points_of(target));
     left = distances(motion);
   }
+  result.base = points_of(base.cast<float>());
   result.weights.conservativeResize(count, Eigen::NoChange);
   result.largest_error = left.largest;
   result.rms_error = left.rms;
@@ -121,7 +127,7 @@ MorphTargets fit_morph_targets(Eigen::MatrixXd motion, double error, int most_ta
 
 MorphNormals fit_morph_normals(const Eigen::MatrixXf& normals, const Eigen::MatrixXf& weights) {
   const Eigen::Index num_targets = weights.rows();
-  // The mean of the frames is fitted too, as the target whose weight is always 1.
+  // The base is fitted too, as a target whose weight is always 1.
   Eigen::MatrixXd factors(num_targets + 1, weights.cols());
   factors.row(0).setOnes();
   factors.bottomRows(num_targets) = weights.cast<double>();
@@ -133,10 +139,11 @@ MorphNormals fit_morph_normals(const Eigen::MatrixXf& normals, const Eigen::Matr
   result.base.resize(3, normals.rows() / 3);
   for (Eigen::Index i = 0; i < result.base.cols(); ++i) {
     // A common factor of a point's vectors does not change directions, and the base must have unit length.
-    const Eigen::Vector3f mean = fitted.block<3, 1>(3 * i, 0);
-    const float length = mean.norm();
-    result.base.col(i) = length > 0.0f ? Eigen::Vector3f(mean / length) : Eigen::Vector3f::UnitY();
-    fitted.middleRows<3>(3 * i) /= std::max(length, kShortestMeanNormal);
+    const Eigen::Vector3f fitted_base = fitted.block<3, 1>(3 * i, 0);
+    const float length = fitted_base.norm();
+    result.base.col(i) =
+        length > 0.0f ? Eigen::Vector3f(fitted_base / length) : Eigen::Vector3f::UnitY();
+    fitted.middleRows<3>(3 * i) /= std::max(length, kShortestBaseNormal);
     fitted.block<3, 1>(3 * i, 0) = result.base.col(i);
   }
   for (Eigen::Index k = 0; k < num_targets; ++k) {

@@ -11,7 +11,7 @@ namespace weft::scenes {
 struct MorphTargets {
   Eigen::Matrix3Xf base;                  ///< 3 x n [m]
   std::vector<Eigen::Matrix3Xf> targets;  ///< 3 x n each [m]
-  Eigen::MatrixXf weights;                ///< targets x frames [-], at most 1 in size
+  Eigen::MatrixXf weights;                ///< targets x frames [-], from 0 to 1
   double largest_error =
       0.0;                 ///< [m] largest distance of a point from where it was, over all frames
   double rms_error = 0.0;  ///< [m] root mean square of these distances

@@ -4,17 +4,15 @@
 usage: blender_reads_gltf.py WEFT (exit status 77: Blender or NumPy is not here)
 """
 import json
+import os
 import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-try:
-    import numpy
-except ImportError:
-    print("skipped: NumPy is not here (Debian: python3-numpy)")
-    sys.exit(77)
+import numpy_or_skip  # before anything that imports NumPy
+import numpy
 
 from glb_file import GlbFile
 from recorded_points import RecordedPoints
@@ -24,7 +22,8 @@ BLENDERS_ROUNDING = 2e-5
 
 # Runs inside Blender: vertices of every mesh at the times that are asked for, in its axes (z is up).
 INSIDE = """
-import bpy, json
+import bpy, json, numpy
+numpy.bool = bool  # Debian 12: its Blender 3.4 asks for a name that its NumPy 1.24 no longer has, for any glTF file
 job = json.load(open(FOLDER + "/job.json"))
 bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.ops.import_scene.gltf(filepath=FOLDER + "/a.glb")
@@ -63,7 +62,9 @@ def main():
         script = folder / "inside.py"
         script.write_text(f"FOLDER = {name!r}\n{INSIDE}")
         command = [blender, "--background", "--factory-startup", "--python-exit-code", "3", "--python", str(script)]
-        result = subprocess.run(command, capture_output=True, text=True)
+        # Blender's Python looks for its modules beside the first python3 in PATH.
+        environment = {**os.environ, "PATH": "/usr/bin:" + os.environ["PATH"]}
+        result = subprocess.run(command, capture_output=True, text=True, env=environment)
         if result.returncode != 0 or "WEFT done" not in result.stdout:
             print(result.stdout, result.stderr)
             return 1

@@ -8,11 +8,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-try:
-    import numpy
-except ImportError:
-    print("skipped: NumPy is not here (Debian: python3-numpy)")
-    sys.exit(77)
+import numpy_or_skip  # before anything that imports NumPy
+import numpy
 
 from glb_file import GlbFile
 from recorded_points import RecordedPoints

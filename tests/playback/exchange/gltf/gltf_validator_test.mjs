@@ -28,7 +28,7 @@ const SCENES = [
   ["squishy_ball", "bullet_forces", "0.2 s"],
   ["sock_puppet", "bullet_forces", "0.2 s"],
   ["tear", "bullet_forces", "1 s"],
-  ["colliders", "bullet_forces", "0.1 s"],
+  ["colliders", "bullet_soft", "0.1 s"],
 ];
 const engines = command("list");
 try {

@@ -64,7 +64,8 @@ TEST(MorphTargets, StateTheErrorThatTheyHave) {
     EXPECT_LE(found.largest, error + 1e-12);
     EXPECT_NEAR(morph.largest_error, found.largest, 1e-12);
     EXPECT_NEAR(morph.rms_error, found.rms, 1e-12);
-    EXPECT_LE(morph.weights.cwiseAbs().maxCoeff(), 1.0f + 1e-5f);
+    EXPECT_GE(morph.weights.minCoeff(), 0.0f) << "Blender cuts off what is below";
+    EXPECT_LE(morph.weights.maxCoeff(), 1.0f);
   }
 }
 
