@@ -226,8 +226,10 @@ void EngineRuns::run_all(
   Children running;
   std::size_t next = 0;
   std::size_t num_done = 0;
+  const auto num_to_do = static_cast<double>(
+      std::count_if(runs_.begin(), runs_.end(), [](const Run& run) { return !run.done; }));
   const auto start_next = [&] {
-    while (next < runs_.size() && runs_[next].done) ++next, ++num_done;
+    while (next < runs_.size() && runs_[next].done) ++next;
     if (next < runs_.size()) running.add(start(runs_[next]), next), ++next;
   };
   for (int job = 0; job < jobs_; ++job) start_next();
@@ -236,7 +238,7 @@ void EngineRuns::run_all(
     Run& run = runs_[running.remove(process)];
     finish(run, status);
     ++num_done;
-    progress(static_cast<double>(num_done) / static_cast<double>(runs_.size()), run.request.label);
+    progress(static_cast<double>(num_done) / num_to_do, run.request.label);
     start_next();
   }
 }

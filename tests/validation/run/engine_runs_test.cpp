@@ -61,7 +61,9 @@ TEST_F(EngineRunsTest, ARecordingIsARunThatNobodyStarts) {
   EngineRuns all = runs(2);
   all.add_recording("theirs", folder_ / "theirs.weftrec");
   all.add(request("works"));
-  all.run_all([](double, const std::string&) {});
+  std::vector<double> fractions;
+  all.run_all([&](double fraction, const std::string&) { fractions.push_back(fraction); });
+  EXPECT_EQ(fractions, std::vector<double>{1.0}) << "it is no part of the work";
   EXPECT_EQ(all.outcome("theirs").exit_code, 0);
   EXPECT_EQ(all.outcome("theirs").recording, folder_ / "theirs.weftrec");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "runs" / "theirs.log"));
