@@ -83,7 +83,8 @@ scenes::ScalarField distance_field(const scenes::SceneState& frame,
 
 /// Both precisions look the same; one of them keeps the page of all cases within 6 MB.
 bool is_shown(const EngineChoice& engine) {
-  return engine.engine == "reference" || engine.precision == scenes::StoredPrecision::kFloat32;
+  const bool is_alone = engine.engine == "reference" || engine.engine == kRecordingEngine;
+  return is_alone || engine.precision == scenes::StoredPrecision::kFloat32;
 }
 
 }  // namespace
