@@ -117,7 +117,7 @@ class ImplicitSolver : TeamLoops {
   void evaluate_step_forces();
   [[nodiscard]] double energy_of_step_forces(const Nodes& positions);
   void decide_contact_states(const StepProblem<Scalar>& problem, const NewtonIteration& iteration);
-  void let_go(const StepProblem<Scalar>& problem);
+  [[nodiscard]] bool let_go(const StepProblem<Scalar>& problem);
   void slide(const PlaneContact<Scalar>& contact, Scalar most, Scalar expected);
   [[nodiscard]] Scalar resistance_of(int node) const;
   void set_friction(const PlaneContact<Scalar>& contact, Scalar expected);

@@ -197,8 +197,8 @@ Scalar ImplicitSolver<Scalar>::resistance_of(int node) const {
 // and costs little: a node that slides by less than its drag lets it is held as well. Without it a step whose budget ends
 // between two decisions would leave nodes that bear any force.
 template <class Scalar>
-void ImplicitSolver<Scalar>::let_go(const StepProblem<Scalar>& problem) {
-  have_contact_states_changed_ = false;
+bool ImplicitSolver<Scalar>::let_go(const StepProblem<Scalar>& problem) {
+  bool is_any = false;
   for (const int i : constrained_) {
     if (contact_of_[at(i)] < 0 || contact_states_[at(i)] != ContactState::kFixed) continue;
     const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
@@ -209,9 +209,10 @@ void ImplicitSolver<Scalar>::let_go(const StepProblem<Scalar>& problem) {
     const Scalar size = contact.tangential(residual).norm();
     if (size <= most + contact.friction * rounding_of_force(i)) continue;
     has_let_go_[at(i)] = 1;
-    have_contact_states_changed_ = true;
-    slide(contact, most, (size - most) / resistance_of(i));
+    is_any = true;
+    slide(contact, most, 0);
   }
+  return is_any;
 }
 
 template <class Scalar>

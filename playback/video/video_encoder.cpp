@@ -1,7 +1,6 @@
 #include <weft/playback/video/video_encoder.hpp>
 
 #include <fcntl.h>
-#include <signal.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
@@ -11,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstring>
 #include <string_view>
 #include <utility>
@@ -89,10 +89,10 @@ std::vector<std::string> arguments_of(const VideoFormat& format) {
   };
   if (format.container == VideoFormat::Container::kGif) {
     // A palette for each frame needs no memory for all of them, and an ordered dither does not flicker.
-    add({"-filter_complex",
-         "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=bayer:bayer_"
-         "scale=4",
-         "-loop", "0", "-f", "gif"});
+    const std::string palette =
+        "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=bayer:"
+        "bayer_scale=4";
+    add({"-filter_complex", palette.c_str(), "-loop", "0", "-f", "gif"});
   } else {
     // yuv420p and the limited range of BT.709 are what every player has. The message in the stream's first bytes is what a film of Weft is known by;
     // the identifier before it is a random one that only Weft uses.

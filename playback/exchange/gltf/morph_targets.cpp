@@ -41,7 +41,7 @@ Distances distances(const Eigen::MatrixXd& differences) {
     largest = std::max(largest, squares.maxCoeff());
     sum += squares.sum();
   }
-  const auto count = static_cast<double>(differences.size() / 3);
+  const auto count = static_cast<double>(differences.size()) / 3;
   return {std::sqrt(largest), std::sqrt(sum / count)};
 }
 
@@ -159,7 +159,7 @@ MorphNormals fit_morph_normals(const Eigen::MatrixXf& normals, const Eigen::Matr
       sum += angle * angle;
     }
   }
-  result.rms_error = std::sqrt(sum / static_cast<double>(normals.size() / 3));
+  result.rms_error = std::sqrt(3 * sum / static_cast<double>(normals.size()));
   return result;
 }
 
