@@ -111,16 +111,18 @@ class ImplicitSolver : TeamLoops {
   void set_nodes(const VectorX<double>& masses, const std::vector<bool>& is_free);
   void list_pinned();
   void change_correction(const std::vector<int>& changed);
+  [[nodiscard]] std::vector<int> nodes_without_weights() const;
+  [[nodiscard]] std::vector<bool> have_basis_weights(const std::vector<int>& nodes) const;
   void follow_kinematic(const StepProblem<Scalar>& problem);
   void load(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> guess);
   void evaluate(bool linearizes = true);
   void evaluate_step_forces();
   [[nodiscard]] double energy_of_step_forces(const Nodes& positions);
   void decide_contact_states(const StepProblem<Scalar>& problem, const NewtonIteration& iteration);
-  [[nodiscard]] bool let_go(const StepProblem<Scalar>& problem);
-  void slide(const PlaneContact<Scalar>& contact, Scalar most, Scalar expected);
-  [[nodiscard]] Scalar resistance_of(int node) const;
   void set_friction(const PlaneContact<Scalar>& contact, Scalar expected);
+  [[nodiscard]] Scalar slip_of(const PlaneContact<Scalar>& contact,
+                               const Vector3<Scalar>& position) const;
+  [[nodiscard]] Scalar largest_stiffness(int node) const;
   void update_friction(const StepProblem<Scalar>& problem);
   void set_system_inertia();
   void decide_contact_state(const PlaneContact<Scalar>& contact, const NewtonIteration& iteration);
@@ -218,9 +220,7 @@ class ImplicitSolver : TeamLoops {
   AndersonHistory<Scalar> anderson_;
   Matrix3X<Scalar> step_force_positions_;  ///< positions as StepForces takes them
   Matrix3X<Scalar> step_forces_;
-  std::vector<ContactState> contact_states_;  ///< for each node, padded
-  /// Flags: nodes that stuck and bore more than friction can. They slide for the rest of the step, so that decisions come to an end.
-  std::vector<char> has_let_go_;
+  std::vector<ContactState> contact_states_;         ///< for each node, padded
   std::vector<ContactState> contact_states_before_;  ///< contact states of the iteration before
   std::vector<int> contact_of_;                      ///< for each node: its active contact, or -1
   Matrix3X<float> normals_;                          ///< for each node on a plane

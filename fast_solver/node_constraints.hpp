@@ -47,15 +47,6 @@ struct PlaneContact {
   /// The collider among the step's rigid bodies, or -1: nothing moves it. Offset and motion are those without the cloth.
   int body = -1;
   Vector3<Scalar> lever_arm = Vector3<Scalar>::Zero();  ///< from the body's center to the node [m]
-
-  [[nodiscard]] Vector3<Scalar> tangential(const Vector3<Scalar>& vector) const {
-    return vector - normal.dot(vector) * normal;
-  }
-  /// Along the surface, from the start of the step [m]. Without the motion of the body that cloth pushes.
-  [[nodiscard]] Vector3<Scalar> slip(const Vector3<Scalar>& start,
-                                     const Vector3<Scalar>& position) const {
-    return tangential(position - start - motion);
-  }
 };
 
 /// A node with a prescribed position at the end of a step.

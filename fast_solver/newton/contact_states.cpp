@@ -37,8 +37,6 @@ void ImplicitSolver<Scalar>::decide_contact_states(const StepProblem<Scalar>& pr
       !problem.contacts.empty() || !problem.kinematic.empty() || !problem.bodies.empty();
   have_contact_states_changed_ = false;
   if (!can_hold && constrained_.empty()) return;
-  if (iteration.is_first && !iteration.continues)
-    std::fill(has_let_go_.begin(), has_let_go_.end(), 0);
   contact_states_before_.swap(contact_states_);
   std::fill(contact_states_.begin(), contact_states_.end(), ContactState::kFree);
   std::fill(contact_of_.begin(), contact_of_.end(), -1);
@@ -136,8 +134,8 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   if (!(contact.squeeze > 0 || (was_held ? pressure > 0 : is_near))) return;
   const Vector3<Scalar> slip =
       at_node(positions_, i) - at_node(start_positions_, i) - contact.motion - with_body;
-  const Vector3<Scalar> tendency =
-      contact.tangential(at_node(residual_forces_, i) + inertia * slip);
+  Vector3<Scalar> tendency = at_node(residual_forces_, i) + inertia * slip;
+  tendency -= normal.dot(tendency) * normal;
   const Scalar friction = contact.friction;
   const Scalar most = friction * std::max(Scalar(0), pressure);
   const Scalar size = tendency.norm();
@@ -145,11 +143,10 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   // may be rounding.
   const bool did_stick = contact_states_before_[at(i)] == ContactState::kFixed;
   const Scalar doubt = is_first || did_stick ? Scalar(0) : friction * rounding_of_force(i);
-  const Scalar slipped = contact.tangential(slip).norm();
+  const Scalar slipped = (slip - normal.dot(slip) * normal).norm();
   // One that has slid would be drawn back to where the step began, and let go by the next decision: its drag stops it first.
   const bool has_stopped = inertia * slipped <= kStopped * most;
-  const bool sticks =
-      size <= most - doubt && (!was_held || did_stick || has_stopped) && has_let_go_[at(i)] == 0;
+  const bool sticks = size <= most - doubt && (!was_held || did_stick || has_stopped);
   contact_states_[at(i)] = sticks ? ContactState::kFixed : ContactState::kOnPlane;
   normals_.col(i) = normal.template cast<float>();
   friction_.col(i).setZero();
@@ -159,18 +156,13 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
     friction_.col(i) = (-(most / size) * tendency).template cast<float>();
     return;
   }
+  // Friction that slides is solved for as a drag that has Coulomb's size at the slip that is expected: unlike a constant force
+  // it never drives a node, however wrong the pressure still is. Forces foretell the slip of a node alone; after that the
+  // motion so far does (iteratively reweighted least squares, which converge for any pressure).
+  friction_bounds_[i] = most;
+  const Scalar resistance = std::max(inertia + largest_stiffness(i), Scalar(kLeastInertia));
   const bool is_foretold = is_first || did_stick || !(slipped > 0);
-  slide(contact, most, is_foretold ? (size - most) / resistance_of(i) : slipped);
-}
-
-// Friction that slides is solved for as a drag that has Coulomb's size at the slip that is expected: unlike a constant force it
-// never drives a node, however wrong the pressure still is. Forces foretell the slip of a node alone; after that the motion so
-// far does (iteratively reweighted least squares, which converge for any pressure).
-template <class Scalar>
-void ImplicitSolver<Scalar>::slide(const PlaneContact<Scalar>& contact, Scalar most,
-                                   Scalar expected) {
-  contact_states_[at(contact.node)] = ContactState::kOnPlane;
-  friction_bounds_[contact.node] = most;
+  const Scalar expected = is_foretold ? (size - most) / resistance : slipped;
   set_friction(contact, expected);
 }
 
@@ -179,40 +171,25 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::set_friction(const PlaneContact<Scalar>& contact, Scalar expected) {
   const int i = contact.node;
   const Scalar most = friction_bounds_[i];
-  drag_[i] = most / std::max(expected, most / (Scalar(kStiffestDrag) * resistance_of(i)));
+  const Scalar resistance =
+      std::max(Scalar(inertia_[i]) + largest_stiffness(i), Scalar(kLeastInertia));
+  drag_[i] = most / std::max(expected, most / (Scalar(kStiffestDrag) * resistance));
   if (!(most > 0)) drag_[i] = 0;
-  friction_.col(i) =
-      (-drag_[i] * contact.slip(at_node(start_positions_, i), at_node(positions_, i)))
-          .template cast<float>();
+  Vector3<Scalar> slip = at_node(positions_, i) - at_node(start_positions_, i) - contact.motion;
+  slip -= contact.normal.dot(slip) * contact.normal;
+  friction_.col(i) = (-drag_[i] * slip).template cast<float>();
 }
 
-// What resists the motion of a node whose neighbors stand still [N/m].
 template <class Scalar>
-Scalar ImplicitSolver<Scalar>::resistance_of(int node) const {
-  const float stiffness = forces_.diagonal_blocks().row(node).template head<3>().maxCoeff();
-  return std::max(Scalar(inertia_[node]) + Scalar(stiffness), Scalar(kLeastInertia));
+Scalar ImplicitSolver<Scalar>::slip_of(const PlaneContact<Scalar>& contact,
+                                       const Vector3<Scalar>& position) const {
+  const Vector3<Scalar> slip = position - at_node(start_positions_, contact.node) - contact.motion;
+  return (slip - contact.normal.dot(slip) * contact.normal).norm();
 }
 
-// Lets nodes go that stick and bear more than friction can, on what no iteration moves. On the way to a solution that may be too early,
-// and costs little: a node that slides by less than its drag lets it is held as well. Without it a step whose budget ends
-// between two decisions would leave nodes that bear any force.
 template <class Scalar>
-bool ImplicitSolver<Scalar>::let_go(const StepProblem<Scalar>& problem) {
-  bool is_any = false;
-  for (const int i : constrained_) {
-    if (contact_of_[at(i)] < 0 || contact_states_[at(i)] != ContactState::kFixed) continue;
-    const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
-    if (contact.body >= 0) continue;
-    const Vector3<Scalar> residual = at_node(residual_forces_, i);
-    const Scalar pressure = contact.squeeze - contact.normal.dot(residual);
-    const Scalar most = contact.friction * std::max(Scalar(0), pressure);
-    const Scalar size = contact.tangential(residual).norm();
-    if (size <= most + contact.friction * rounding_of_force(i)) continue;
-    has_let_go_[at(i)] = 1;
-    is_any = true;
-    slide(contact, most, 0);
-  }
-  return is_any;
+Scalar ImplicitSolver<Scalar>::largest_stiffness(int node) const {
+  return Scalar(forces_.diagonal_blocks().row(node).template head<3>().maxCoeff());
 }
 
 template <class Scalar>
@@ -220,9 +197,7 @@ void ImplicitSolver<Scalar>::update_friction(const StepProblem<Scalar>& problem)
   for (const int i : constrained_) {
     if (contact_of_[at(i)] < 0 || contact_states_[at(i)] != ContactState::kOnPlane) continue;
     const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
-    if (contact.body < 0)
-      set_friction(contact,
-                   contact.slip(at_node(start_positions_, i), at_node(positions_, i)).norm());
+    if (contact.body < 0) set_friction(contact, slip_of(contact, at_node(positions_, i)));
   }
 }
 
@@ -230,7 +205,7 @@ void ImplicitSolver<Scalar>::update_friction(const StepProblem<Scalar>& problem)
 template <class Scalar>
 Scalar ImplicitSolver<Scalar>::rounding_of_force(int node) const {
   constexpr Scalar kRoundings = 8;
-  return kRoundings * std::numeric_limits<Scalar>::epsilon() * resistance_of(node) *
+  return kRoundings * std::numeric_limits<Scalar>::epsilon() * largest_stiffness(node) *
          at_node(positions_, node).cwiseAbs().maxCoeff();
 }
 

@@ -79,9 +79,7 @@ double ImplicitSolver<Scalar>::energy_of_contacts(const StepProblem<Scalar>& pro
     Vector3<Scalar> slip = at_node(positions, i) - at_node(start_positions_, i) - contact.motion;
     if (contact.body < 0) {
       if (contact_states_[at(i)] == ContactState::kOnPlane) {
-        sum += static_cast<double>(
-            friction_bounds_[i] *
-            contact.slip(at_node(start_positions_, i), at_node(positions, i)).norm());
+        sum += static_cast<double>(friction_bounds_[i] * slip_of(contact, at_node(positions, i)));
       }
       continue;
     }

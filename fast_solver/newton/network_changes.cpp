@@ -49,7 +49,6 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
   contact_of_.assign(at(static_cast<int>(n)), -1);
   for (auto* vectors : {&normals_, &friction_}) vectors->setZero(3, n);
   const Eigen::Index num_rows = rows_for(static_cast<int>(n));
-  has_let_go_.assign(at(static_cast<int>(n)), 0);
   for (auto* holds : {&contact_states_, &contact_states_before_}) {
     holds->assign(static_cast<std::size_t>(num_rows), ContactState::kFree);
   }
@@ -91,20 +90,34 @@ void ImplicitSolver<Scalar>::set_free(const std::vector<bool>& is_free) {
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::change_correction(const std::vector<int>& changed) {
-  constexpr int kRings = 2 * kBasisReach;
-  std::vector<int> held;  // ascending
-  std::set_union(pinned_.begin(), pinned_.end(), kinematic_.begin(), kinematic_.end(),
-                 std::back_inserter(held));
-  const Neighborhood neighborhood = forces_.neighborhood_of(changed, kRings);
-  std::vector<bool> have_weights;
-  for (const int node : neighborhood.nodes)
-    have_weights.push_back(!std::binary_search(held.begin(), held.end(), node));
+  const Neighborhood neighborhood = forces_.neighborhood_of(changed, 2 * kBasisReach);
   coarse_correction_.set_free(forces_.connectivity_graph(neighborhood.nodes), neighborhood,
-                              have_weights, forces_.slots());
-  const std::vector<int> near_held = forces_.neighborhood_of(held, kRings).nodes;
-  coarse_correction_.couple(forces_.connectivity_graph(near_held), near_held, forces_.slots());
+                              have_basis_weights(neighborhood.nodes), forces_.slots());
+  const Neighborhood surroundings = forces_.neighborhood_of(nodes_without_weights(), 2 * kBasisReach);
+  coarse_correction_.couple(forces_.connectivity_graph(surroundings.nodes), surroundings.nodes,
+                            forces_.slots());
   coarse_correction_.set_masses(masses_.template cast<float>());
   forces_.note_bending(coarse_correction_);
+}
+
+// Nodes that are pinned or kinematic, ascending.
+template <class Scalar>
+std::vector<int> ImplicitSolver<Scalar>::nodes_without_weights() const {
+  std::vector<int> result;
+  std::set_union(pinned_.begin(), pinned_.end(), kinematic_.begin(), kinematic_.end(),
+                 std::back_inserter(result));
+  return result;
+}
+
+// Flags of some nodes: neither pinned nor kinematic.
+template <class Scalar>
+std::vector<bool> ImplicitSolver<Scalar>::have_basis_weights(const std::vector<int>& nodes) const {
+  std::vector<bool> result;
+  for (const int node : nodes) {
+    result.push_back(is_free_[at(node)] &&
+                     !std::binary_search(kinematic_.begin(), kinematic_.end(), node));
+  }
+  return result;
 }
 
 // Kinematic nodes stay prescribed for many steps, like pins. Therefore coarse basis functions are small near them as well.

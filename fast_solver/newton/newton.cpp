@@ -21,8 +21,6 @@ constexpr LinearAccuracy kAccurate = {.forcing = 0.03, .delay = 0.5};
 /// How often contact states are decided in a step: in its first iterations, which find most of them, and at solutions.
 constexpr int kFirstDecisions = 2;
 constexpr int kMostDecisions = 8;
-/// Iterations in which a node that sticks may bear too much until a decision lets it go; after them every iteration does.
-constexpr int kPatience = 12;
 /// The ratio of an iteration's gain to that of the one before: assumed for the first, and the upper bound.
 constexpr double kFirstShrink = 0.1;
 constexpr double kSlowest = 0.9;
@@ -71,7 +69,6 @@ void ImplicitSolver<Scalar>::iterate_once(const StepProblem<Scalar>& problem,
   } else {
     list_constrained();
     update_friction(problem);
-    have_contact_states_changed_ = iteration.lets_go && let_go(problem);
   }
   set_system_inertia();
   if (iteration.is_first || iteration.factorizes) {
@@ -116,11 +113,10 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
                            .is_first = iteration == 0,
                            .decides = decides,
                            .continues = problem.continues,
-                           .lets_go = iteration >= kPatience,
                            .factorizes = iteration % kIterationsPerFactor == 0});
     if (decides) ++num_decisions;
     if (iteration == 0) rounding = kRoundings * gain_of_rounding();
-    const bool are_contact_states_new = iteration == 0 || have_contact_states_changed_;
+    const bool are_contact_states_new = decides && (iteration == 0 || have_contact_states_changed_);
     const double now = energy(problem, positions_, &Body::motion);
     if (!are_contact_states_new && !(now <= energy_before * (1 + kEnergyRounding) + asked)) {
       if (transverse == 1) {
@@ -157,10 +153,11 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     const bool is_solved = (left <= asked || is_rounding) && !last_gain_.is_broken;
     const bool is_over =
         is_solved || (num_stalled >= kMostStalled && solver_settings.tolerance > 0);
+    // With these contacts. Whether they are the right ones is asked of a solution: on the way there forces say little.
     const bool can_decide = has_contacts && num_decisions < kMostDecisions;
     report_.is_converged =
-        is_solved && (!has_contacts || (!are_contact_states_new && (decides || !can_decide)));
-    if (is_over && !are_contact_states_new && !report_.is_converged && !can_decide) break;
+        is_solved && (!has_contacts || (decides && !are_contact_states_new) || !can_decide);
+    if (is_over && !report_.is_converged && !can_decide) break;
     decides = can_decide && ((iteration < kFirstDecisions && !problem.continues) || is_over);
     if (decides) num_stalled = 0;
     before = last_gain_.total;

@@ -13,7 +13,6 @@ struct NewtonIteration {
   bool is_first = false;    ///< whether it is the first of a step
   bool decides = true;      ///< whether contact states are decided
   bool continues = false;   ///< in the first iteration: contact states of the last solve are kept
-  bool lets_go = false;     ///< of nodes that stick and bear more than friction can
   bool linearizes = true;   ///< whether forces are linearized afterwards
   bool factorizes = false;  ///< whether the coarse matrix is factorized again
 };

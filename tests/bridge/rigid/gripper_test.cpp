@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <weft/bridge/cloth.hpp>
-
 #include "tests/bridge/fast_scene.hpp"
 #include "tests/bridge/rigid/multibody_scene.hpp"
 
@@ -20,7 +18,6 @@ constexpr double kThreshold = 9.81 * kTowelMass / (2 * kClothFriction);  // [N] 
 constexpr double kMargin = 0.004;                                        // [m]
 constexpr int kNodes = 17;                                               // along each side
 constexpr double kSize = 0.4;                                            // [m]
-constexpr double kSlipped = 0.01;  // [m] after which rows of nodes leave the pads
 
 /// It hangs in the plane x = 0 from y = 0 down, by two corners.
 ClothMesh towel(unsigned seed) {
@@ -61,8 +58,7 @@ int middle(const ClothMesh& mesh) {
 class Gripper {
  public:
   Gripper(RobotWorld& world, double force) {
-    // Wider than the towel: beside narrower pads it hangs on their ends too, where it is drawn together.
-    const btVector3 pad(btScalar(0.02), btScalar(0.03), btScalar(0.25));
+    const btVector3 pad(btScalar(0.02), btScalar(0.03), btScalar(0.12));
     const btVector3 inertia(btScalar(0.001), btScalar(0.001), btScalar(0.001));
     const btQuaternion none = btQuaternion::getIdentity();
     robot_ = &world.add_robot(3, 0, btVector3(0, 0, 0), btVector3(0, 1, 0));
@@ -110,22 +106,12 @@ class Gripper {
 };
 
 struct Outcome {
-  double lifted;    ///< [m] that the gripper has gone up
-  double carried;   ///< [m] that the held node has gone up with it
-  double load;      ///< [N] on the lift, mean while it stands
-  double slip;      ///< [m] of the held node after that, in the time that was asked for
-  double fallen;    ///< [m] in half a second after the fingers have opened
-  double friction;  ///< [N] on the towel, mean over the lift until it has slipped by kSlipped
+  double lifted;   ///< [m] that the gripper has gone up
+  double carried;  ///< [m] that the held node has gone up with it
+  double load;     ///< [N] on the lift, mean while it stands
+  double slip;     ///< [m] of the held node after that, in the time that was asked for
+  double fallen;   ///< [m] in half a second after the fingers have opened
 };
-
-/// The sum over all contacts in the last step, upwards on the towel [N].
-double vertical_force(const Cloth& cloth) {
-  double sum = 0;
-  for (const ClothContactPoint& contact : cloth.contacts()) {
-    sum += static_cast<double>(contact.impulse.y()) / RobotWorld::kStep;
-  }
-  return sum;
-}
 
 Outcome hold(double force, double seconds, unsigned seed) {
   RobotWorld world;
@@ -158,19 +144,11 @@ Outcome hold(double force, double seconds, unsigned seed) {
   Outcome outcome{};
   const double start = height();
   const double gripper_start = gripper.height();
-  bool has_slipped = false;
-  int num_steady = 0;
-  constexpr int kFirstSteady = 2;  // the corners have only just been let go before
   // A tenth of g is what the grip can bear.
   for (int step = 0; step < 60; ++step) {
     gripper.lift(std::min(0.2, std::min(step, 59 - step) * RobotWorld::kStep));
     world.step();
-    if (gripper.height() - gripper_start - (height() - start) > kSlipped) has_slipped = true;
-    if (step < kFirstSteady || has_slipped) continue;
-    outcome.friction += vertical_force(world.solver().cloth(body));
-    ++num_steady;
   }
-  outcome.friction /= std::max(1, num_steady);
   gripper.lift(0);
   world.step(30);
   outcome.carried = height() - start;
@@ -205,9 +183,6 @@ TEST(Gripper, ATowelSlipsBelowTheThreshold) {
   for (unsigned seed = 1; seed <= WEFT_NUM_SEEDS; ++seed) {
     const Outcome outcome = hold(0.8 * kThreshold, 1, seed);
     EXPECT_LT(outcome.carried, outcome.lifted - 0.1) << seed;
-    // Coulomb's bound, but for steps whose budget ends first: 1.00 to 1.09 times.
-    EXPECT_LT(outcome.friction, 1.15 * 0.8 * 9.81 * kTowelMass) << seed;
-    EXPECT_GT(outcome.friction, 0.9 * 0.8 * 9.81 * kTowelMass) << seed;
   }
 }
 
@@ -218,7 +193,7 @@ TEST(Gripper, KinematicFingersCarryATowelAndLetItGo) {
   btSoftBody& body =
       world.add_cloth(mesh, {law("tension", "stiffness", 2000), law("velocity_damping", "rate", 2)},
                       kClothFriction, kMargin);
-  const btVector3 pad(btScalar(0.02), btScalar(0.03), btScalar(0.25));
+  const btVector3 pad(btScalar(0.02), btScalar(0.03), btScalar(0.12));
   std::array<btRigidBody*, 2> fingers{};
   for (std::size_t k = 0; k < 2; ++k) {
     fingers[k] = &world.add_box(pad, 0, vector(k == 0 ? -0.05 : 0.05, -0.02, 0));
