@@ -93,7 +93,8 @@ void ImplicitSolver<Scalar>::change_correction(const std::vector<int>& changed) 
   const Neighborhood neighborhood = forces_.neighborhood_of(changed, 2 * kBasisReach);
   coarse_correction_.set_free(forces_.connectivity_graph(neighborhood.nodes), neighborhood,
                               have_basis_weights(neighborhood.nodes), forces_.slots());
-  const Neighborhood surroundings = forces_.neighborhood_of(nodes_without_weights(), 2 * kBasisReach);
+  const Neighborhood surroundings =
+      forces_.neighborhood_of(nodes_without_weights(), 2 * kBasisReach);
   coarse_correction_.couple(forces_.connectivity_graph(surroundings.nodes), surroundings.nodes,
                             forces_.slots());
   coarse_correction_.set_masses(masses_.template cast<float>());
