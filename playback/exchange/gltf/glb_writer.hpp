@@ -18,7 +18,7 @@ using GltfJson = nlohmann::ordered_json;
 /// A glTF 2.0 document with its binary data, which becomes one .glb file.
 class GlbWriter {
  public:
-  /// What an accessor's numbers are for; vertices and indices are marked for the graphics card.
+  /// The use of an accessor: vertices and indices are marked for the graphics card.
   enum class Use { kVertices, kIndices, kAnimation };
 
   GlbWriter();

@@ -20,7 +20,7 @@ struct GltfParts {
   GltfAnimation& animation;
 };
 
-/// What became of one cloth.
+/// The result for one cloth.
 struct GltfClothNode {
   int node = 0;  ///< of the document
   GltfClothReport report;

@@ -24,7 +24,7 @@ using nlohmann::json;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// What the file says, decoded as far as these tests need it; gltf_export_check.py reads the numbers.
+/// The file, decoded as far as these tests need it; gltf_export_check.py reads the numbers.
 struct Document {
   explicit Document(const std::string& bytes) {
     std::uint32_t length = 0;
