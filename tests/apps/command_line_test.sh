@@ -1,30 +1,10 @@
 #!/usr/bin/env bash
 # What a person sees of the weft command: texts, exit codes, files left behind.
 # Usage: command_line_test.sh WEFT SOURCE_DIR with|without (Bullet)
-set -u
 weft=$1
 source_dir=$2
 bullet=$3
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-checks=0
-
-check() {  # check DESCRIPTION COMMAND...: the command must succeed
-  checks=$((checks + 1))
-  if ! "${@:2}"; then
-    echo "FAILED: $1"
-    failures=$((failures + 1))
-  fi
-}
-
-exits() {  # exits CODE ARGUMENTS...: weft must end with this code; output in out and err
-  local expected=$1
-  "$weft" "${@:2}" >out 2>err
-  local code=$?
-  [ "$code" -eq "$expected" ] || { echo "weft ${*:2}: exit $code, expected $expected"; cat err; return 1; }
-}
+source "$(dirname -- "${BASH_SOURCE[0]}")/command_checks.sh"
 
 # Help and names
 check "help" exits 0 --help
@@ -310,5 +290,4 @@ check "quick and a case" exits 2 validate catenary --quick -o none
 check "list of the cases" exits 0 validate --list
 check "list: parameters with unit and range" grep -q -- "--gamma \[1\].*0.05 to 500" out
 
-echo "$((checks - failures)) passed, $failures failed"
-[ "$failures" -eq 0 ]
+finish

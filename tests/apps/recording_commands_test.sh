@@ -1,28 +1,9 @@
 #!/usr/bin/env bash
 # The commands for recordings: info, diff, trim, verify. Texts, exit codes, files left behind.
 # Usage: recording_commands_test.sh WEFT
-set -u
-weft=$(realpath "$1") || exit 1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-checks=0
-
-check() {  # check DESCRIPTION COMMAND...: the command must succeed
-  checks=$((checks + 1))
-  if ! "${@:2}"; then
-    echo "FAILED: $1"
-    failures=$((failures + 1))
-  fi
-}
-
-exits() {  # exits CODE ARGUMENTS...: weft must end with this code; output in out and err
-  local expected=$1
-  timeout 60 "$weft" "${@:2}" >out 2>err
-  local code=$?
-  [ "$code" -eq "$expected" ] || { echo "weft ${*:2}: exit $code, expected $expected"; cat err; return 1; }
-}
+weft=$1
+source "$(dirname -- "${BASH_SOURCE[0]}")/command_checks.sh"
+time_limit=60
 
 says() { grep -qF -- "$1" out; }
 one_line() { [ "$(wc -l <err)" -eq 1 ] && grep -qF -- "$1" err; }
@@ -201,5 +182,4 @@ check "and is sound" exits 0 verify rest.weftrec
 check "verify of several" exits 2 verify a.weftrec gone.weftrec damaged.weftrec
 check "looks at all of them" test "$(grep -c "^[a-z]*.weftrec: " out)" -eq 2
 
-echo "$checks checks, $failures failures"
-[ "$failures" -eq 0 ]
+finish

@@ -1,28 +1,8 @@
 #!/usr/bin/env bash
 # What a person sees of weft export: texts, exit codes, files left behind.
 # Usage: export_command_test.sh WEFT
-set -u
 weft=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-checks=0
-
-check() {  # check DESCRIPTION COMMAND...: the command must succeed
-  checks=$((checks + 1))
-  if ! "${@:2}"; then
-    echo "FAILED: $1"
-    failures=$((failures + 1))
-  fi
-}
-
-exits() {  # exits CODE ARGUMENTS...: weft must end with this code; output in out and err
-  local expected=$1
-  "$weft" "${@:2}" >out 2>err
-  local code=$?
-  [ "$code" -eq "$expected" ] || { echo "weft ${*:2}: exit $code, expected $expected"; cat err; return 1; }
-}
+source "$(dirname -- "${BASH_SOURCE[0]}")/../../apps/command_checks.sh"
 
 one_line() { [ "$(wc -l <err)" -eq 1 ] && grep -q "$1" err; }
 no_page() { [ -z "$(find . -name '*.html' -newer stamp)" ]; }
@@ -113,5 +93,4 @@ if [ -s tear.weftrec ]; then
   check "vtp: a torn cloth" exits 0 export --vtp torn_series tear.weftrec
 fi
 
-echo "$checks checks, $failures failed"
-[ "$failures" -eq 0 ]
+finish

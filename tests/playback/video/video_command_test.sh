@@ -1,28 +1,8 @@
 #!/usr/bin/env bash
 # Films of weft render: frames, size and duration as ffprobe counts them, errors, and files left behind.
 # Usage: video_command_test.sh WEFT (exit status 77: ffmpeg is not here; what needs none is checked all the same)
-set -u
 weft=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-checks=0
-
-check() {  # check DESCRIPTION COMMAND...: the command must succeed
-  checks=$((checks + 1))
-  if ! "${@:2}"; then
-    echo "FAILED: $1"
-    failures=$((failures + 1))
-  fi
-}
-
-exits() {  # exits CODE ARGUMENTS...: weft must end with this code; output in out and err
-  local expected=$1
-  "$weft" "${@:2}" >out 2>err
-  local code=$?
-  [ "$code" -eq "$expected" ] || { echo "weft ${*:2}: exit $code, expected $expected"; cat err; return 1; }
-}
+source "$(dirname -- "${BASH_SOURCE[0]}")/../../apps/command_checks.sh"
 
 without_programs() { PATH=/no/such/folder exits "$@"; }
 one_line() { [ "$(wc -l <err)" -eq 1 ] && grep -q -- "$1" err; }
@@ -113,5 +93,4 @@ check "ffmpeg fails: its words" one_line "ffmpeg has failed: no encoder today"
 check "ffmpeg fails: the earlier film stays" is "$(cksum <a.mp4)" "$before"
 check "nothing is left behind" test -z "$(find . -name '.weft*')"
 
-echo "$checks checks, $failures failed"
-[ "$failures" -eq 0 ]
+finish
