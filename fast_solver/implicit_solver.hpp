@@ -31,8 +31,8 @@ namespace weft::fast {
 /// stiffness of the present step, because diagonal blocks do not see slow motions of the whole cloth.
 ///
 /// Contacts are eliminated from the linear system (Baraff and Witkin 1998): a sliding node moves in its plane and a sticking
-/// node does not move. The residual at such a node is the contact force. Its sign and Coulomb's law choose the contact state of
-/// the next iteration. Nodes that touch a two-way coupled rigid body move with it, and its six unknowns are solved for together
+/// node not at all. The residual at such a node is the contact force. Its sign and Coulomb's law decide contact states, in the
+/// first iterations and then at solutions. Nodes that touch a two-way coupled rigid body move with it, and its six unknowns are solved for together
 /// with the nodes.
 ///
 /// Positions and forces are Scalar; corrections are single precision. Results have the same bits for any number of threads.
@@ -82,7 +82,7 @@ class ImplicitSolver : TeamLoops {
     return {contact_of_[node], contact_states_[node]};
   }
   /// After solve(): the generalized displacement of a two-way coupled body relative to its motion without the cloth: translation of
-  /// its center [m] and rotation about it [rad]. The force on the body is (inertia + held) motion / h^2.
+  /// its center [m] and rotation about it [rad]. The force on the body is (inertia + held) motion / h'^2.
   [[nodiscard]] Vector6 body_motion(int body) const {
     return bodies_[static_cast<std::size_t>(body)].motion;
   }

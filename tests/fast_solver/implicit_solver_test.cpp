@@ -1,4 +1,5 @@
 #include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 #include <Eigen/LU>
@@ -208,6 +209,52 @@ TEST(ImplicitSolver, FollowsPins) {
     EXPECT_LT(left_by_leader, left + 1e-3 * first) << pins.size();
   }
   EXPECT_THROW(solver.set_free({true}), InvalidArgument);
+}
+
+// Random pins and kinematic nodes come and go, with a step after each change: the bits are those of a solver that knows only the
+// last of them.
+template <class Scalar>
+void expect_bits_of_a_fresh_solver() {
+  const ClothMesh mesh = cloth(40);
+  const SpringNetwork network = springs(mesh, 3000.0, 0.1);
+  const Matrix3X<Scalar> q = mesh.rest_positions.template cast<Scalar>();
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> node(0, mesh.num_nodes() - 1);
+  std::uniform_int_distribution<int> number(0, 12);
+  const auto solved = [&](ImplicitSolver<Scalar>& by, const std::vector<bool>& is_free,
+                          const std::vector<KinematicNode<Scalar>>& kinematic) {
+    const Matrix3X<Scalar> y =
+        fallen(mesh.rest_positions, Matrix3X<double>::Zero(3, q.cols()), is_free)
+            .template cast<Scalar>();
+    Matrix3X<Scalar> x = q;
+    by.solve({.inertial_positions = y,
+              .start_positions = q,
+              .time_step = Scalar(kTimeStep),
+              .inertia_step = Scalar(kTimeStep),
+              .kinematic = kinematic},
+             {}, x);
+    return x;
+  };
+  ImplicitSolver<Scalar> used(network, mesh.masses, all_free_but(mesh, {}));
+  for (int change = 0; change < 15; ++change) {
+    std::vector<int> pins(static_cast<std::size_t>(number(random)));
+    for (int& pin : pins) pin = node(random);
+    const std::vector<bool> is_free = all_free_but(mesh, pins);
+    std::vector<KinematicNode<Scalar>> kinematic;
+    for (int k = number(random); k > 0; --k) {
+      const int led = node(random);
+      if (!is_free[static_cast<std::size_t>(led)]) continue;
+      kinematic.push_back({led, q.col(led) + Vector3<Scalar>(0, 0, Scalar(1e-3))});
+    }
+    used.set_free(is_free);
+    ImplicitSolver<Scalar> fresh(network, mesh.masses, is_free);
+    ASSERT_EQ(solved(used, is_free, kinematic), solved(fresh, is_free, kinematic)) << change;
+  }
+}
+
+TEST(ImplicitSolver, ForgetsWhatWasPinnedBefore) {
+  expect_bits_of_a_fresh_solver<float>();
+  expect_bits_of_a_fresh_solver<double>();
 }
 
 // By the recursion itself, with directions that are numbers.
