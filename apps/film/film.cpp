@@ -48,10 +48,12 @@ scenes::ScalarField strain_scale(const scenes::RecordingReader& reader) {
   return field;
 }
 
-void name_picture(scenes::Image& picture, const NamedRecording& recording, int frame) {
-  scenes::draw_label(picture, fmt::format("{}, t = {:.4g} s",
-                                          std::filesystem::path(recording.file).filename().string(),
-                                          recording.reader.frame_time(frame)));
+std::string file_name(const NamedRecording& recording) {
+  return std::filesystem::path(recording.file).filename().string();
+}
+
+void name_picture(scenes::Image& picture, const std::string& name, double time) {
+  scenes::draw_label(picture, fmt::format("{}, t = {:.4g} s", name, time));
 }
 
 }  // namespace
@@ -158,20 +160,21 @@ void Shots::set_camera(const scenes::Camera& camera) {
 }
 
 std::vector<scenes::Image> Shots::draw(int frame) {
+  const double time = first_.reader.frame_time(frame);
   std::vector<scenes::Image> pictures;
   for (const std::string& style : styles_) {
     if (style == kDifference) {
       difference_.values = distances(frame);
       pictures.push_back(first_film_.draw(frame, difference_));
-      name_picture(pictures.back(), first_, frame);
+      name_picture(pictures.back(), "distance to " + file_name(*second_), time);
       continue;
     }
     pictures.push_back(first_film_.draw(frame, style));
     if (!second_) continue;
-    name_picture(pictures.back(), first_, frame);
-    const int other = nearest_frame(second_->reader, first_.reader.frame_time(frame));
+    name_picture(pictures.back(), file_name(first_), time);
+    const int other = nearest_frame(second_->reader, time);
     pictures.push_back(second_film_->draw(other, style));
-    name_picture(pictures.back(), *second_, other);
+    name_picture(pictures.back(), file_name(*second_), second_->reader.frame_time(other));
   }
   return pictures;
 }
