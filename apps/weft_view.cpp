@@ -92,7 +92,9 @@ void add_options(CLI::App& parser, Options& options) {
   parser.add_flag("--exit-at-end", options.exit_at_end,
                   "Close the window once the scene's duration is simulated");
   parser.add_option("--script", options.script, "Keys and mouse from a file (docs/playback.md)");
-  parser.add_option("--state", options.state, "Write what is shown to this JSON file at the end");
+  parser.add_option(
+      "--state", options.state,
+      "Write what is shown to this JSON file, at the end and whenever it is not there");
 }
 
 viewer::ViewerSettings settings_of(const Options& options) {

@@ -176,6 +176,11 @@ bool has_ended(Session& session) {
   return simulation.reached_end() || simulation.failure();
 }
 
+void write_state(const ViewerSettings& settings, Session& session) {
+  if (settings.state_file.empty()) return;
+  output::write_file(settings.state_file, kStateKind, session.describe());
+}
+
 }  // namespace
 
 void run_viewer(ViewerSettings settings) {
@@ -212,11 +217,10 @@ void run_viewer(ViewerSettings settings) {
     PanelContext::end();
     if (session.view().wants_screenshot) save_screenshot(session, stage);
     window.present();
+    if (!std::filesystem::exists(settings.state_file)) write_state(settings, session);
     if (settings.exits_at_end && has_ended(session)) break;
   }
-  if (!settings.state_file.empty()) {
-    output::write_file(settings.state_file, kStateKind, session.describe());
-  }
+  write_state(settings, session);
   check_run(session);
 }
 

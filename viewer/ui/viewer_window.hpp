@@ -15,8 +15,9 @@ struct ViewerSettings {
   WindowSize size = kWindowSizes[2];
   double scale = 0.0;  ///< of text and panels; 0: as the screen asks for
   Script script = {};
-  std::string state_file = {};  ///< JSON to write at the end; empty: none
-  bool exits_at_end = false;    ///< once the scene's duration is simulated
+  /// JSON to write at the end, and after a picture whenever the file is not there; empty: none
+  std::string state_file = {};
+  bool exits_at_end = false;  ///< once the scene's duration is simulated
 };
 
 /// Opens the window and returns when it is closed. Throws Error if there is none.
