@@ -133,7 +133,8 @@ void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body:
   for (Body& body : bodies_) body.*body_product = body.inertia * (body.*motion);
   couplings_.add_forces(bodies_, motion, body_product);
   if (!is_linked) return;
-  gather(product, body_product);
+  gather(links_, product, bodies_, body_product);
+  add_drags(links_, drag_, displacements, motion, product, bodies_, body_product);
   team_->run(parts_.count(), [this, finish](int part) { finish(parts_[part], part); });
 }
 
@@ -157,8 +158,8 @@ typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition(F
     coarse_correction_.prolongate(part, constrained_, coarse_);
     vector_kernel().add(smoothed_.data(), coarse_.data(), stride, parts_[part], correction.data());
   });
-  for (Body& body : bodies_) body.correction = body.stiffness.solve(body.residual);
-  add_motions(&Body::correction, correction);
+  correct_bodies(links_, residual_vector_, bodies_);
+  add_carried(links_, bodies_, &Body::correction, correction);
   std::array<VectorKernel::Products, WorkerTeam::kMostParts> of_part;
   multiply(
       correction, &Body::correction, correction_product_, &Body::correction_product,
@@ -184,6 +185,9 @@ typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition(F
 // Sets up the right-hand side, and in step_ the displacements that constraints prescribe.
 template <class Scalar>
 void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
+  for (const BodyLink& link : links_) {
+    if (link.is_dragged) system_inertia_[link.node] += static_cast<float>(drag_[link.node]);
+  }
   for_each_part([this](NodeRange nodes) {
     const int count = nodes.end - nodes.begin;
     step_.middleRows(nodes.begin, count).setZero();
@@ -193,6 +197,9 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
                                   static_cast<int>(blocks_.rows()), nodes,
                                   forces_.diagonal_blocks().data(), blocks_.data());
   });
+  for (const BodyLink& link : links_) {
+    if (link.is_dragged) system_inertia_[link.node] = inertia_[link.node];  // add_drags() has it
+  }
   bool moves_held = false;
   for (const int i : constrained_) {
     if (contact_of_[at(i)] < 0) continue;
@@ -229,11 +236,11 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
   });
   if (!moves_held || links_.empty()) return;
   for (Body& body : bodies_) body.coarse_product.setZero();
-  gather(work_, &Body::coarse_product);
+  gather(links_, work_, bodies_, &Body::coarse_product);
   for (Body& body : bodies_) body.residual -= body.coarse_product;
 }
 
-// m / h'^2, and the drag of nodes that slide.
+// m / h'^2, and the drag of nodes that slide on what does not give way.
 template <class Scalar>
 void ImplicitSolver<Scalar>::set_system_inertia() {
   if (has_drag_ || !constrained_.empty()) system_inertia_ = inertia_;
@@ -242,6 +249,7 @@ void ImplicitSolver<Scalar>::set_system_inertia() {
     if (contact_states_[at(i)] == ContactState::kOnPlane)
       system_inertia_[i] += static_cast<float>(drag_[i]);
   }
+  for (const BodyLink& link : links_) system_inertia_[link.node] = inertia_[link.node];
 }
 
 // Flexible conjugate gradients (Notay 2000). The preconditioned residuals of the last iterations stay in corrections_, and move()
@@ -357,6 +365,7 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem,
   load(problem, positions);
   evaluate();
   const double first = std::sqrt(residual_squares_);
+  gains_.reserve(solver_settings.linear_iterations);
   iterate(problem, solver_settings);
   for (int extra = 0; !links_.empty() && extra < kLinkedIterations; ++extra) {
     find_constraint_forces();

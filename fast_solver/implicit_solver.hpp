@@ -13,6 +13,7 @@
 #include <weft/fast_solver/network/spring_network.hpp>
 #include <weft/fast_solver/newton/anderson_history.hpp>
 #include <weft/fast_solver/newton/body_couplings.hpp>
+#include <weft/fast_solver/newton/body_links.hpp>
 #include <weft/fast_solver/newton/direction_weights.hpp>
 #include <weft/fast_solver/newton/newton_iteration.hpp>
 #include <weft/fast_solver/solver_report.hpp>
@@ -119,9 +120,15 @@ class ImplicitSolver : TeamLoops {
   void evaluate_step_forces();
   [[nodiscard]] double energy_of_step_forces(const Nodes& positions);
   void decide_contact_states(const StepProblem<Scalar>& problem, const NewtonIteration& iteration);
+  /// There friction is a constant force: with a drag, which can stop a node, towels that ought to slip were held between fingers,
+  /// whose motors take back what the solution gives to links.
+  [[nodiscard]] bool is_on_link(const PlaneContact<Scalar>& contact) const {
+    return contact.body >= 0 && bodies_[static_cast<std::size_t>(contact.body)].is_link;
+  }
   void set_friction(const PlaneContact<Scalar>& contact, Scalar expected);
-  [[nodiscard]] Scalar slip_of(const PlaneContact<Scalar>& contact,
-                               const Vector3<Scalar>& position) const;
+  [[nodiscard]] Vector3<Scalar> slip_of(const PlaneContact<Scalar>& contact,
+                                        const Vector3<Scalar>& position,
+                                        Vector6 Body::*motion) const;
   [[nodiscard]] Scalar largest_stiffness(int node) const;
   void update_friction(const StepProblem<Scalar>& problem);
   void set_system_inertia();
@@ -142,11 +149,6 @@ class ImplicitSolver : TeamLoops {
   [[nodiscard]] Vector3<Scalar> motion_with(int body, const Vector3<Scalar>& lever_arm) const;
   [[nodiscard]] Vector3<Scalar> turned(int body, const Vector3<Scalar>& lever_arm) const;
   [[nodiscard]] Vector3<Scalar> position_of(const KinematicNode<Scalar>& kinematic) const;
-  /// Adds each linked node's part of a motion of its body to its row.
-  void add_motions(Floats6 Body::*motion, Floats& displacements) const;
-  /// Adds the rows of linked nodes to the forces on their bodies: the transpose.
-  void gather(const Floats& forces, Floats6 Body::*sum);
-  void gather_of(int body, const Floats& forces, Floats6& sum) const;
   void release_bodies();
   void factorize_bodies();
   void find_body_residuals(Floats6 Body::*result);

@@ -14,20 +14,40 @@ namespace weft::fast {
 
 /// A node that moves with a rigid body, in all directions or along a normal only.
 struct BodyLink {
+  using Vector6 = Eigen::Matrix<float, 6, 1>;
+
   int node;
   int body;
   Vector3<float> lever_arm;  ///< [m]
   Vector3<float> normal;     ///< zero: in all directions
+  bool is_dragged = false;   ///< along the surface, by friction
 
-  /// The displacement of the node for a generalized displacement of the body.
-  [[nodiscard]] Vector3<float> motion_with(const Eigen::Matrix<float, 6, 1>& motion) const {
-    return along_link(motion.head<3>() + motion.tail<3>().cross(lever_arm));
+  /// The displacement of the body's material at the node for a generalized displacement of the body.
+  [[nodiscard]] Vector3<float> motion_there(const Vector6& motion) const {
+    return motion.head<3>() + motion.tail<3>().cross(lever_arm);
   }
-  /// The transpose: adds a force on the node to the generalized force on the body.
-  void add_force(const Vector3<float>& force, Eigen::Matrix<float, 6, 1>& sum) const {
-    const Vector3<float> felt = along_link(force);
-    sum.head<3>() += felt;
-    sum.tail<3>() += lever_arm.cross(felt);
+  /// The transpose: adds a force there to the generalized force on the body.
+  void add_force_there(const Vector3<float>& force, Vector6& sum) const {
+    sum.head<3>() += force;
+    sum.tail<3>() += lever_arm.cross(force);
+  }
+  /// The displacement of the node that the link enforces.
+  [[nodiscard]] Vector3<float> motion_with(const Vector6& motion) const {
+    return along_link(motion_there(motion));
+  }
+  /// The transpose: of a force on the node.
+  void add_force(const Vector3<float>& force, Vector6& sum) const {
+    add_force_there(along_link(force), sum);
+  }
+  /// The same of preconditioners, in which a dragged node goes along.
+  [[nodiscard]] Vector3<float> motion_carried(const Vector6& motion) const {
+    return is_dragged ? motion_there(motion) : motion_with(motion);
+  }
+  void add_force_carried(const Vector3<float>& force, Vector6& sum) const {
+    add_force_there(is_dragged ? force : along_link(force), sum);
+  }
+  [[nodiscard]] Vector3<float> along_surface(const Vector3<float>& vector) const {
+    return vector - normal.dot(vector) * normal;
   }
   [[nodiscard]] Vector3<float> along_link(const Vector3<float>& vector) const {
     if (normal.isZero(0)) return vector;
@@ -53,6 +73,7 @@ struct LinkedBody {
   // Vectors of conjugate gradients, as those of nodes.
   Floats6 step, residual, direction, direction_product;
   Floats6 correction, correction_product, coarse_product;
+  Floats6 carried_residual;
   Floats6 present_residual;
   bool is_linked = false;   ///< any node, in the present iteration
   bool is_link = false;     ///< of a multibody

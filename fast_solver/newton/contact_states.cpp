@@ -152,7 +152,8 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   friction_.col(i).setZero();
   drag_[i] = 0;
   if (sticks) return;
-  if (contact.body >= 0) {
+  if (is_on_link(contact)) {
+    friction_bounds_[i] = 0;
     friction_.col(i) = (-(most / size) * tendency).template cast<float>();
     return;
   }
@@ -166,7 +167,7 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   set_friction(contact, expected);
 }
 
-// The friction of a node that slides on a one-way coupled surface, at its present position.
+// The friction of a node that slides on a surface, at its present position.
 template <class Scalar>
 void ImplicitSolver<Scalar>::set_friction(const PlaneContact<Scalar>& contact, Scalar expected) {
   const int i = contact.node;
@@ -175,16 +176,18 @@ void ImplicitSolver<Scalar>::set_friction(const PlaneContact<Scalar>& contact, S
       std::max(Scalar(inertia_[i]) + largest_stiffness(i), Scalar(kLeastInertia));
   drag_[i] = most / std::max(expected, most / (Scalar(kStiffestDrag) * resistance));
   if (!(most > 0)) drag_[i] = 0;
-  Vector3<Scalar> slip = at_node(positions_, i) - at_node(start_positions_, i) - contact.motion;
-  slip -= contact.normal.dot(slip) * contact.normal;
+  const Vector3<Scalar> slip = slip_of(contact, at_node(positions_, i), &Body::motion);
   friction_.col(i) = (-drag_[i] * slip).template cast<float>();
 }
 
+// The motion of a node along a surface in the step, relative to it [m].
 template <class Scalar>
-Scalar ImplicitSolver<Scalar>::slip_of(const PlaneContact<Scalar>& contact,
-                                       const Vector3<Scalar>& position) const {
-  const Vector3<Scalar> slip = position - at_node(start_positions_, contact.node) - contact.motion;
-  return (slip - contact.normal.dot(slip) * contact.normal).norm();
+Vector3<Scalar> ImplicitSolver<Scalar>::slip_of(const PlaneContact<Scalar>& contact,
+                                                const Vector3<Scalar>& position,
+                                                Vector6 Body::*motion) const {
+  Vector3<Scalar> slip = position - at_node(start_positions_, contact.node) - contact.motion;
+  if (contact.body >= 0) slip -= motion_at(bodies_[at(contact.body)].*motion, contact.lever_arm);
+  return slip - contact.normal.dot(slip) * contact.normal;
 }
 
 template <class Scalar>
@@ -197,7 +200,8 @@ void ImplicitSolver<Scalar>::update_friction(const StepProblem<Scalar>& problem)
   for (const int i : constrained_) {
     if (contact_of_[at(i)] < 0 || contact_states_[at(i)] != ContactState::kOnPlane) continue;
     const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
-    if (contact.body < 0) set_friction(contact, slip_of(contact, at_node(positions_, i)));
+    if (is_on_link(contact)) continue;
+    set_friction(contact, slip_of(contact, at_node(positions_, i), &Body::motion).norm());
   }
 }
 

@@ -39,7 +39,7 @@ bool ImplicitSolver<Scalar>::shorten_step(double work_before, std::size_t num_co
   }
   constrained_.resize(num_constrained);
   for (const int i : constrained_) step_.row(i).setZero();
-  add_motions(&Body::step, step_);
+  add_carried(links_, bodies_, &Body::step, step_);
   move_bodies(-excess);
   positions_ -= excess * step_.template cast<Scalar>();
   return true;
@@ -75,16 +75,14 @@ double ImplicitSolver<Scalar>::energy_of_contacts(const StepProblem<Scalar>& pro
     if (contact_of_[at(i)] < 0) continue;
     // A surface that is kinematic may do work by friction; slip only takes it away.
     const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
-    const Vector3<Scalar> friction = friction_.col(i).template cast<Scalar>();
-    Vector3<Scalar> slip = at_node(positions, i) - at_node(start_positions_, i) - contact.motion;
-    if (contact.body < 0) {
-      if (contact_states_[at(i)] == ContactState::kOnPlane) {
-        sum += static_cast<double>(friction_bounds_[i] * slip_of(contact, at_node(positions, i)));
-      }
-      continue;
+    if (contact_states_[at(i)] != ContactState::kOnPlane) continue;
+    const Vector3<Scalar> slip = slip_of(contact, at_node(positions, i), motion);
+    if (is_on_link(contact)) {
+      sum -= static_cast<double>(
+          std::min(Scalar(0), slip.dot(friction_.col(i).template cast<Scalar>())));
+    } else {
+      sum += static_cast<double>(friction_bounds_[i] * slip.norm());
     }
-    slip -= motion_at(bodies_[at(contact.body)].*motion, contact.lever_arm);
-    sum -= static_cast<double>(std::min(Scalar(0), friction.dot(slip)));
   }
   return sum;
 }

@@ -28,6 +28,10 @@ struct LinearAccuracy {
 /// The history of what iterations of conjugate gradients gained, and whether they are enough.
 class LinearGains {
  public:
+  /// Room for those of so many iterations, or of fewer if that is very much.
+  void reserve(int iterations) {
+    gains_.reserve(std::min(static_cast<std::size_t>(iterations), kMostReserved));
+  }
   void clear() { gains_.clear(), total_ = 0; }
   void add(double gain) { gains_.push_back(gain), total_ += gain; }
 
@@ -52,6 +56,7 @@ class LinearGains {
   /// An iteration that gains no more than this fraction of the gain so far is the last one, because with short steps inertia
   /// outweighs springs.
   static constexpr double kLastGain = 1e-4;
+  static constexpr std::size_t kMostReserved = 1000;
 
   std::vector<double> gains_;
   double total_ = 0;

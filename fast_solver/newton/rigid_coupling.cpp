@@ -40,7 +40,9 @@ void ImplicitSolver<Scalar>::load_bodies(const StepProblem<Scalar>& problem) {
 template <class Scalar>
 void ImplicitSolver<Scalar>::link(int node, int body, const Vector3<Scalar>& lever_arm,
                                   const Vector3<Scalar>& normal) {
-  links_.push_back({node, body, lever_arm.template cast<float>(), normal.template cast<float>()});
+  const bool is_dragged = !normal.isZero(0) && drag_[node] > 0;
+  links_.push_back(
+      {node, body, lever_arm.template cast<float>(), normal.template cast<float>(), is_dragged});
 }
 
 // The motion in the present state; none for what is no body.
@@ -65,26 +67,6 @@ Vector3<Scalar> ImplicitSolver<Scalar>::position_of(const KinematicNode<Scalar>&
   const Vector3<Scalar> displacement = bodies_[at(kinematic.body)].motion.template head<3>();
   return kinematic.position + displacement + turned(kinematic.body, kinematic.lever_arm) -
          kinematic.lever_arm;
-}
-
-template <class Scalar>
-void ImplicitSolver<Scalar>::add_motions(Floats6 Body::*motion, Floats& displacements) const {
-  for (const BodyLink& link : links_) {
-    displacements.row(link.node) += link.motion_with(bodies_[at(link.body)].*motion).transpose();
-  }
-}
-
-template <class Scalar>
-void ImplicitSolver<Scalar>::gather(const Floats& forces, Floats6 Body::*sum) {
-  for (const BodyLink& link : links_)
-    link.add_force(at_node(forces, link.node), bodies_[at(link.body)].*sum);
-}
-
-template <class Scalar>
-void ImplicitSolver<Scalar>::gather_of(int body, const Floats& forces, Floats6& sum) const {
-  for (const BodyLink& link : links_) {
-    if (link.body == body) link.add_force(at_node(forces, link.node), sum);
-  }
 }
 
 // A body without linked nodes in this iteration moves as without the cloth, unless it is coupled to one that has some.
@@ -118,10 +100,10 @@ void ImplicitSolver<Scalar>::factorize_bodies() {
                          linked_blocks_.end());
     for (int k = 0; k < 6 && !linked_blocks_.empty(); ++k) {
       body.correction = Floats6::Unit(k);
-      add_motions(&Body::correction, correction);
+      add_carried(links_, bodies_, &Body::correction, correction);
       forces_.multiply(linked_blocks_, system_inertia_, correction, correction_product_);
       body.correction_product = body.inertia.col(k);
-      gather_of(static_cast<int>(b), correction_product_, body.correction_product);
+      gather_carried(links_, static_cast<int>(b), correction_product_, body.correction_product);
       stiffness.col(k) = body.correction_product;
       for (const BodyLink& link : links_) correction.row(link.node).setZero();
     }
