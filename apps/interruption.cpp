@@ -19,7 +19,7 @@ void note(int signal) {
   static constexpr std::string_view kText =
       "\nweft: stopping at the end of this step; the same signal again stops at once\n";
   const int saved = errno;
-  const ssize_t told = write(STDERR_FILENO, kText.data(), kText.size());
+  const ssize_t told = ::write(STDERR_FILENO, kText.data(), kText.size());
   errno = told < 0 ? saved : errno;
 }
 

@@ -10,20 +10,21 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-void require(bool ok, const std::string& message) {
+void require_body(bool ok, const std::string& message) {
   if (!ok) throw InvalidArgument("cloth body: " + message);
 }
 
 void check(const ClothSettings& settings) {
-  require(std::isfinite(settings.collision_margin) && settings.collision_margin >= 0,
-          "collision_margin = " + std::to_string(settings.collision_margin) +
-              " [m], expected >= 0 and finite");
-  require(std::isfinite(settings.friction) && settings.friction >= 0,
-          "friction = " + std::to_string(settings.friction) + " [1], expected >= 0 and finite");
-  require(
+  require_body(std::isfinite(settings.collision_margin) && settings.collision_margin >= 0,
+               "collision_margin = " + std::to_string(settings.collision_margin) +
+                   " [m], expected >= 0 and finite");
+  require_body(
+      std::isfinite(settings.friction) && settings.friction >= 0,
+      "friction = " + std::to_string(settings.friction) + " [1], expected >= 0 and finite");
+  require_body(
       settings.position_iterations >= 1,
       "position_iterations = " + std::to_string(settings.position_iterations) + ", expected >= 1");
-  require(
+  require_body(
       settings.contact_hardness >= 0 && settings.contact_hardness <= 1,
       "contact_hardness = " + std::to_string(settings.contact_hardness) + " [1], expected 0 to 1");
 }

@@ -15,6 +15,7 @@
 #include <weft/bridge/cloth.hpp>
 #include <weft/core/error.hpp>
 #include <weft/core/trace.hpp>
+#include <weft/custom_forces/registry.hpp>
 #include <weft/mesh/cutting/tear.hpp>
 
 namespace weft::bridge {

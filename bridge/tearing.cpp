@@ -12,7 +12,7 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-void require(bool ok, const std::string& message) {
+void require_tearing(bool ok, const std::string& message) {
   if (!ok) throw InvalidArgument("tearing: " + message);
 }
 
@@ -31,12 +31,12 @@ int origin_of(const Tear& tear, int node) {
 }
 
 void check(const Tear& tear, const btSoftBody& body) {
-  require(body.m_nodes.size() == num_before(tear),
-          std::to_string(body.m_nodes.size()) + " nodes in the body, expected " +
-              std::to_string(num_before(tear)) + " as in the mesh");
-  require(body.m_faces.size() == tear.mesh.triangles.cols(),
-          std::to_string(body.m_faces.size()) + " faces in the body, expected " +
-              std::to_string(tear.mesh.triangles.cols()) + " as in the mesh");
+  require_tearing(body.m_nodes.size() == num_before(tear),
+                  std::to_string(body.m_nodes.size()) + " nodes in the body, expected " +
+                      std::to_string(num_before(tear)) + " as in the mesh");
+  require_tearing(body.m_faces.size() == tear.mesh.triangles.cols(),
+                  std::to_string(body.m_faces.size()) + " faces in the body, expected " +
+                      std::to_string(tear.mesh.triangles.cols()) + " as in the mesh");
   for (int f = 0; f < body.m_faces.size(); ++f) {
     for (int corner = 0; corner < 3; ++corner) {
       const int expected = origin_of(tear, tear.mesh.triangles(corner, f));
@@ -45,10 +45,10 @@ void check(const Tear& tear, const btSoftBody& body) {
                             " of the body has other nodes than in the mesh");
     }
   }
-  require(body.m_tetras.size() == 0, "the body has tetrahedra, expected cloth");
-  require(body.m_clusters.size() == 0, "the body has clusters, expected none");
-  require(!body.m_pose.m_bvolume && !body.m_pose.m_bframe,
-          "the body has a pose to match, expected none");
+  require_tearing(body.m_tetras.size() == 0, "the body has tetrahedra, expected cloth");
+  require_tearing(body.m_clusters.size() == 0, "the body has clusters, expected none");
+  require_tearing(!body.m_pose.m_bvolume && !body.m_pose.m_bframe,
+                  "the body has a pose to match, expected none");
 }
 
 /// Moves the nodes to where there is room for some more tears. Bullet would take twice the memory, and all nodes

@@ -11,13 +11,17 @@ function(weft_target_flags target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -ffp-contract=off
     # GCC 12 sees overlapping copies in std::string's operator+ where there are none (GCC bug 105651).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+  if(CMAKE_UNITY_BUILD)
+    # A unit of several sources includes them, and so GCC takes them for headers, in which an unnamed namespace is a mistake.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
   if(WEFT_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
 endfunction()
 
-# The headers that most files of Weft and its tests begin with, read once for each target. Only GCC's are asked for: the
-# builds with clang keep every file honest about what it includes.
+# The headers that most files of Weft and its tests begin with, read once for all modules and once for all tests. Only
+# GCC's are asked for: the builds with clang keep every file honest about what it includes.
 set(weft_common_headers <algorithm> <array> <cmath> <filesystem> <functional> <memory> <optional> <span> <string>
                         <string_view> <vector> <Eigen/Core>)
 if(WEFT_PRECOMPILE_HEADERS AND NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
@@ -31,9 +35,25 @@ function(weft_precompiled_flags target)
   target_compile_options(${target} PRIVATE -fpch-preprocess -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
 endfunction()
 
-function(weft_precompile target)
+# A target that carries precompiled headers for others to share: whatever else those are compiled with does not change
+# what is in them. Making them takes as long as reading them four times.
+function(weft_add_precompiled name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LIBRARIES;HEADERS")
+  file(WRITE "${PROJECT_BINARY_DIR}/${name}.cpp" "")
+  add_library(${name} OBJECT "${PROJECT_BINARY_DIR}/${name}.cpp")
+  weft_target_flags(${name})
+  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES})
+  target_precompile_headers(${name} PRIVATE ${arg_HEADERS})
+  weft_precompiled_flags(${name})
+endfunction()
+
+function(weft_precompile_module target)
   if(WEFT_PRECOMPILE_HEADERS)
-    target_precompile_headers(${target} PRIVATE ${ARGN})
+    if(NOT TARGET weft_module_headers)
+      weft_add_precompiled(weft_module_headers LIBRARIES weft::core HEADERS ${weft_common_headers})
+      set_target_properties(weft_module_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    endif()
+    target_precompile_headers(${target} REUSE_FROM weft_module_headers)
     weft_precompiled_flags(${target})
   endif()
 endfunction()
@@ -71,7 +91,7 @@ function(weft_add_module name)
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   if(NOT arg_NO_PRECOMPILE)
-    weft_precompile(${target} ${weft_common_headers})
+    weft_precompile_module(${target})
   endif()
   set_target_properties(${target} PROPERTIES WEFT_PATH "${arg_PATH}" WEFT_HEADERS "${arg_HEADERS}")
   set_property(GLOBAL APPEND PROPERTY WEFT_MODULES ${target})
@@ -80,15 +100,11 @@ function(weft_add_module name)
   endif()
 endfunction()
 
-# All tests share one set of precompiled headers: whatever else they are compiled with does not change these.
 function(weft_precompile_test target)
   if(WEFT_PRECOMPILE_HEADERS)
     if(NOT TARGET weft_test_headers)
-      file(WRITE "${PROJECT_BINARY_DIR}/weft_test_headers.cpp" "")
-      add_library(weft_test_headers OBJECT "${PROJECT_BINARY_DIR}/weft_test_headers.cpp")
-      weft_target_flags(weft_test_headers)
-      target_link_libraries(weft_test_headers PRIVATE weft::core GTest::gmock)
-      weft_precompile(weft_test_headers ${weft_common_headers} <gmock/gmock.h> <gtest/gtest.h>)
+      weft_add_precompiled(weft_test_headers LIBRARIES weft::core GTest::gmock
+                           HEADERS ${weft_common_headers} <gmock/gmock.h> <gtest/gtest.h>)
     endif()
     target_precompile_headers(${target} REUSE_FROM weft_test_headers)
     weft_precompiled_flags(${target})

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include <weft/core/index.hpp>
 #include <weft/core/trace.hpp>
 
 namespace weft::fast {
@@ -21,10 +22,6 @@ constexpr double kLinkedResidual = 0.02;
 
 /// A curvature below this fraction of the correction's own is rounding [-].
 constexpr float kLeastCurvature = 1e-4F;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 }  // namespace
 
@@ -440,7 +437,9 @@ double ImplicitSolver<Scalar>::spring_energy(ConstMatrix3XRef<Scalar> positions,
   return energy;
 }
 
+#ifndef WEFT_SOLVER_IS_ONE_UNIT
 template class ImplicitSolver<float>;
 template class ImplicitSolver<double>;
+#endif
 
 }  // namespace weft::fast

@@ -14,30 +14,31 @@ namespace {
 
 using Step = std::array<int, 2>;
 
-void require(bool ok, const std::string& message) {
+void require_grid(bool ok, const std::string& message) {
   if (!ok) throw InvalidArgument("cloth grid: " + message);
 }
 
 void check(const ClothGrid& grid) {
   for (int axis = 0; axis < 2; ++axis) {
-    require(grid.nodes[axis] >= 2,
-            "nodes = " + std::to_string(grid.nodes[axis]) + ", expected >= 2");
-    require(std::isfinite(grid.size[axis]) && grid.size[axis] > 0,
-            "size = " + std::to_string(grid.size[axis]) + " [m], expected > 0 and finite");
+    require_grid(grid.nodes[axis] >= 2,
+                 "nodes = " + std::to_string(grid.nodes[axis]) + ", expected >= 2");
+    require_grid(std::isfinite(grid.size[axis]) && grid.size[axis] > 0,
+                 "size = " + std::to_string(grid.size[axis]) + " [m], expected > 0 and finite");
   }
-  require(static_cast<long long>(grid.nodes[0]) * grid.nodes[1] <= 100'000'000LL,
-          "nodes = " + std::to_string(grid.nodes[0]) + " x " + std::to_string(grid.nodes[1]) +
-              ", expected at most 1e8 in all");
-  require(std::isfinite(grid.total_mass) && grid.total_mass > 0,
-          "total_mass = " + std::to_string(grid.total_mass) + " [kg], expected > 0 and finite");
-  require(grid.center.allFinite(), "center is not finite, expected three lengths [m]");
+  require_grid(static_cast<long long>(grid.nodes[0]) * grid.nodes[1] <= 100'000'000LL,
+               "nodes = " + std::to_string(grid.nodes[0]) + " x " + std::to_string(grid.nodes[1]) +
+                   ", expected at most 1e8 in all");
+  require_grid(
+      std::isfinite(grid.total_mass) && grid.total_mass > 0,
+      "total_mass = " + std::to_string(grid.total_mass) + " [kg], expected > 0 and finite");
+  require_grid(grid.center.allFinite(), "center is not finite, expected three lengths [m]");
   const double u = grid.u_axis.norm();
   const double v = grid.v_axis.norm();
-  require(std::isfinite(u) && std::isfinite(v) && u > 0 && v > 0,
-          "u_axis or v_axis has no direction, expected finite non-zero vectors");
+  require_grid(std::isfinite(u) && std::isfinite(v) && u > 0 && v > 0,
+               "u_axis or v_axis has no direction, expected finite non-zero vectors");
   // 1e-6 rad: far below anything visible, far above the rounding of hand-written axes.
-  require(std::abs(grid.u_axis.dot(grid.v_axis)) <= 1e-6 * u * v,
-          "u_axis and v_axis are not perpendicular");
+  require_grid(std::abs(grid.u_axis.dot(grid.v_axis)) <= 1e-6 * u * v,
+               "u_axis and v_axis are not perpendicular");
 }
 
 Edges edges_of_steps(const ClothGrid& grid, const std::vector<Step>& steps) {

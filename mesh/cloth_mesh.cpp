@@ -23,7 +23,7 @@ bool ClothMesh::has_edge_set(std::string_view name) const {
 
 namespace {
 
-void require(bool ok, const std::string& message) {
+void require_mesh(bool ok, const std::string& message) {
   if (!ok) throw InvalidArgument("cloth mesh: " + message);
 }
 
@@ -50,27 +50,27 @@ class NodeCheck {
  private:
   [[nodiscard]] bool is_node(int node) const { return node >= 0 && node < num_nodes_; }
   void refuse(const std::string& what, int node) const {
-    require(false, what + " names node " + std::to_string(node) + ", expected 0 to " +
-                       std::to_string(num_nodes_ - 1));
+    require_mesh(false, what + " names node " + std::to_string(node) + ", expected 0 to " +
+                            std::to_string(num_nodes_ - 1));
   }
   int num_nodes_;
 };
 
 void check_nodes(const ClothMesh& mesh) {
   const int num_nodes = mesh.num_nodes();
-  require(num_nodes > 0, "it has no node, expected at least one");
-  require(mesh.masses.size() == num_nodes, std::to_string(mesh.masses.size()) +
-                                               " masses, expected one for each of the " +
-                                               std::to_string(num_nodes) + " nodes");
+  require_mesh(num_nodes > 0, "it has no node, expected at least one");
+  require_mesh(mesh.masses.size() == num_nodes, std::to_string(mesh.masses.size()) +
+                                                    " masses, expected one for each of the " +
+                                                    std::to_string(num_nodes) + " nodes");
   for (int i = 0; i < num_nodes; ++i) {
     const double mass = mesh.masses[i];
     if (std::isfinite(mass) && mass > 0) continue;
-    require(false, "mass of node " + std::to_string(i) + " = " + std::to_string(mass) +
-                       " [kg], expected > 0 and finite");
+    require_mesh(false, "mass of node " + std::to_string(i) + " = " + std::to_string(mass) +
+                            " [kg], expected > 0 and finite");
   }
   for (int i = 0; i < num_nodes; ++i) {
     if (mesh.rest_positions.col(i).allFinite()) continue;
-    require(false, "rest position of node " + std::to_string(i) + " is not finite [m]");
+    require_mesh(false, "rest position of node " + std::to_string(i) + " is not finite [m]");
   }
 }
 
@@ -79,10 +79,12 @@ void check_nodes(const ClothMesh& mesh) {
 void check_mesh(const ClothMesh& mesh) {
   check_nodes(mesh);
   const Eigen::Index num_velocities = mesh.pinned_velocities.cols();
-  require(num_velocities == 0 || num_velocities == static_cast<Eigen::Index>(mesh.pinned.size()),
-          std::to_string(num_velocities) + " velocities of pinned nodes, expected none or " +
-              std::to_string(mesh.pinned.size()));
-  require(mesh.pinned_velocities.allFinite(), "a velocity of a pinned node is not finite [m/s]");
+  require_mesh(
+      num_velocities == 0 || num_velocities == static_cast<Eigen::Index>(mesh.pinned.size()),
+      std::to_string(num_velocities) + " velocities of pinned nodes, expected none or " +
+          std::to_string(mesh.pinned.size()));
+  require_mesh(mesh.pinned_velocities.allFinite(),
+               "a velocity of a pinned node is not finite [m/s]");
   const NodeCheck check_indices(mesh.num_nodes());
   check_indices(mesh.pinned, "the list of pinned nodes");
   check_indices(mesh.triangles, "triangle");

@@ -14,19 +14,19 @@
 namespace weft {
 namespace {
 
-void require(bool ok, const std::string& message) {
+void require_sphere(bool ok, const std::string& message) {
   if (!ok) throw InvalidArgument("icosphere: " + message);
 }
 
 void check(const Icosphere& sphere) {
-  require(std::isfinite(sphere.radius) && sphere.radius > 0,
-          "radius = " + std::to_string(sphere.radius) + " [m], expected > 0 and finite");
-  require(sphere.frequency >= 1 && sphere.frequency <= 512,
-          "frequency = " + std::to_string(sphere.frequency) + " [1], expected 1 to 512");
-  require(sphere.center.allFinite(), "center is not finite, expected three lengths [m]");
+  require_sphere(std::isfinite(sphere.radius) && sphere.radius > 0,
+                 "radius = " + std::to_string(sphere.radius) + " [m], expected > 0 and finite");
+  require_sphere(sphere.frequency >= 1 && sphere.frequency <= 512,
+                 "frequency = " + std::to_string(sphere.frequency) + " [1], expected 1 to 512");
+  require_sphere(sphere.center.allFinite(), "center is not finite, expected three lengths [m]");
   // 1e-6: far above the rounding of a unit quaternion, far below anything visible.
-  require(std::abs(sphere.orientation.norm() - 1) < 1e-6,
-          "orientation is no unit quaternion, expected one");
+  require_sphere(std::abs(sphere.orientation.norm() - 1) < 1e-6,
+                 "orientation is no unit quaternion, expected one");
 }
 
 // Corners of an icosahedron: the four (0, +-1, +-golden ratio) and their cyclic permutations.

@@ -1,13 +1,11 @@
 #include <weft/mesh/mesh_part.hpp>
 
+#include <weft/core/index.hpp>
+
 #include <algorithm>
 
 namespace weft {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool is_marked(const std::vector<char>& flags, int node) {
   return flags[at(node)] != 0;

@@ -14,13 +14,13 @@ namespace {
 /// Unit normals come from normalised sums: a few roundings; a mistake is far larger.
 constexpr double kUnitTolerance = 1e-6;
 
-void require(bool ok, const std::string& message) {
+void require_position_limits(bool ok, const std::string& message) {
   if (!ok) throw InvalidArgument("position limits: " + message);
 }
 
 void check_size(const char* name, Eigen::Index size, Eigen::Index expected) {
-  require(size == expected, std::string(name) + " has " + std::to_string(size) +
-                                " entries, expected " + std::to_string(expected));
+  require_position_limits(size == expected, std::string(name) + " has " + std::to_string(size) +
+                                                " entries, expected " + std::to_string(expected));
 }
 
 struct Ball {
@@ -60,19 +60,22 @@ void check_position_limits(const PositionLimits& limits, int num_nodes) {
   if (limits.is_empty()) return;
   check_size("centers", limits.centers.cols(), num_nodes);
   check_size("max_distances", limits.max_distances.size(), num_nodes);
-  require(limits.centers.allFinite(), "a center is not finite");
-  require((limits.max_distances.array() >= 0).all(), "a max_distance [m] is < 0, expected >= 0");
+  require_position_limits(limits.centers.allFinite(), "a center is not finite");
+  require_position_limits((limits.max_distances.array() >= 0).all(),
+                          "a max_distance [m] is < 0, expected >= 0");
   if (limits.normals.cols() == 0) return;
   check_size("normals", limits.normals.cols(), num_nodes);
   check_size("backstop_radii", limits.backstop_radii.size(), num_nodes);
   check_size("backstop_offsets", limits.backstop_offsets.size(), num_nodes);
   const auto norms = limits.normals.colwise().norm().array();
-  require(((norms - 1).abs() < kUnitTolerance).all(), "a normal is no unit vector");
+  require_position_limits(((norms - 1).abs() < kUnitTolerance).all(), "a normal is no unit vector");
   const auto is_length = [](const VectorX<double>& v) {
     return v.allFinite() && (v.array() >= 0).all();
   };
-  require(is_length(limits.backstop_radii), "a backstop_radius [m] is < 0 or not finite");
-  require(is_length(limits.backstop_offsets), "a backstop_offset [m] is < 0 or not finite");
+  require_position_limits(is_length(limits.backstop_radii),
+                          "a backstop_radius [m] is < 0 or not finite");
+  require_position_limits(is_length(limits.backstop_offsets),
+                          "a backstop_offset [m] is < 0 or not finite");
 }
 
 Vector3<double> limited_position(const PositionLimits& limits, int node,

@@ -11,18 +11,21 @@ namespace {
 
 constexpr int kMaxNodes = 10'000'000;
 
-void require(bool ok, const std::string& message) {
+void require_rope(bool ok, const std::string& message) {
   if (!ok) throw InvalidArgument("rope: " + message);
 }
 
 void check(const Rope& rope) {
-  require(rope.nodes >= 2 && rope.nodes <= kMaxNodes,
-          "nodes = " + std::to_string(rope.nodes) + ", expected 2 to " + std::to_string(kMaxNodes));
+  require_rope(
+      rope.nodes >= 2 && rope.nodes <= kMaxNodes,
+      "nodes = " + std::to_string(rope.nodes) + ", expected 2 to " + std::to_string(kMaxNodes));
   const double length = (rope.end - rope.start).norm();
-  require(std::isfinite(length) && length > 0,
-          "length from start to end = " + std::to_string(length) + " [m], expected > 0 and finite");
-  require(std::isfinite(rope.total_mass) && rope.total_mass > 0,
-          "total_mass = " + std::to_string(rope.total_mass) + " [kg], expected > 0 and finite");
+  require_rope(
+      std::isfinite(length) && length > 0,
+      "length from start to end = " + std::to_string(length) + " [m], expected > 0 and finite");
+  require_rope(
+      std::isfinite(rope.total_mass) && rope.total_mass > 0,
+      "total_mass = " + std::to_string(rope.total_mass) + " [kg], expected > 0 and finite");
 }
 
 /// Node i and the one that many nodes further, for every i.

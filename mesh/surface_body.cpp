@@ -14,7 +14,7 @@
 namespace weft {
 namespace {
 
-void require(bool ok, const std::string& message) {
+void require_surface(bool ok, const std::string& message) {
   if (!ok) throw InvalidArgument("surface body: " + message);
 }
 
@@ -28,10 +28,11 @@ double triangle_area(const Surface& surface, Eigen::Index t) {
 void check_texture(const Matrix2X<double>& coordinates, Eigen::Index expected,
                    const std::string& what) {
   if (coordinates.cols() == 0) return;
-  require(coordinates.cols() == expected, std::to_string(coordinates.cols()) +
-                                              " texture coordinates of " + what + ", expected " +
-                                              std::to_string(expected) + " or none");
-  require(coordinates.allFinite(), "a texture coordinate of the " + what + " is not finite");
+  require_surface(coordinates.cols() == expected,
+                  std::to_string(coordinates.cols()) + " texture coordinates of " + what +
+                      ", expected " + std::to_string(expected) + " or none");
+  require_surface(coordinates.allFinite(),
+                  "a texture coordinate of the " + what + " is not finite");
 }
 
 void check_triangle(const Surface& surface, Eigen::Index t) {
@@ -39,22 +40,24 @@ void check_triangle(const Surface& surface, Eigen::Index t) {
   const Eigen::Index num_nodes = surface.positions.cols();
   const Eigen::Vector3i corners = surface.triangles.col(t);
   for (const int node : corners) {
-    require(node >= 0 && node < num_nodes, name + " names node " + std::to_string(node) +
-                                               ", expected 0 to " + std::to_string(num_nodes - 1));
+    require_surface(node >= 0 && node < num_nodes, name + " names node " + std::to_string(node) +
+                                                       ", expected 0 to " +
+                                                       std::to_string(num_nodes - 1));
   }
-  require(corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0],
-          name + " names a node twice, expected three nodes");
+  require_surface(corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0],
+                  name + " names a node twice, expected three nodes");
   const double area = triangle_area(surface, t);
-  require(area > 0 && std::isfinite(area),
-          name + " has an area of " + std::to_string(area) + " [m^2], expected > 0 and finite");
+  require_surface(
+      area > 0 && std::isfinite(area),
+      name + " has an area of " + std::to_string(area) + " [m^2], expected > 0 and finite");
 }
 
 void check(const Surface& surface) {
-  require(surface.triangles.cols() > 0, "no triangle, expected at least one");
+  require_surface(surface.triangles.cols() > 0, "no triangle, expected at least one");
   const Eigen::Index num_nodes = surface.positions.cols();
   for (Eigen::Index n = 0; n < num_nodes; ++n) {
-    require(surface.positions.col(n).allFinite(),
-            "the position of node " + std::to_string(n) + " is not finite");
+    require_surface(surface.positions.col(n).allFinite(),
+                    "the position of node " + std::to_string(n) + " is not finite");
   }
   std::vector<bool> is_used(static_cast<std::size_t>(num_nodes), false);
   for (Eigen::Index t = 0; t < surface.triangles.cols(); ++t) {
@@ -62,19 +65,21 @@ void check(const Surface& surface) {
     for (const int node : surface.triangles.col(t)) is_used[static_cast<std::size_t>(node)] = true;
   }
   const auto unused = std::find(is_used.begin(), is_used.end(), false);
-  require(unused == is_used.end(), "node " + std::to_string(unused - is_used.begin()) +
-                                       " belongs to no triangle, expected one around each node");
+  require_surface(unused == is_used.end(),
+                  "node " + std::to_string(unused - is_used.begin()) +
+                      " belongs to no triangle, expected one around each node");
   check_texture(surface.texture_coordinates, num_nodes, "nodes");
   check_texture(surface.corner_texture_coordinates, surface.triangles.size(), "corners");
 }
 
 void check(const BodyMass& mass) {
-  require(std::isfinite(mass.total_mass) && mass.total_mass > 0,
-          "total_mass = " + std::to_string(mass.total_mass) + " [kg], expected > 0 and finite");
+  require_surface(
+      std::isfinite(mass.total_mass) && mass.total_mass > 0,
+      "total_mass = " + std::to_string(mass.total_mass) + " [kg], expected > 0 and finite");
   if (!mass.center_mass_share) return;
-  require(*mass.center_mass_share > 0 && *mass.center_mass_share < 1,
-          "center_mass_share = " + std::to_string(*mass.center_mass_share) +
-              " [1], expected > 0 and < 1");
+  require_surface(*mass.center_mass_share > 0 && *mass.center_mass_share < 1,
+                  "center_mass_share = " + std::to_string(*mass.center_mass_share) +
+                      " [1], expected > 0 and < 1");
 }
 
 /// The far corners of each hinge, each pair once and none that an edge ties already.
@@ -108,9 +113,9 @@ void add_center(const Surface& surface, ClothMesh& mesh) {
   Edges spokes(2, center);
   for (int node = 0; node < center; ++node) {
     spokes.col(node) << node, center;
-    require((surface.positions.col(node) - position).norm() > 0,
-            "the centre node falls on node " + std::to_string(node) +
-                ", expected a surface around its centroid");
+    require_surface((surface.positions.col(node) - position).norm() > 0,
+                    "the centre node falls on node " + std::to_string(node) +
+                        ", expected a surface around its centroid");
   }
   mesh.rest_positions.conservativeResize(3, center + 1);
   mesh.rest_positions.col(center) = position;

@@ -78,14 +78,14 @@ Contents contents_of(const scenes::RecordingReader& reader, const std::string& f
   return contents;
 }
 
-std::string engine_of(const scenes::RecordingReader& reader) {
+std::string recorded_engine(const scenes::RecordingReader& reader) {
   const auto engine = reader.provenance().find("engine");
   return engine == reader.provenance().end() ? "" : engine->second;
 }
 
 /// Such a scene has a time step and a duration only because each scene has them.
 bool is_own_loop(const scenes::RecordingReader& reader) {
-  return engine_of(reader) == scenes::kOwnLoop;
+  return recorded_engine(reader) == scenes::kOwnLoop;
 }
 
 std::string shape_word(const scenes::Collider& collider) {
@@ -137,7 +137,7 @@ void print_info(const scenes::RecordingReader& reader, const Contents& contents)
     print("  blew up at step {}, t = {:.6g} s, body '{}', node {}: {}\n", blow_up->step,
           blow_up->time, blow_up->body, blow_up->node, blow_up->reason);
   }
-  const std::string engine = engine_of(reader);
+  const std::string engine = recorded_engine(reader);
   print("  engine {}, {}; {}frame interval {:.6g} s\n", engine.empty() ? "unknown" : engine,
         scenes::to_string(reader.precision()),
         is_own_loop(reader) ? "" : fmt::format("time step {:.6g} s, ", scene.world.time_step),
@@ -184,7 +184,7 @@ Json json_of(const scenes::Scene& scene, const std::vector<ClothSize>& sizes) {
 Json json_of(const scenes::RecordingReader& reader, const Contents& contents) {
   const scenes::Scene& scene = reader.scene();
   const int last = reader.num_frames() - 1;
-  const std::string engine = engine_of(reader);
+  const std::string engine = recorded_engine(reader);
   const bool own = is_own_loop(reader);
   return {{"file", contents.file},
           {"size_bytes", contents.num_bytes},

@@ -11,7 +11,7 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-int index_of(const btSoftBody& body, const btSoftBody::Node* node) {
+int node_index(const btSoftBody& body, const btSoftBody::Node* node) {
   return static_cast<int>(node - &body.m_nodes[0]);
 }
 
@@ -40,7 +40,7 @@ void read_faces(const btSoftBody& body, ClothMesh& mesh) {
   mesh.triangles.resize(3, body.m_faces.size());
   for (int f = 0; f < body.m_faces.size(); ++f) {
     for (int k = 0; k < 3; ++k) {
-      mesh.triangles(k, f) = index_of(body, body.m_faces[f].m_n[k]);
+      mesh.triangles(k, f) = node_index(body, body.m_faces[f].m_n[k]);
     }
   }
   mesh.triangles = wound_alike(mesh.triangles);
@@ -60,7 +60,7 @@ void read_links(const btSoftBody& body, int material, bool is_bending, BodyMesh&
     const btSoftBody::Link& link = body.m_links[l];
     if (link.m_material != group.material || (link.m_bbending != 0) != is_bending) continue;
     const std::pair<int, int> nodes =
-        std::minmax({index_of(body, link.m_n[0]), index_of(body, link.m_n[1])});
+        std::minmax({node_index(body, link.m_n[0]), node_index(body, link.m_n[1])});
     const bool has_length = nodes.first != nodes.second && link.m_rl > 0 &&
                             (link.m_n[0]->m_x - link.m_n[1]->m_x).length2() > 0;
     if (!has_length || !known.insert(nodes).second) {

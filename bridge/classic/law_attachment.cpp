@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <weft/core/error.hpp>
+#include <weft/core/index.hpp>
 #include <weft/custom_forces/registry.hpp>
 
 namespace weft::bridge {
@@ -16,10 +17,6 @@ namespace {
 
 /// What a program that takes a mass from m_im, or through a file, loses of it by rounding [-].
 constexpr btScalar kMassTolerance = btScalar(1e-4);
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 using Corners = std::array<int, 3>;
 

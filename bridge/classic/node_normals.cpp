@@ -5,17 +5,12 @@
 #include <cstddef>
 #include <numeric>
 
+#include <weft/core/index.hpp>
 #include <weft/fast_solver/threads/node_partition.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 // Bullet has no mark for a change of topology (nodes that move in memory, faces that are cut): corners are compared.
 bool NodeNormals::cross_edges(btSoftBody& body, fast::WorkerTeam& team) {

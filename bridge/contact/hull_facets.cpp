@@ -17,8 +17,8 @@ namespace {
 /// Nearer than this share of the hull's size, a direction between two points is mostly rounding [-].
 constexpr double kTouch = 1e-9;
 
-Vector3<double> nearest_on_segment(const Vector3<double>& point, const Vector3<double>& a,
-                                   const Vector3<double>& b) {
+Vector3<double> nearest_on_edge(const Vector3<double>& point, const Vector3<double>& a,
+                                const Vector3<double>& b) {
   const Vector3<double> along = b - a;
   const double length2 = along.squaredNorm();
   if (!(length2 > 0)) return a;
@@ -117,7 +117,7 @@ SurfaceDistance HullFacets::distance(const Vector3<double>& point, double reach)
       const Vector3<double>& b = facet.corners[(c + 1) % facet.corners.size()];
       if ((b - a).cross(point - a).dot(facet.normal) >= 0) continue;
       is_over = false;
-      const Vector3<double> on_edge = nearest_on_segment(point, a, b);
+      const Vector3<double> on_edge = nearest_on_edge(point, a, b);
       const double distance2 = (point - on_edge).squaredNorm();
       if (distance2 < least) {
         least = distance2;

@@ -3,16 +3,11 @@
 #include <algorithm>
 
 #include <weft/bridge/implicit/node_anchors.hpp>
+#include <weft/core/index.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void BodySleep::wake() {
   is_asleep_ = false;

@@ -17,7 +17,7 @@ Vector3<btScalar> lever_arm(const MovableObject& object, const btVector3& point)
 /// [m] Behind which a plane holds nothing.
 constexpr btScalar kFarAway = 1000;
 /// How far below its plane a node may end a step, as a share of the margin [-].
-constexpr btScalar kDepthShare = btScalar(0.5);
+constexpr btScalar kProjectedShare = btScalar(0.5);
 /// By how much a plane may be wrong where the node has come to, as a share of the margin [-].
 constexpr btScalar kPlaneShare = btScalar(0.02);
 /// Planes whose normals have this cosine at least are alike: 8 degrees.
@@ -104,7 +104,7 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
     const btVector3& position = body.m_nodes[found.node].m_x;
     const btScalar gap = btDot(found.normal, position) - found.offset;
     const MovableObject object{found.object};
-    if (gap < -kDepthShare * margin && !object) deep_.push_back(found);
+    if (gap < -kProjectedShare * margin && !object) deep_.push_back(found);
     RigidContact* const known = known_contact(found, position, margin);
     if (known != nullptr && object) {
       RigidContact solved = *known;

@@ -43,7 +43,7 @@ double kinetic_energy_of(const btRigidBody& rigid) {
 }
 
 /// [m] How near to a rigid object a body touches it.
-constexpr btScalar kTouch = btScalar(1e-3);
+constexpr btScalar kTouchDistance = btScalar(1e-3);
 /// [m/s^2] From which acceleration on it is pushed into it.
 constexpr btScalar kLeastPush = btScalar(0.05);
 
@@ -156,7 +156,7 @@ const std::vector<Support>& CoupledBodies::supports_of(const MovableObject& obje
   if (is_known) return supports_;
   supported_.push_back(object);
   const std::size_t first = supports_.size();
-  add_supports(object, dispatcher, time_step, kTouch, supports_);
+  add_supports(object, dispatcher, time_step, kTouchDistance, supports_);
   const bool was_held = std::find(last_held_.begin(), last_held_.end(), object) != last_held_.end();
   for (std::size_t k = first; k < supports_.size(); ++k) supports_[k].is_loaded = was_held;
   return supports_;

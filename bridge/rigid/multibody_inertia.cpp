@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kBaseDofs = 6;
 /// Effective mass over a link's mass in a direction in which joints do not let it move [-].
-constexpr double kNoTranslation = 1e4;
+constexpr double kNoBaseTranslation = 1e4;
 /// [m] Rotations count like translations at the end of this lever arm.
 constexpr double kLeverArm = 0.1;
 /// The least mass of a link over all that moves in its multibody [-].
@@ -25,7 +25,7 @@ constexpr double kLeastMassShare = 0.01;
 /// Inertia of a coordinate that moves no mass, over the largest one [-].
 constexpr double kLeastInertia = 1e-9;
 
-std::size_t at(int link) {
+std::size_t entry_of(int link) {
   return static_cast<std::size_t>(link) + 1;
 }
 
@@ -87,12 +87,12 @@ RigidVelocity link_velocity(const btMultiBody& multibody, int link) {
 
 MultiBodyInertia::MultiBodyInertia(const btMultiBody& multibody) : multibody_(&multibody) {
   const int num_links = multibody.getNumLinks();
-  frames_.resize(at(num_links));
+  frames_.resize(entry_of(num_links));
   frames_[0] = {rotation_of(multibody.getWorldToBaseRot()).transpose(),
                 from_bullet(multibody.getBasePos())};
   for (int k = 0; k < num_links; ++k) {
-    const Frame& parent = frames_[at(multibody.getParent(k))];
-    Frame& frame = frames_[at(k)];
+    const Frame& parent = frames_[entry_of(multibody.getParent(k))];
+    Frame& frame = frames_[entry_of(k)];
     frame.rotation = parent.rotation * rotation_of(multibody.getParentToLocalRot(k)).transpose();
     frame.center = parent.center + frame.rotation * from_bullet(multibody.getRVector(k));
   }
@@ -123,7 +123,7 @@ void MultiBodyInertia::add_link(int link) {
       static_cast<double>(link < 0 ? multibody_->getBaseMass() : multibody_->getLinkMass(link));
   const Vector3<double> principal =
       from_bullet(link < 0 ? multibody_->getBaseInertia() : multibody_->getLinkInertia(link));
-  const Matrix3<double>& rotation = frames_[at(link)].rotation;
+  const Matrix3<double>& rotation = frames_[entry_of(link)].rotation;
   const Eigen::MatrixXd jacobian = jacobian_of(link);
   inertia_ += mass * jacobian.topRows<3>().transpose() * jacobian.topRows<3>();
   inertia_ += jacobian.bottomRows<3>().transpose() *
@@ -132,13 +132,13 @@ void MultiBodyInertia::add_link(int link) {
 
 Eigen::MatrixXd MultiBodyInertia::jacobian_of(int link) const {
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(6, kBaseDofs + multibody_->getNumDofs());
-  const Vector3<double>& center = frames_[at(link)].center;
+  const Vector3<double>& center = frames_[entry_of(link)].center;
   jacobian.block<3, 3>(0, 0) = -cross_matrix(center - frames_[0].center);
   jacobian.block<3, 3>(3, 0).setIdentity();
   jacobian.block<3, 3>(0, 3).setIdentity();
   for (int k = link; k >= 0; k = multibody_->getParent(k)) {
     const btMultibodyLink& joint = multibody_->getLink(k);
-    const Frame& frame = frames_[at(k)];
+    const Frame& frame = frames_[entry_of(k)];
     for (int d = 0; d < joint.m_dofCount; ++d) {
       const Vector3<double> axis = frame.rotation * from_bullet(joint.getAxisTop(d));
       const Vector3<double> along = frame.rotation * from_bullet(joint.getAxisBottom(d));
@@ -183,7 +183,8 @@ Eigen::MatrixXd MultiBodyInertia::inertia_of(std::span<const int> links) const {
   const Eigen::MatrixXd mobility =
       units.asDiagonal() * (jacobians * inverse_ * jacobians.transpose()) * units.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(mobility);
-  const VectorX<double> inertia = modes.eigenvalues().cwiseMax(1 / kNoTranslation).cwiseInverse();
+  const VectorX<double> inertia =
+      modes.eigenvalues().cwiseMax(1 / kNoBaseTranslation).cwiseInverse();
   return units.asDiagonal() *
          (modes.eigenvectors() * inertia.asDiagonal() * modes.eigenvectors().transpose()) *
          units.asDiagonal();

@@ -22,8 +22,8 @@ constexpr double kFieldDepthRatio = 0.5;  // of a height field's shorter side
 /// of an edge outside its place.
 constexpr double kPrismMarginRatio = 0.001;
 
-/// A compound and the children that it does not own itself.
-struct OwnedCompound {
+/// A compound of prisms, and the prisms, which it does not own itself.
+struct OwnedPrisms {
   std::vector<std::unique_ptr<btCollisionShape>> children;
   btCompoundShape compound;
 };
@@ -31,7 +31,7 @@ struct OwnedCompound {
 /// A prism between every triangle and the same triangle of `behind`.
 std::shared_ptr<btCollisionShape> prisms_between(const MeshShape& mesh,
                                                  const Matrix3X<double>& behind) {
-  auto owned = std::make_shared<OwnedCompound>();
+  auto owned = std::make_shared<OwnedPrisms>();
   btTransform here;
   here.setIdentity();
   const auto margin = static_cast<btScalar>(kPrismMarginRatio * mean_edge_length(mesh));

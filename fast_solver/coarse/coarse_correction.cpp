@@ -1,5 +1,7 @@
 #include <weft/fast_solver/coarse/coarse_correction.hpp>
 
+#include <weft/core/index.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -23,10 +25,6 @@ constexpr float kLeastBound = 0.05F;
 constexpr int kSpringsOfBasis = 60;
 /// At least one spring in so many of a network is looked at: about one at each node.
 constexpr double kMostForOne = 6;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 float sum_of(const BasisWeights& of_node) {
   return of_node.weights[0] + of_node.weights[1] + of_node.weights[2];

@@ -1,5 +1,7 @@
 #include <weft/fast_solver/coarse/dissected_cholesky.hpp>
 
+#include <weft/core/index.hpp>
+
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -13,11 +15,7 @@ constexpr float kLeastPivot = 1e-6F;
 
 using Neighbors = std::vector<std::vector<int>>;
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-int padded_size(int count) {
+int padded_to_rows(int count) {
   return (count + kRowPad - 1) / kRowPad * kRowPad;
 }
 
@@ -226,7 +224,7 @@ DissectedCholesky::DissectedCholesky(int num_unknowns,
     }
   }
   subdomains_[kSubdomains].width = std::max(1, last.size());
-  num_separator_ = padded_size(3 * last.size());
+  num_separator_ = padded_to_rows(3 * last.size());
   for (int k = 0; k < kSubdomains; ++k) reserve(subdomains_[at(k)], num_separator_);
   reserve(subdomains_[kSubdomains], 0);
 }
@@ -252,7 +250,7 @@ void DissectedCholesky::order(const std::vector<std::vector<int>>& neighbors) {
 }
 
 void DissectedCholesky::reserve(Subdomain& subdomain, int num_separator) {
-  const int num_near = padded_size(3 * subdomain.width) + kRowPad;
+  const int num_near = padded_to_rows(3 * subdomain.width) + kRowPad;
   const auto size = static_cast<std::size_t>(subdomain.size());
   subdomain.values.assign(3 * size * static_cast<std::size_t>(num_near + num_separator), 0.0F);
   subdomain.diagonal.assign(6 * size, 0.0F);
@@ -263,7 +261,7 @@ void DissectedCholesky::reserve(Subdomain& subdomain, int num_separator) {
 }
 
 FactorRows DissectedCholesky::rows_of(Subdomain& subdomain) const {
-  const int num_near = padded_size(3 * subdomain.width) + kRowPad;
+  const int num_near = padded_to_rows(3 * subdomain.width) + kRowPad;
   const int num_separator = &subdomain == &subdomains_[kSubdomains] ? 0 : num_separator_;
   return {subdomain.values.data(), subdomain.diagonal.data(), num_near,
           num_separator,           num_near + num_separator,  subdomain.width};

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <weft/core/index.hpp>
 #include <weft/fast_solver/coarse/prolongation.hpp>
 #include <weft/fast_solver/network/sparse_matrix.hpp>
 
@@ -24,10 +25,6 @@ constexpr int kSweeps = kBasisReach;
 constexpr double kMeanDistance = 0.6;
 /// Distances grow by this factor more than a smaller number of roots requires.
 constexpr double kWider = 1.03;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// For each unknown: the nearest root so far, along springs, and how far it is [m]; those that are farther than `most` have
 /// none.

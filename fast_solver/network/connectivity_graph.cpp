@@ -3,16 +3,13 @@
 
 #include <cstddef>
 
+#include <weft/core/index.hpp>
 #include <weft/fast_solver/network/network_forces.hpp>
 
 namespace weft::fast {
 namespace {
 
 constexpr double kTimeStep = 1.0 / 60;  // [s]
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// take(other, place) for each spring of a node.
 template <class Take>

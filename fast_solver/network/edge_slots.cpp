@@ -1,5 +1,7 @@
 #include <weft/fast_solver/network/edge_slots.hpp>
 
+#include <weft/core/index.hpp>
+
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -10,10 +12,6 @@ namespace {
 /// Neighbors at the same distance from which on a slot of their own is faster than fetching them one
 /// by one.
 constexpr int kFewestInARow = 4;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 void open_slot(int first, const EdgeSlot& slot, EdgeSlots& slots) {
   slots.slots.push_back(slot);

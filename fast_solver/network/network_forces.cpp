@@ -1,5 +1,7 @@
 #include <weft/fast_solver/network/network_forces.hpp>
 
+#include <weft/core/index.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -15,10 +17,6 @@ constexpr double kRoom = 2.0;
 constexpr int kSpareSlots = 6;
 /// Half precision ends a little below 2^16.
 constexpr int kMostHalfExponent = 14;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// By first, then by second node, and the lane of the first before that of the second.
 std::uint64_t place_of(const EdgeLane& lane) {

@@ -7,12 +7,10 @@
 
 #include <weft/fast_solver/implicit_solver.hpp>
 
+#include <weft/core/index.hpp>
+
 namespace weft::fast {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// A node sticks once the slip that is left would take this share of its friction to stop [-].
 constexpr double kStopped = 0.01;
@@ -296,7 +294,9 @@ void ImplicitSolver<Scalar>::find_constraint_forces() {
   }
 }
 
+#ifndef WEFT_SOLVER_IS_ONE_UNIT
 template class ImplicitSolver<float>;
 template class ImplicitSolver<double>;
+#endif
 
 }  // namespace weft::fast

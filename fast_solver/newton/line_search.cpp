@@ -4,6 +4,8 @@
 
 #include <weft/fast_solver/implicit_solver.hpp>
 
+#include <weft/core/index.hpp>
+
 namespace weft::fast {
 namespace {
 
@@ -16,10 +18,6 @@ constexpr int kSafeIterations = 8;
 constexpr int kHalvings = 6;
 /// A motion with so many times the energy of the motion without springs has gone astray, and is begun anew [-].
 constexpr double kFarUp = 10;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 }  // namespace
 
@@ -200,7 +198,9 @@ std::optional<Vector3<Scalar>> ImplicitSolver<Scalar>::net_momentum_correction(
   return shift;
 }
 
+#ifndef WEFT_SOLVER_IS_ONE_UNIT
 template class ImplicitSolver<float>;
 template class ImplicitSolver<double>;
+#endif
 
 }  // namespace weft::fast

@@ -6,14 +6,11 @@
 #include <string>
 
 #include <weft/core/error.hpp>
+#include <weft/core/index.hpp>
 #include <weft/fast_solver/implicit_solver.hpp>
 
 namespace weft::fast {
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 void check_size(const std::vector<bool>& is_free, Eigen::Index num_nodes) {
   if (static_cast<Eigen::Index>(is_free.size()) == num_nodes) return;
@@ -169,7 +166,9 @@ void ImplicitSolver<Scalar>::tear(const SpringNetwork& springs, const std::vecto
   if (!of_kinematic.empty()) change_correction(of_kinematic);
 }
 
+#ifndef WEFT_SOLVER_IS_ONE_UNIT
 template class ImplicitSolver<float>;
 template class ImplicitSolver<double>;
+#endif
 
 }  // namespace weft::fast

@@ -7,6 +7,8 @@
 
 #include <weft/fast_solver/implicit_solver.hpp>
 
+#include <weft/core/index.hpp>
+
 namespace weft::fast {
 namespace {
 
@@ -42,10 +44,6 @@ constexpr double kEnergyRounding = 2e-7;
 constexpr double kRoundings = 4;
 /// A single iteration may leave this share of the gain that is asked for [-].
 constexpr double kLastShare = 0.02;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// What further iterations gain if each gains this share of the one before [J].
 double rest_of(double gain, double shrinks) {

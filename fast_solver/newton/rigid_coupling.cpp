@@ -4,14 +4,10 @@
 
 #include <weft/fast_solver/implicit_solver.hpp>
 
+#include <weft/core/index.hpp>
+
 namespace weft::fast {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 template <class Scalar>
 void ImplicitSolver<Scalar>::load_bodies(const StepProblem<Scalar>& problem) {
@@ -149,7 +145,9 @@ double ImplicitSolver<Scalar>::work_of_bodies() {
   return work;
 }
 
+#ifndef WEFT_SOLVER_IS_ONE_UNIT
 template class ImplicitSolver<float>;
 template class ImplicitSolver<double>;
+#endif
 
 }  // namespace weft::fast

@@ -14,18 +14,18 @@
 namespace weft {
 namespace {
 
-void require(bool ok, const std::string& message) {
+void require_tear(bool ok, const std::string& message) {
   if (!ok) throw InvalidArgument("tear: " + message);
 }
 
 void require_limit(double strain) {
-  require(std::isfinite(strain) && strain > 0,
-          "strain = " + std::to_string(strain) + " [-], expected > 0 and finite");
+  require_tear(std::isfinite(strain) && strain > 0,
+               "strain = " + std::to_string(strain) + " [-], expected > 0 and finite");
 }
 
 void require_positions(const ClothMesh& mesh, Eigen::Index count) {
-  require(count == mesh.num_nodes(), std::to_string(count) + " positions, expected " +
-                                         std::to_string(mesh.num_nodes()) + " as the mesh");
+  require_tear(count == mesh.num_nodes(), std::to_string(count) + " positions, expected " +
+                                              std::to_string(mesh.num_nodes()) + " as the mesh");
 }
 
 Edges to_edges(const std::vector<int>& flat) {
@@ -242,18 +242,18 @@ Edges Tearing::cut() {
 
 void check(const TearRule& rule, const ClothMesh& mesh) {
   require_limit(rule.strain);
-  require(rule.variation >= 0 && rule.variation < 1,
-          "variation = " + std::to_string(rule.variation) + " [-], expected 0 to less than 1");
-  require(rule.max_splits >= 1,
-          "max_splits = " + std::to_string(rule.max_splits) + ", expected >= 1");
-  require(mesh.has_edge_set(rule.edge_set),
-          "edge_set = '" + rule.edge_set + "', expected an edge set of the mesh");
+  require_tear(rule.variation >= 0 && rule.variation < 1,
+               "variation = " + std::to_string(rule.variation) + " [-], expected 0 to less than 1");
+  require_tear(rule.max_splits >= 1,
+               "max_splits = " + std::to_string(rule.max_splits) + ", expected >= 1");
+  require_tear(mesh.has_edge_set(rule.edge_set),
+               "edge_set = '" + rule.edge_set + "', expected an edge set of the mesh");
   for (const WeakRegion& region : rule.weak) {
     require_limit(region.strain);
     const bool is_known =
         std::any_of(mesh.node_sets.begin(), mesh.node_sets.end(),
                     [&](const NodeSet& set) { return set.name == region.node_set; });
-    require(is_known, "region = '" + region.node_set + "', expected a node set of the mesh");
+    require_tear(is_known, "region = '" + region.node_set + "', expected a node set of the mesh");
   }
 }
 
@@ -279,8 +279,8 @@ Edges edges_under(const Blade& blade, const ClothMesh& mesh, ConstMatrix3XRef<do
   require_positions(mesh, positions.cols());
   const Vector3<double> along = blade.to - blade.from;
   const Vector3<double> normal = along.cross(blade.depth);
-  require(normal.allFinite() && normal.norm() > 0,
-          "the blade has no area, expected finite from, to and depth that span one");
+  require_tear(normal.allFinite() && normal.norm() > 0,
+               "the blade has no area, expected finite from, to and depth that span one");
   const auto side = [&](int t) {
     Vector3<double> sum = -3.0 * blade.from;
     for (const int node : mesh.triangles.col(t)) sum += positions.col(node);

@@ -10,7 +10,7 @@
 namespace weft::scenes {
 namespace {
 
-constexpr Rgb kInk = {38, 44, 54};
+constexpr Rgb kCaptionInk = {38, 44, 54};
 constexpr Rgb kGrayInk = {104, 112, 124};
 constexpr Rgb kPaper = {255, 255, 255};
 constexpr double kDark = 120;  // of 255: what is darker gets white letters
@@ -78,7 +78,7 @@ void draw_label(Image& image, const std::string& text) {
   const float base = static_cast<float>(image.height) - 0.7f * height;
   const bool is_dark =
       mean_of(image, left, left + text_width(text, height), base - height, base) < kDark;
-  draw_text(image, text, left, base, height, is_dark ? kPaper : kInk);
+  draw_text(image, text, left, base, height, is_dark ? kPaper : kCaptionInk);
 }
 
 Image filmstrip(const std::vector<Image>& pictures, int columns) {
@@ -142,7 +142,7 @@ Image contact_sheet(const std::vector<SheetEntry>& entries, int columns) {
     paste(page, entry.picture, left, top);
     const auto x = static_cast<float>(left);
     float y = static_cast<float>(top + first.height) + 1.25f * name_height;
-    draw_text(page, entry.name, x, y, name_height, kInk);
+    draw_text(page, entry.name, x, y, name_height, kCaptionInk);
     for (const std::string& line :
          wrap_text(entry.text, static_cast<float>(first.width), text_height, kLines)) {
       y += 1.3f * text_height;

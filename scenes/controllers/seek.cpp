@@ -9,7 +9,7 @@
 namespace weft::scenes {
 namespace {
 
-void require(bool ok, const std::string& message) {
+void require_seek(bool ok, const std::string& message) {
   if (!ok) throw InvalidArgument("seek: " + message);
 }
 
@@ -36,15 +36,15 @@ struct SeekController::Motion {
 
 SeekController::SeekController(const Seek& seek, std::size_t cloth, const ClothMesh& mesh)
     : seek_(seek), target_(seek.target), cloth_(cloth) {
-  require(seek.speed > 0 && seek.turn_rate > 0 && seek.arrival > 0,
-          "speed, turn_rate and arrival, expected > 0");
-  require(seek.force >= 0 && seek.torque >= 0, "force and torque, expected >= 0");
-  require(horizontal(seek.front).norm() > 0, "front has no horizontal part");
+  require_seek(seek.speed > 0 && seek.turn_rate > 0 && seek.arrival > 0,
+               "speed, turn_rate and arrival, expected > 0");
+  require_seek(seek.force >= 0 && seek.torque >= 0, "force and torque, expected >= 0");
+  require_seek(horizontal(seek.front).norm() > 0, "front has no horizontal part");
   for (const NodeSet& set : mesh.node_sets) {
     if (set.name == seek.region) nodes_ = set.nodes;
   }
-  require(!nodes_.empty(),
-          "region = '" + seek.region + "', expected a region of the cloth '" + seek.cloth + "'");
+  require_seek(!nodes_.empty(), "region = '" + seek.region + "', expected a region of the cloth '" +
+                                    seek.cloth + "'");
   Vector3<double> center(0, 0, 0);
   for (const int node : nodes_) {
     masses_.push_back(mesh.masses[node]);

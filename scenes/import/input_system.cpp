@@ -14,7 +14,7 @@ namespace {
 
 /// Extensions that glTF 2.0 (section 3.6.1) gives to the files of its buffers.
 constexpr std::array<std::string_view, 3> kBufferExtensions = {".bin", ".glbin", ".glbuf"};
-constexpr std::size_t kMaxShown = 80;  // of a name, in a message
+constexpr std::size_t kMaxShownName = 80;  // of a name, in a message
 
 /// Bytes in memory, as assimp reads them. assimp's own stream of this kind divides by the size of an
 /// element, which may be 0, and lets a position overflow.
@@ -75,7 +75,7 @@ std::optional<std::string> InputSystem::content_of(const std::string& name) {
     }
   }
   if (refusal_.empty()) {
-    refusal_ = "the file '" + name.substr(0, kMaxShown) + "' that it names " +
+    refusal_ = "the file '" + name.substr(0, kMaxShownName) + "' that it names " +
                (reason == "no such file" ? "does not exist" : reason);
   }
   return std::nullopt;

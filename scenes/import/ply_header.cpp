@@ -11,7 +11,7 @@ namespace {
 
 // A header with a thousand properties is far below each of these.
 constexpr std::size_t kMaxHeaderSize = 65'536;
-constexpr std::size_t kMaxShown = 40;  // of a line, in a message
+constexpr std::size_t kMaxShownLine = 40;  // of a line, in a message
 
 constexpr std::array<std::string_view, 3> kFormats = {"ascii", "binary_little_endian",
                                                       "binary_big_endian"};
@@ -36,10 +36,10 @@ std::vector<std::string_view> words_of(std::string_view line) {
 }
 
 std::string shown(std::string_view line) {
-  std::string text(line.substr(0, kMaxShown));
+  std::string text(line.substr(0, kMaxShownLine));
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c < 0x20 || c == 0x7F; }, '?');
-  return "'" + text + (line.size() > kMaxShown ? "...'" : "'");
+  return "'" + text + (line.size() > kMaxShownLine ? "...'" : "'");
 }
 
 class HeaderReader {

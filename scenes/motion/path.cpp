@@ -22,7 +22,7 @@ constexpr double kTravelShare = 1e-3;
 /// [rad] a loop may end turned by, against whole turns: rounding of angles given in degrees.
 constexpr double kWholeTurnTolerance = 1e-9;
 
-void require(bool ok, const std::string& message) {
+void require_path(bool ok, const std::string& message) {
   if (!ok) throw InvalidArgument("path: " + message);
 }
 
@@ -32,33 +32,36 @@ bool is_whole_turn(double angle) {
 
 void check(const Path& path) {
   const std::size_t n = path.times.size();
-  require(n >= 2 && n <= PathMotion::kMaxPoints,
-          std::to_string(n) + " times, expected 2 to " + std::to_string(PathMotion::kMaxPoints));
-  require(path.points.size() == n, std::to_string(path.points.size()) +
-                                       " points, expected one for each of the " +
-                                       std::to_string(n) + " times");
-  require(path.turns.empty() || path.turns.size() == n,
-          std::to_string(path.turns.size()) + " turns, expected none or one for each of the " +
-              std::to_string(n) + " times");
+  require_path(n >= 2 && n <= PathMotion::kMaxPoints, std::to_string(n) + " times, expected 2 to " +
+                                                          std::to_string(PathMotion::kMaxPoints));
+  require_path(path.points.size() == n, std::to_string(path.points.size()) +
+                                            " points, expected one for each of the " +
+                                            std::to_string(n) + " times");
+  require_path(path.turns.empty() || path.turns.size() == n,
+               std::to_string(path.turns.size()) + " turns, expected none or one for each of the " +
+                   std::to_string(n) + " times");
   for (std::size_t i = 0; i < n; ++i) {
-    require(std::isfinite(path.times[i]), "a time is not finite");
-    require(path.points[i].allFinite(), "a point is not finite");
+    require_path(std::isfinite(path.times[i]), "a time is not finite");
+    require_path(path.points[i].allFinite(), "a point is not finite");
     if (i == 0) continue;
-    require(
+    require_path(
         path.times[i] > path.times[i - 1],
         "time " + std::to_string(i) + " is not after the one before it, expected growing times");
-    require(path.follow == PathFollow::kFixed || path.points[i] != path.points[i - 1],
-            "points " + std::to_string(i - 1) + " and " + std::to_string(i) +
-                " are the same place, which has no direction of travel");
+    require_path(path.follow == PathFollow::kFixed || path.points[i] != path.points[i - 1],
+                 "points " + std::to_string(i - 1) + " and " + std::to_string(i) +
+                     " are the same place, which has no direction of travel");
   }
-  for (const double turn : path.turns) require(std::isfinite(turn), "a turn is not finite");
-  require(!path.loop || path.points.front() == path.points.back(),
-          "a loop ends elsewhere than it starts, expected the last point = the first");
-  require(!path.loop || n >= 3, "a loop of 2 times, expected at least 3");
-  require(!path.loop || path.turns.empty() || is_whole_turn(path.turns.back() - path.turns.front()),
-          "a loop ends turned, expected the last turn = the first, or whole turns more");
-  require(std::isfinite(path.ease_in) && path.ease_in >= 0, "ease_in is not >= 0 [s] and finite");
-  require(path.turn_axis.allFinite() && !path.turn_axis.isZero(), "turn_axis has no direction");
+  for (const double turn : path.turns) require_path(std::isfinite(turn), "a turn is not finite");
+  require_path(!path.loop || path.points.front() == path.points.back(),
+               "a loop ends elsewhere than it starts, expected the last point = the first");
+  require_path(!path.loop || n >= 3, "a loop of 2 times, expected at least 3");
+  require_path(
+      !path.loop || path.turns.empty() || is_whole_turn(path.turns.back() - path.turns.front()),
+      "a loop ends turned, expected the last turn = the first, or whole turns more");
+  require_path(std::isfinite(path.ease_in) && path.ease_in >= 0,
+               "ease_in is not >= 0 [s] and finite");
+  require_path(path.turn_axis.allFinite() && !path.turn_axis.isZero(),
+               "turn_axis has no direction");
 }
 
 /// Second derivatives of the cubic spline through the knots: periodic, or at rest at both ends.

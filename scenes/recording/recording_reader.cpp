@@ -17,7 +17,7 @@
 namespace weft::scenes {
 namespace {
 
-struct MetricRow {
+struct StoredMetric {
   std::string name;
   RecordingReader::Sample sample;
 };
@@ -69,7 +69,7 @@ struct RecordingReader::Impl {
   std::vector<std::byte> read_chunk(const ChunkEntry& chunk) const;
   /// Decoded bytes of a frame's chunk; the last chunk is remembered.
   std::span<const std::byte> frame_bytes(int frame) const;
-  const std::vector<MetricRow>& metric_rows() const;
+  const std::vector<StoredMetric>& metric_rows() const;
   std::string compute_content_hash() const;
   Scene read_scene() const;
 
@@ -85,7 +85,7 @@ struct RecordingReader::Impl {
   mutable std::optional<Scene> scene;
   mutable std::optional<std::size_t> cached_chunk;
   mutable std::vector<std::byte> cached_bytes;
-  mutable std::optional<std::vector<MetricRow>> metrics;
+  mutable std::optional<std::vector<StoredMetric>> metrics;
   mutable std::string content_hash;
 };
 
@@ -154,11 +154,11 @@ std::span<const std::byte> RecordingReader::Impl::frame_bytes(int frame) const {
                topologies.codec_at(frame).frame_bytes());
 }
 
-const std::vector<MetricRow>& RecordingReader::Impl::metric_rows() const {
+const std::vector<StoredMetric>& RecordingReader::Impl::metric_rows() const {
   if (metrics) {
     return *metrics;
   }
-  std::vector<MetricRow> found;
+  std::vector<StoredMetric> found;
   StreamHash hash;
   with_database([&](const Database& database) {
     Statement select =
@@ -166,7 +166,7 @@ const std::vector<MetricRow>& RecordingReader::Impl::metric_rows() const {
     select.bind(1, count_in_meta(header, "num_metrics", file));
     while (select.step()) {
       found.push_back({select.text(0), {select.real(1), select.real(2)}});
-      const MetricRow& row = found.back();
+      const StoredMetric& row = found.back();
       add_to_metric_hash(hash, row.name, row.sample.time, row.sample.value);
     }
     return 0;
@@ -273,7 +273,7 @@ SceneState RecordingReader::frame(int frame) const {
 
 std::vector<std::string> RecordingReader::metric_names() const {
   std::set<std::string> names;
-  for (const MetricRow& row : impl_->metric_rows()) {
+  for (const StoredMetric& row : impl_->metric_rows()) {
     names.insert(row.name);
   }
   return {names.begin(), names.end()};
@@ -281,7 +281,7 @@ std::vector<std::string> RecordingReader::metric_names() const {
 
 std::vector<RecordingReader::Sample> RecordingReader::metric(const std::string& name) const {
   std::vector<Sample> samples;
-  for (const MetricRow& row : impl_->metric_rows()) {
+  for (const StoredMetric& row : impl_->metric_rows()) {
     if (row.name == name) {
       samples.push_back(row.sample);
     }

@@ -11,7 +11,7 @@
 namespace weft::bridge {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<btScalar>::epsilon();
+constexpr double kClothBodyEpsilon = std::numeric_limits<btScalar>::epsilon();
 
 ClothMesh small_cloth() {
   ClothGrid grid;
@@ -33,10 +33,10 @@ TEST(ClothBody, NodesFacesMassesAndPinsAreTheMeshs) {
   for (int i = 0; i < mesh.num_nodes(); ++i) {
     const double inverse_mass = static_cast<double>(body->m_nodes[i].m_im);
     const bool pinned = i == 0 || i == 5;
-    EXPECT_NEAR(inverse_mass * mesh.masses[i], pinned ? 0.0 : 1.0, 4 * kEpsilon);
+    EXPECT_NEAR(inverse_mass * mesh.masses[i], pinned ? 0.0 : 1.0, 4 * kClothBodyEpsilon);
     for (int axis = 0; axis < 3; ++axis) {
       EXPECT_NEAR(static_cast<double>(body->m_nodes[i].m_x[axis]), mesh.rest_positions(axis, i),
-                  kEpsilon);
+                  kClothBodyEpsilon);
     }
   }
 }
@@ -58,7 +58,7 @@ TEST(ClothBody, EveryLinkHasTheStiffnessOfItsOwnMasses) {
     const double expected = l < num_stretch ? 30.0 : 5.0;
     // kLST is rounded to btScalar; near 1 the map magnifies that by 1 / (1 - kLST).
     const double magnified = 1.0 / (1.0 - static_cast<double>(link.m_material->m_kLST));
-    EXPECT_NEAR(stiffness / expected, 1.0, 64 * kEpsilon * magnified);
+    EXPECT_NEAR(stiffness / expected, 1.0, 64 * kClothBodyEpsilon * magnified);
   }
 }
 
@@ -75,7 +75,7 @@ TEST(ClothBody, FirstStepKeepsRestLengthsOfTheMesh) {
     const auto a = link.m_n[0] - &body.m_nodes[0];
     const auto b = link.m_n[1] - &body.m_nodes[0];
     const double rest = (mesh.rest_positions.col(b) - mesh.rest_positions.col(a)).norm();
-    EXPECT_NEAR(static_cast<double>(link.m_rl), rest, 8 * kEpsilon);
+    EXPECT_NEAR(static_cast<double>(link.m_rl), rest, 8 * kClothBodyEpsilon);
   }
 }
 

@@ -10,10 +10,10 @@
 namespace weft::bridge {
 namespace {
 
-constexpr double kMass = 0.02;       // [kg]
-constexpr double kRestLength = 0.5;  // [m]
-constexpr double kGravity = 9.81;    // [m/s^2]
-constexpr double kTimeStep =
+constexpr double kMass = 0.02;                  // [kg]
+constexpr double kRestLength = 0.5;             // [m]
+constexpr double kLinkStiffnessGravity = 9.81;  // [m/s^2]
+constexpr double kLinkStiffnessTimeStep =
     1.0 / 128;  // [s] exact in single precision, so that Bullet's rounding plays no part
 
 /// One node hangs from a pinned one on one Bullet link; extension [m] once it rests.
@@ -29,8 +29,8 @@ double extension_at_rest(double link_factor, int iterations, double pin_inverse_
   owned->updateConstants();
   owned->m_bUpdateRtCst = false;
   btSoftBody& body = world.add(std::move(owned));
-  world.info().m_gravity.setValue(0, btScalar(-kGravity), 0);
-  for (int step = 0; step < 20000; ++step) world.step(kTimeStep);
+  world.info().m_gravity.setValue(0, btScalar(-kLinkStiffnessGravity), 0);
+  for (int step = 0; step < 20000; ++step) world.step(kLinkStiffnessTimeStep);
   return -static_cast<double>(body.m_nodes[1].m_x.y()) - kRestLength;
 }
 
@@ -39,8 +39,8 @@ double extension_at_rest(double link_factor, int iterations, double pin_inverse_
 /// of its share; at rest that shortens the extension by e* (1 + r) / 2. Twice that leaves room for
 /// the next order.
 double length_approximation_bound(double stiffness) {
-  const double magnified = 1 + stiffness * kTimeStep * kTimeStep / kMass;
-  return kMass * kGravity / stiffness / kRestLength * magnified * magnified;
+  const double magnified = 1 + stiffness * kLinkStiffnessTimeStep * kLinkStiffnessTimeStep / kMass;
+  return kMass * kLinkStiffnessGravity / stiffness / kRestLength * magnified * magnified;
 }
 
 TEST(LinkStiffness, MapIsItsOwnInverse) {
@@ -48,12 +48,13 @@ TEST(LinkStiffness, MapIsItsOwnInverse) {
   const double tolerance = 32 * std::numeric_limits<double>::epsilon();
   for (const double stiffness : {1e-3, 0.5, 40.0, 3000.0}) {
     for (const int iterations : {1, 4, 20, 100}) {
-      const LinkContext context{kMass, iterations, kTimeStep};
+      const LinkContext context{kMass, iterations, kLinkStiffnessTimeStep};
       const double factor = link_factor_from_stiffness(stiffness, context);
       EXPECT_GT(factor, 0.0);
       EXPECT_LE(factor, 1.0);
-      EXPECT_NEAR(stiffness_from_link_factor(factor, context) / stiffness, 1.0,
-                  tolerance * (1 + stiffness * kTimeStep * kTimeStep / kMass));
+      EXPECT_NEAR(
+          stiffness_from_link_factor(factor, context) / stiffness, 1.0,
+          tolerance * (1 + stiffness * kLinkStiffnessTimeStep * kLinkStiffnessTimeStep / kMass));
     }
   }
 }
@@ -61,8 +62,9 @@ TEST(LinkStiffness, MapIsItsOwnInverse) {
 TEST(LinkStiffness, HangingWeightStretchesOneBulletLinkByForceOverStiffness) {
   for (const double stiffness : {20.0, 100.0, 400.0}) {
     for (const int iterations : {1, 5, 20}) {
-      const double expected = kMass * kGravity / stiffness;
-      const double factor = link_factor_from_stiffness(stiffness, {kMass, iterations, kTimeStep});
+      const double expected = kMass * kLinkStiffnessGravity / stiffness;
+      const double factor =
+          link_factor_from_stiffness(stiffness, {kMass, iterations, kLinkStiffnessTimeStep});
       const double measured = extension_at_rest(factor, iterations);
       const double model = length_approximation_bound(stiffness);
       // Round-off of the position (0.5 m) as seen by the extension, over the steps in which it can
@@ -80,19 +82,21 @@ TEST(LinkStiffness, OnePercentMoreStiffnessIsNoticed) {
   const double stiffness = 400.0;
   const double model = length_approximation_bound(stiffness);
   const double factor =
-      link_factor_from_stiffness(1.01 * stiffness, {kMass, iterations, kTimeStep});
+      link_factor_from_stiffness(1.01 * stiffness, {kMass, iterations, kLinkStiffnessTimeStep});
   const double measured = extension_at_rest(factor, iterations);
-  EXPECT_GT(std::abs(measured / (kMass * kGravity / stiffness) - 1.0), model);
+  EXPECT_GT(std::abs(measured / (kMass * kLinkStiffnessGravity / stiffness) - 1.0), model);
 }
 
 TEST(LinkStiffness, ValuesOutOfTheirDomainAreRefused) {
-  const LinkContext good{kMass, 4, kTimeStep};
+  const LinkContext good{kMass, 4, kLinkStiffnessTimeStep};
   EXPECT_THROW((void)link_factor_from_stiffness(-1, good), InvalidArgument);
   EXPECT_THROW((void)link_factor_from_stiffness(std::nan(""), good), InvalidArgument);
   EXPECT_THROW((void)stiffness_from_link_factor(1.0, good), InvalidArgument);
   EXPECT_THROW((void)stiffness_from_link_factor(-0.1, good), InvalidArgument);
-  EXPECT_THROW((void)link_factor_from_stiffness(1, {0, 4, kTimeStep}), InvalidArgument);
-  EXPECT_THROW((void)link_factor_from_stiffness(1, {kMass, 0, kTimeStep}), InvalidArgument);
+  EXPECT_THROW((void)link_factor_from_stiffness(1, {0, 4, kLinkStiffnessTimeStep}),
+               InvalidArgument);
+  EXPECT_THROW((void)link_factor_from_stiffness(1, {kMass, 0, kLinkStiffnessTimeStep}),
+               InvalidArgument);
   EXPECT_THROW((void)link_factor_from_stiffness(1, {kMass, 4, 0}), InvalidArgument);
 }
 

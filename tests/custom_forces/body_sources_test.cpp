@@ -14,7 +14,7 @@
 namespace weft {
 namespace {
 
-constexpr double kRoundoff = 1e-14;  // of sums of a few hundred numbers near 1, relative
+constexpr double kBodySourcesRoundoff = 1e-14;  // of sums of a few hundred numbers near 1, relative
 
 /// A tetrahedron with its front outside; two triangles of it alone are an open surface.
 Surface tetrahedron() {
@@ -57,15 +57,16 @@ TEST(SurfaceBody, TiesEdgesAndTheFarCornersOfHingesOnceEach) {
 TEST(SurfaceBody, SharesOutExactlyTheMassByAreaAndGivesTheCentreItsPart) {
   const Surface surface = tetrahedron();
   const ClothMesh shell = make_surface_body(surface, {.total_mass = 3.0});
-  EXPECT_NEAR(shell.masses.sum(), 3.0, 3.0 * kRoundoff);
+  EXPECT_NEAR(shell.masses.sum(), 3.0, 3.0 * kBodySourcesRoundoff);
   const VectorX<double> areas = node_areas(shell);
-  EXPECT_NEAR(areas.sum(), surface_area(surface), kRoundoff);
-  EXPECT_NEAR(areas.sum(), 1.5 + std::sqrt(3.0) / 2, kRoundoff);
-  EXPECT_LE((shell.masses - areas * (3.0 / areas.sum())).cwiseAbs().maxCoeff(), kRoundoff);
+  EXPECT_NEAR(areas.sum(), surface_area(surface), kBodySourcesRoundoff);
+  EXPECT_NEAR(areas.sum(), 1.5 + std::sqrt(3.0) / 2, kBodySourcesRoundoff);
+  EXPECT_LE((shell.masses - areas * (3.0 / areas.sum())).cwiseAbs().maxCoeff(),
+            kBodySourcesRoundoff);
 
   const ClothMesh body = make_surface_body(surface, {.total_mass = 3.0, .center_mass_share = 0.2});
-  EXPECT_NEAR(body.masses.sum(), 3.0, 3.0 * kRoundoff);
-  EXPECT_NEAR(body.masses[4], 0.6, kRoundoff);
+  EXPECT_NEAR(body.masses.sum(), 3.0, 3.0 * kBodySourcesRoundoff);
+  EXPECT_NEAR(body.masses[4], 0.6, kBodySourcesRoundoff);
   const ClothMesh equal =
       make_surface_body(surface, {.total_mass = 3.0, .lumping = MassLumping::kUniform});
   EXPECT_EQ(equal.masses, VectorX<double>::Constant(4, 0.75));
@@ -75,12 +76,13 @@ TEST(SurfaceBody, TheCentreNodeStandsInTheMiddleTiedToEveryOther) {
   const ClothMesh mesh = make_icosphere(
       {.radius = 2.0, .frequency = 3, .center = {1, 2, 3}, .center_mass_share = kCenterMassShare});
   const int center = mesh.num_nodes() - 1;
-  EXPECT_LE((mesh.rest_positions.col(center) - Vector3<double>(1, 2, 3)).norm(), 2 * kRoundoff);
+  EXPECT_LE((mesh.rest_positions.col(center) - Vector3<double>(1, 2, 3)).norm(),
+            2 * kBodySourcesRoundoff);
   const Edges spokes = mesh.edges_of({"center"});
   ASSERT_EQ(spokes.cols(), center);
   EXPECT_EQ(spokes.row(1).minCoeff(), center);
   const VectorX<double> lengths = edge_lengths(mesh.rest_positions, spokes);
-  EXPECT_LE((lengths.array() - 2.0).abs().maxCoeff(), 4 * kRoundoff);
+  EXPECT_LE((lengths.array() - 2.0).abs().maxCoeff(), 4 * kBodySourcesRoundoff);
   ASSERT_EQ(mesh.connection_sets.size(), 1U);
   EXPECT_EQ(mesh.connection_sets[0].connections, spokes);
 }
@@ -195,9 +197,9 @@ TEST(Rope, IsALineOfNodesWithItsMassBetweenItsEnds) {
   EXPECT_EQ(mesh.edges_of({"bend"}).cols(), 3);
   ASSERT_EQ(mesh.line_sets.size(), 1U);
   EXPECT_EQ(mesh.line_sets[0].triples.col(2), Eigen::Vector3i(2, 3, 4));
-  EXPECT_NEAR(mesh.masses.sum(), 0.8, kRoundoff);
-  EXPECT_NEAR(mesh.masses[0], 0.1, kRoundoff);
-  EXPECT_NEAR(mesh.masses[2], 0.2, kRoundoff);
+  EXPECT_NEAR(mesh.masses.sum(), 0.8, kBodySourcesRoundoff);
+  EXPECT_NEAR(mesh.masses[0], 0.1, kBodySourcesRoundoff);
+  EXPECT_NEAR(mesh.masses[2], 0.2, kBodySourcesRoundoff);
   const ClothMesh shortest = make_rope({.nodes = 2});
   EXPECT_EQ(shortest.edges_of({"bend"}).cols(), 0);
   EXPECT_THROW((void)make_rope({.nodes = 1}), InvalidArgument);

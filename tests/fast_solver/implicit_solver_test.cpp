@@ -14,7 +14,7 @@ namespace {
 constexpr double kTimeStep = 1.0 / 60;  // [s]
 constexpr double kGravity = 9.81;       // [m/s^2]
 
-ClothMesh cloth(int n) {
+ClothMesh solver_cloth(int n) {
   ClothGrid grid;
   grid.nodes = {n, n};
   grid.total_mass = 0.25;
@@ -97,7 +97,7 @@ Matrix3X<double> dense_solution(const SpringNetwork& network, const VectorX<doub
 }
 
 TEST(ImplicitSolver, SolvesTheEquationsThatADenseNewtonMethodSolves) {
-  const ClothMesh mesh = cloth(4);
+  const ClothMesh mesh = solver_cloth(4);
   const SpringNetwork network = springs(mesh, 200.0, 0.1);
   const auto is_free = all_free_but(mesh, {0, 3});
   const Matrix3X<double> q = mesh.rest_positions;
@@ -215,7 +215,7 @@ TEST(ImplicitSolver, FollowsPins) {
 // last of them.
 template <class Scalar>
 void expect_bits_of_a_fresh_solver() {
-  const ClothMesh mesh = cloth(40);
+  const ClothMesh mesh = solver_cloth(40);
   const SpringNetwork network = springs(mesh, 3000.0, 0.1);
   const Matrix3X<Scalar> q = mesh.rest_positions.template cast<Scalar>();
   std::mt19937 random(7);
@@ -283,7 +283,7 @@ TEST(DirectionWeights, AreThoseOfTheRecursion) {
 }
 
 TEST(ImplicitSolver, ThreadsChangeNoBit) {
-  const ClothMesh mesh = cloth(100);  // sixteen parts
+  const ClothMesh mesh = solver_cloth(100);  // sixteen parts
   const auto is_free = all_free_but(mesh, {0, 99});
   const Matrix3X<float> q = mesh.rest_positions.cast<float>();
   const Matrix3X<float> y =
@@ -364,7 +364,7 @@ TEST_F(OnAPlane, IsStoppedAtAnySpeed) {
 }
 
 TEST(ImplicitSolver, LeadsANodeAndSaysWhatThatTakes) {
-  const ClothMesh mesh = cloth(3);
+  const ClothMesh mesh = solver_cloth(3);
   const SpringNetwork network = springs(mesh, 100.0);
   ImplicitSolver<double> solver(network, mesh.masses, all_free_but(mesh, {}));
   const Matrix3X<double> q = mesh.rest_positions;

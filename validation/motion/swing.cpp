@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kGravity = 9.81;    // [m/s^2]
 constexpr int kPlateSubsteps = 200;  // of the plate's equation: its error is a few micrometres
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
 
 /// The sheet turned about its held edge by an angle from where it starts [rad].
 Matrix3X<double> turned(const ClothMesh& mesh, double angle) {
@@ -52,7 +52,7 @@ double SwingTrack::kinetic_energy(double begin, double end) const {
     sum += 0.5 * mesh_.masses.dot(squared) / (time_step_ * time_step_);
     ++count;
   }
-  return count > 0 ? sum / count : kNaN;
+  return count > 0 ? sum / count : kNoFigure;
 }
 
 double SwingTrack::turning_time() const {
@@ -68,7 +68,7 @@ double SwingTrack::turning_time() const {
     }
     before = after;
   }
-  return kNaN;
+  return kNoFigure;
 }
 
 SwingTrack::Stretch SwingTrack::stretch() const {
@@ -90,7 +90,7 @@ double rms_distance(const Places& a, const Places& b) {
     sum += (a[step] - b[step]).squaredNorm();
     count += static_cast<double>(a[step].cols());
   }
-  return count > 0 ? std::sqrt(sum / count) : kNaN;
+  return count > 0 ? std::sqrt(sum / count) : kNoFigure;
 }
 
 Places frozen(const ClothMesh& mesh, int num_steps) {

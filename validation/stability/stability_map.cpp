@@ -18,12 +18,13 @@ namespace weft::validation {
 namespace {
 
 constexpr std::array<double, 5> kStiffnessFactors = {0.25, 0.5, 1, 2, 4};
-constexpr std::array<double, 4> kBetas = {0, 0.5, 1, 3};
-constexpr double kDisturbance = 1e-6;  ///< of the shortest spring [-]
-constexpr double kGrown = 1e-2;        ///< the same: 1e4 times as large, and springs still linear
+constexpr std::array<double, 4> kStabilityMapBetas = {0, 0.5, 1, 3};
+constexpr double kStabilityMapDisturbance = 1e-6;  ///< of the shortest spring [-]
+constexpr double kStabilityMapGrown =
+    1e-2;  ///< the same: 1e4 times as large, and springs still linear
 /// A step 1 % beyond the stable one grows by exp(2 sqrt(0.02)) = 1.33 a step: 1e4 after 33 steps, of
 /// which the disturbance needs some to find the mode.
-constexpr int kNumSteps = 250;
+constexpr int kStabilityMapNumSteps = 250;
 
 /// The parameters that set how stiff a law is; all of them are linear in its force.
 bool is_stiffness(const forces::ParameterInfo& parameter) {
@@ -75,7 +76,8 @@ bool is_stable(const scenes::Cloth& cloth, double stiffness_factor, double beta,
   for (int node = 0; node < body.mesh.num_nodes(); ++node) {
     // Without a pattern that the mesh shares: it holds a part of every mode.
     for (int axis = 0; axis < 3; ++axis) {
-      body.positions(axis, node) += kDisturbance * unit * std::sin((7.0 + 4 * axis) * node + axis);
+      body.positions(axis, node) +=
+          kStabilityMapDisturbance * unit * std::sin((7.0 + 4 * axis) * node + axis);
     }
   }
   for (const int node : body.mesh.pinned) {
@@ -84,10 +86,10 @@ bool is_stable(const scenes::Cloth& cloth, double stiffness_factor, double beta,
   reference::SpringSolver solver =
       make_solver(std::move(body), reference::IntegratorKind::kModifiedEuler);
   const reference::Body& now = solver.system().bodies[0];
-  for (int step = 0; step < kNumSteps; ++step) {
+  for (int step = 0; step < kStabilityMapNumSteps; ++step) {
     if (solver.step(time_step).blow_up) return false;
     const double off = (now.positions - now.mesh.rest_positions).cwiseAbs().maxCoeff();
-    if (!(off <= kGrown * unit)) return false;
+    if (!(off <= kStabilityMapGrown * unit)) return false;
   }
   return true;
 }
@@ -114,7 +116,7 @@ std::vector<StabilityMap> map_stability(const scenes::Scene& scene) {
   std::vector<StabilityMap> maps;
   for (const scenes::Cloth& cloth : scene.cloths) {
     StabilityMap map{cloth.name, {}};
-    for (const double beta : kBetas) {
+    for (const double beta : kStabilityMapBetas) {
       for (const double factor : kStiffnessFactors) {
         map.points.push_back(map_point(cloth, factor, beta));
       }
@@ -167,7 +169,7 @@ Section stability_section(const StabilityMap& map) {
   Table table{"Stable step, found within 1 %",
               {"stiffness factor", "beta", "predicted [s]", "measured [s]", "measured / predicted"},
               {}};
-  for (const double beta : kBetas) {
+  for (const double beta : kStabilityMapBetas) {
     Series predicted{fmt::format("predicted, beta = {:g}", beta), {}, {}};
     Series measured{fmt::format("measured, beta = {:g}", beta), {}, {}};
     for (const StabilityPoint& point : map.points) {

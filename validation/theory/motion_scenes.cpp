@@ -19,8 +19,6 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// What a second-order method may do to the frequency of a mode.
 Tolerance period_tolerance(double omega, double time_step, double rest) {
   const double phase = omega * time_step;
@@ -32,9 +30,10 @@ Tolerance period_tolerance(double omega, double time_step, double rest) {
 /// What it may take from the energy in one period of a swing with this decay of its amplitude [1/s].
 Tolerance energy_tolerance(double omega, double decay, double time_step, double rest) {
   const double phase = omega * time_step;
-  const double damped = 2 * decay * (2 * kPi / omega) * phase * phase;  // of the decay itself
+  const double damped =
+      2 * decay * (2 * std::numbers::pi / omega) * phase * phase;  // of the decay itself
   return {
-      1.5 * (kPi * phase * phase * phase + damped) + rest, Basis::kTruncation,
+      1.5 * (std::numbers::pi * phase * phase * phase + damped) + rest, Basis::kTruncation,
       "1.5 (pi (w h)^3 + 2 delta T (w h)^2), and what the theory leaves out: BDF2 loses pi (w h)^3 "
       "in a period and is off by (w h)^2 of a decay, other methods of second order by less, "
       "implicit Euler loses 2 pi w h"};
@@ -71,7 +70,7 @@ std::vector<TheoryGate> swing_gates(const Swing& swing) {
     const double interval = frames.size() > 1 ? frames[1].time - frames[0].time : 1.0;
     return fit_swing(values, interval);
   };
-  const double period = 2 * kPi / swing.omega;
+  const double period = 2 * std::numbers::pi / swing.omega;
   const double left = std::exp(-2 * swing.decay * period);
   TheoryGate frequency;
   frequency.claim = fmt::format("in the engine: {} has its frequency", swing.what);
@@ -124,13 +123,14 @@ TheoryScene oscillator_scene(double mass, double stiffness, double damping, doub
     return state.cloths[0].positions(0, 1) - 1.0;
   };
   swing.other_frequency = stiffness_scaled(1.5);
-  const scenes::World world = theory_world(8 * 2 * kPi / swing.omega, 0.05 / natural, 1);
+  const scenes::World world =
+      theory_world(8 * 2 * std::numbers::pi / swing.omega, 0.05 / natural, 1);
   return {decay > 0 ? "damped" : "free", theory_scene("oscillator", world, cloth, false),
           swing_gates(swing)};
 }
 
 /// Period over that of a small swing, by the arithmetic-geometric mean.
-double period_ratio(double amplitude) {
+double pendulum_period_ratio(double amplitude) {
   double a = 1.0;
   double b = std::cos(amplitude / 2);
   while (std::abs(a - b) > 1e-15) {
@@ -146,7 +146,7 @@ TheoryScene pendulum_scene(double degrees) {
   constexpr double kMass = 1.0;       // [kg]
   constexpr double kStiffness = 1e5;  // [N/m]: stretches by 1e-4 under the weight
   constexpr double kDamping = 20.0;   // of the spring [N s/m]: a swing does not feel it
-  const double angle = degrees * kPi / 180;
+  const double angle = degrees * std::numbers::pi / 180;
   RopeParts parts;
   parts.end = {kLength * std::sin(angle), -kLength * std::cos(angle), 0};
   parts.node_mass = kMass;
@@ -155,7 +155,7 @@ TheoryScene pendulum_scene(double degrees) {
   parts.has_gravity = true;
   parts.pinned = {0};
   const double small = std::sqrt(kTheoryGravity / kLength);
-  const double period = 2 * kPi / small * period_ratio(angle);
+  const double period = 2 * std::numbers::pi / small * pendulum_period_ratio(angle);
   // The fastest turn is this quick, and errors of a step go with it.
   const double omega = small * std::max(1.0, 2 * std::sin(angle / 2));
   const double rest = 2e-3;
@@ -254,12 +254,13 @@ TheoryScene hanging_string_scene(int beads) {
     return state.cloths[0].positions.row(0).dot(mode);
   };
   swing.other_frequency = law_scaled("gravity +20 %", "gravity", "acceleration", 1.2);
-  const scenes::World world = theory_world(5 * 2 * kPi / swing.omega, 1.0 / 3000, 1);
+  const scenes::World world = theory_world(5 * 2 * std::numbers::pi / swing.omega, 1.0 / 3000, 1);
   return {fmt::format("beads_{}", beads), theory_scene("beads", world, rope_cloth(parts), true),
           swing_gates(swing)};
 }
 
-constexpr double kStrain = 0.2;     // of strings and membranes: rest length = (1 - strain) length
+constexpr double kMotionScenesStrain =
+    0.2;                            // of strings and membranes: rest length = (1 - strain) length
 constexpr double kLeadTime = 2.0;   // [s], until they are stretched
 constexpr double kSideways = 0.02;  // [m/s]
 
@@ -269,10 +270,10 @@ TheoryScene string_scene(int masses) {
   constexpr double kMass = 0.1;     // [kg]
   constexpr double kStiffness = 400.0;
   const int n = masses + 1;
-  const double tension = kStiffness * kSpacing * kStrain;
+  const double tension = kStiffness * kSpacing * kMotionScenesStrain;
   RopeParts parts;
   parts.springs = n;
-  parts.end = {n * kSpacing * (1 - kStrain), 0, 0};
+  parts.end = {n * kSpacing * (1 - kMotionScenesStrain), 0, 0};
   parts.node_mass = kMass;
   parts.stiffness = kStiffness;
   parts.damping = 0.5;  // stretching dies away, and a small swing across does not feel it
@@ -284,16 +285,17 @@ TheoryScene string_scene(int masses) {
   swing.what = fmt::format("a string of {} masses in its first mode", masses);
   swing.formula = "w = 2 sqrt(T / (m a)) sin(pi / (2 (N + 1)))";
   swing.source = "eigenvalues of a row of springs";
-  swing.omega = 2 * std::sqrt(tension / (kMass * kSpacing)) * std::sin(kPi / (2 * n));
+  swing.omega = 2 * std::sqrt(tension / (kMass * kSpacing)) * std::sin(std::numbers::pi / (2 * n));
   swing.rest = 3e-3;
   swing.begin = kLeadTime + 1.0;
   swing.amplitude = [n](const scenes::SceneState& state) {
     double sum = 0;
-    for (int i = 0; i <= n; ++i) sum += std::sin(kPi * i / n) * state.cloths[0].positions(1, i);
+    for (int i = 0; i <= n; ++i)
+      sum += std::sin(std::numbers::pi * i / n) * state.cloths[0].positions(1, i);
     return sum;
   };
   swing.other_frequency = stiffness_scaled(1.5);
-  const scenes::World world = theory_world(swing.begin + 5 * 2 * kPi / swing.omega,
+  const scenes::World world = theory_world(swing.begin + 5 * 2 * std::numbers::pi / swing.omega,
                                            0.25 / std::sqrt(kStiffness / kMass), 1);
   return {fmt::format("string_{}", masses), theory_scene("string", world, cloth, false),
           swing_gates(swing)};
@@ -303,12 +305,12 @@ TheoryScene string_scene(int masses) {
 TheoryScene membrane_scene(int cells) {
   constexpr double kTension = 1.0;  // per width [N/m]
   constexpr double kDensity = 0.2;  // stretched, of a square of 1 m [kg/m^2]
-  constexpr double kStiffness = kTension / kStrain;
+  constexpr double kStiffness = kTension / kMotionScenesStrain;
   scenes::Cloth cloth;
   cloth.name = "membrane";
   ClothGrid grid;
   grid.nodes = {cells + 1, cells + 1};
-  grid.size = {1 - kStrain, 1 - kStrain};
+  grid.size = {1 - kMotionScenesStrain, 1 - kMotionScenesStrain};
   grid.stencil = GridStencil::k8Neighbour;
   grid.total_mass = kDensity;
   cloth.source = grid;
@@ -319,7 +321,8 @@ TheoryScene membrane_scene(int cells) {
       if (i > 0 && j > 0 && i < cells && j < cells) continue;
       const int node = grid_node(grid, i, j);
       const Vector3<double> from = mesh.rest_positions.col(node);
-      cloth.moving_pins.push_back(led_node(node, from, from / (1 - kStrain), kLeadTime));
+      cloth.moving_pins.push_back(
+          led_node(node, from, from / (1 - kMotionScenesStrain), kLeadTime));
     }
   }
   cloth.velocity = {0, kSideways, 0};
@@ -333,21 +336,23 @@ TheoryScene membrane_scene(int cells) {
   swing.formula = "w^2 = 8 T / (rho a^2) sin^2(pi a / (2 L))";
   swing.source = "eigenvalues of a net of springs";
   const double cell = 1.0 / cells;
-  swing.omega = std::sqrt(8 * kTension / (kDensity * cell * cell)) * std::sin(kPi / (2 * cells));
+  swing.omega =
+      std::sqrt(8 * kTension / (kDensity * cell * cell)) * std::sin(std::numbers::pi / (2 * cells));
   swing.rest = 3e-3;
   swing.begin = kLeadTime + 1.0;
   swing.amplitude = [grid, cells](const scenes::SceneState& state) {
     double sum = 0;
     for (int j = 0; j <= cells; ++j) {
       for (int i = 0; i <= cells; ++i) {
-        sum += std::sin(kPi * i / cells) * std::sin(kPi * j / cells) *
+        sum += std::sin(std::numbers::pi * i / cells) * std::sin(std::numbers::pi * j / cells) *
                state.cloths[0].positions(1, grid_node(grid, i, j));
       }
     }
     return sum;
   };
   swing.other_frequency = stiffness_scaled(1.5);
-  const scenes::World world = theory_world(swing.begin + 5 * 2 * kPi / swing.omega, 1.0 / 600, 1);
+  const scenes::World world =
+      theory_world(swing.begin + 5 * 2 * std::numbers::pi / swing.omega, 1.0 / 600, 1);
   return {fmt::format("membrane_{}", cells), theory_scene("membrane", world, cloth, false),
           swing_gates(swing)};
 }
@@ -381,7 +386,8 @@ TheoryScene beam_scene(int cells) {
     return state.cloths[0].positions.row(1).dot(mode);
   };
   swing.other_frequency = law_scaled("rigidity +50 %", "hinge_torsion", "rigidity", 1.5);
-  const scenes::World world = theory_world(6 * 2 * kPi / swing.omega, strip_step(strip), 1);
+  const scenes::World world =
+      theory_world(6 * 2 * std::numbers::pi / swing.omega, strip_step(strip), 1);
   return {fmt::format("beam_{}", cells), theory_scene("beam", world, cloth, false),
           swing_gates(swing)};
 }

@@ -99,7 +99,7 @@ TheoryScene catenary_scene(const Cable& cable) {
 }
 
 /// dp R0 / k of a triangular lattice of springs, stretched by 1 + e.
-double lattice_load(double e) {
+double load_of_lattice(double e) {
   return 2 * std::sqrt(3.0) * e / ((1 + e) * (1 + e));
 }
 
@@ -129,7 +129,7 @@ TheoryScene balloon_scene(double target) {
   cloth.source = ball;
   forces::LawSpecification tension = tension_law(kStiffness);
   tension.sets = {"stretch"};
-  const double pressure = lattice_load(target) * kStiffness / kRadius * std::pow(1 + target, 3);
+  const double pressure = load_of_lattice(target) * kStiffness / kRadius * std::pow(1 + target, 3);
   cloth.laws = {tension, {"pressure", {}, {{"pressure", {pressure}}}}, velocity_damping_law(kRate)};
   const ClothMesh mesh = make_mesh(cloth);
   const double rest = volume_of(mesh.rest_positions, mesh.triangles);

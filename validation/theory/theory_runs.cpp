@@ -12,10 +12,6 @@
 namespace weft::validation {
 namespace {
 
-constexpr auto kFloat32 = scenes::StoredPrecision::kFloat32;
-constexpr auto kFloat64 = scenes::StoredPrecision::kFloat64;
-const EngineChoice kReference{"reference", kFloat64};
-
 /// The scene as this engine takes it. Bullet rounds its step to single precision, and so do the others here; numbers of steps
 /// stay.
 scenes::Scene scene_for(const TheoryScene& theory, const TheoryEngine& engine) {

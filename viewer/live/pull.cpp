@@ -7,7 +7,7 @@
 namespace weft::viewer {
 namespace {
 
-constexpr double kStandardGravity = 9.81;  // [m/s^2]
+constexpr double kPullGravity = 9.81;  // [m/s^2]
 constexpr double kLargestInWeights = 3.0;
 /// Part of m / h^2 that the spring has, which an explicit step takes without ringing.
 constexpr double kStiffnessShare = 0.1;
@@ -45,7 +45,7 @@ double WindowForces::pull_force() const {
 }
 
 double WindowForces::largest_force(std::size_t cloth) const {
-  return kLargestInWeights * kStandardGravity * meshes_.at(cloth).masses.sum();
+  return kLargestInWeights * kPullGravity * meshes_.at(cloth).masses.sum();
 }
 
 void WindowForces::steer(const scenes::SceneState& state, double /*end_time*/,

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <weft/custom_forces/registry.hpp>
+
 namespace weft::viewer {
 namespace {
 

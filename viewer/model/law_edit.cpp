@@ -11,7 +11,7 @@ namespace weft::viewer {
 namespace {
 
 /// Laws do not act on a cloth that the bones of a character lead.
-bool is_simulated(const scenes::Cloth& cloth) {
+bool has_laws(const scenes::Cloth& cloth) {
   const auto* skin = std::get_if<scenes::SkinSource>(&cloth.source);
   return skin == nullptr || skin->is_cloth;
 }
@@ -35,7 +35,7 @@ void add_to(forces::LawSpecification& law, std::string_view name, const Vector3<
 }
 
 /// The next of 1, 2, 5 times a power of ten that is not smaller.
-double round_up(double value) {
+double round_up_to_digit(double value) {
   const double power = std::pow(10.0, std::floor(std::log10(value)));
   for (const double digit : {1.0, 2.0, 5.0}) {
     if (value <= digit * power * (1.0 + 1e-12)) return digit * power;
@@ -50,7 +50,7 @@ std::vector<Parameter> parameters_of(const scenes::Scene& scene) {
   std::vector<Parameter> list;
   for (std::size_t c = 0; c < scene.cloths.size(); ++c) {
     const scenes::Cloth& cloth = scene.cloths[c];
-    if (!is_simulated(cloth)) continue;
+    if (!has_laws(cloth)) continue;
     for (std::size_t l = 0; l < cloth.laws.size(); ++l) {
       const forces::LawInfo* info = forces::find_law(cloth.laws[l].law);
       if (info == nullptr) continue;
@@ -83,14 +83,15 @@ void set_parameter(scenes::Scene& scene, const Parameter& parameter, double valu
 
 SliderRange slider_range(const Parameter& parameter) {
   if (parameter.is_vector) {
-    const double reach = std::max(20.0, round_up(std::max(std::abs(parameter.value), 1e-9)));
+    const double reach =
+        std::max(20.0, round_up_to_digit(std::max(std::abs(parameter.value), 1e-9)));
     return {-reach, reach, false};
   }
   if (parameter.maximum <= 10.0) {
     return {std::max(parameter.minimum, -10.0), parameter.maximum, false};
   }
   if (parameter.value <= 0.0) return {std::max(parameter.minimum, 0.0), 1.0, false};
-  const double high = round_up(100.0 * parameter.value);
+  const double high = round_up_to_digit(100.0 * parameter.value);
   return {std::max(parameter.minimum, 1e-4 * high), std::min(parameter.maximum, high), true};
 }
 
@@ -115,7 +116,7 @@ Vector3<double> gravity_of(const scenes::Scene& scene) {
 int add_wind(scenes::Scene& scene, const Vector3<double>& velocity) {
   int num_cloths = 0;
   for (scenes::Cloth& cloth : scene.cloths) {
-    if (!is_simulated(cloth) || std::holds_alternative<Rope>(cloth.source)) continue;
+    if (!has_laws(cloth) || std::holds_alternative<Rope>(cloth.source)) continue;
     forces::LawSpecification* law = find_law(cloth, "wind");
     if (law == nullptr) {
       law = &cloth.laws.emplace_back(

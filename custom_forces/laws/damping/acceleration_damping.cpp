@@ -6,7 +6,7 @@
 namespace weft::forces {
 namespace {
 
-constexpr ParameterInfo kParameters[] = {
+constexpr ParameterInfo kAccelerationDampingParameters[] = {
     {.name = "beta", .symbol = "beta", .unit = "1", .summary = "added inertia over mass"},
 };
 
@@ -23,7 +23,7 @@ const LawInfo AccelerationDamping<Scalar>::kInfo{
                .ignores_rigid_motion = true,
                .free_at_rest = true,
                .level = LawTraits::Level::kInertia},
-    .parameters = kParameters};
+    .parameters = kAccelerationDampingParameters};
 
 template <class Scalar>
 AccelerationDamping<Scalar>::AccelerationDamping(const LawSpecification& specification,

@@ -5,7 +5,7 @@
 namespace weft::forces {
 namespace {
 
-constexpr ParameterInfo kParameters[] = {
+constexpr ParameterInfo kRotationDampingParameters[] = {
     {.name = "rate",
      .symbol = "rate",
      .unit = "1/s",
@@ -22,7 +22,7 @@ const LawInfo RotationDamping<Scalar>::kInfo{
     .source = "own derivation: a torque against the angular momentum, shared out as a rigid motion",
     .checked_by = "cases rotation_damping, damped_hang; tests RotationDamping.*",
     .traits = {.free_at_rest = true, .dissipative = true, .level = LawTraits::Level::kVelocity},
-    .parameters = kParameters};
+    .parameters = kRotationDampingParameters};
 
 template <class Scalar>
 RotationDamping<Scalar>::RotationDamping(const LawSpecification& specification,

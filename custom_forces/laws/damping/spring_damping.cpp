@@ -5,7 +5,7 @@
 namespace weft::forces {
 namespace {
 
-constexpr ParameterInfo kParameters[] = {
+constexpr ParameterInfo kSpringDampingParameters[] = {
     {.name = "damping", .symbol = "c", .unit = "N*s/m", .summary = "damping along the edge"},
 };
 

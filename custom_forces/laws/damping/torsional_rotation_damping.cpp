@@ -5,7 +5,7 @@
 namespace weft::forces {
 namespace {
 
-constexpr ParameterInfo kParameters[] = {
+constexpr ParameterInfo kTorsionalRotationDampingParameters[] = {
     {.name = "rate",
      .symbol = "rate",
      .unit = "1/s",
@@ -26,7 +26,7 @@ const LawInfo TorsionalRotationDamping<Scalar>::kInfo{
                .free_at_rest = true,
                .dissipative = true,
                .level = LawTraits::Level::kVelocity},
-    .parameters = kParameters};
+    .parameters = kTorsionalRotationDampingParameters};
 
 template <class Scalar>
 TorsionalRotationDamping<Scalar>::TorsionalRotationDamping(const LawSpecification& specification,

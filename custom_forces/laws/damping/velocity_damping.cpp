@@ -8,7 +8,7 @@
 namespace weft::forces {
 namespace {
 
-constexpr ParameterInfo kParameters[] = {
+constexpr ParameterInfo kVelocityDampingParameters[] = {
     {.name = "rate", .symbol = "gamma", .unit = "1/s", .summary = "decay rate of the velocity"},
 };
 
@@ -25,7 +25,7 @@ const LawInfo VelocityDamping<Scalar>::kInfo{
                .dissipative = true,
                .is_pointwise = true,
                .level = LawTraits::Level::kVelocity},
-    .parameters = kParameters};
+    .parameters = kVelocityDampingParameters};
 
 template <class Scalar>
 VelocityDamping<Scalar>::VelocityDamping(const LawSpecification& specification, const ClothMesh&)

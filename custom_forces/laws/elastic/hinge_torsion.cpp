@@ -13,7 +13,7 @@
 namespace weft::forces {
 namespace {
 
-constexpr ParameterInfo kParameters[] = {
+constexpr ParameterInfo kHingeTorsionParameters[] = {
     {.name = "rigidity", .symbol = "D", .unit = "N*m", .summary = "plate rigidity"},
     {.name = "clamp_factor",
      .symbol = "factor",

@@ -14,7 +14,7 @@
 namespace weft::forces {
 namespace {
 
-constexpr ParameterInfo kParameters[] = {
+constexpr ParameterInfo kNonlocalTorsionParameters[] = {
     {.name = "stiffness", .symbol = "kappa", .unit = "N*m/rad", .summary = "torque per angle"},
 };
 
@@ -84,7 +84,7 @@ const LawInfo NonlocalTorsion<Scalar>::kInfo{
                .free_at_rest = true,
                .has_energy = true,
                .elements = ElementKind::kConnections},
-    .parameters = kParameters};
+    .parameters = kNonlocalTorsionParameters};
 
 template <class Scalar>
 auto NonlocalTorsion<Scalar>::elements(const LawSpecification& specification, const ClothMesh& mesh)

@@ -5,7 +5,7 @@
 namespace weft::forces {
 namespace {
 
-constexpr ParameterInfo kParameters[] = {
+constexpr ParameterInfo kTensionParameters[] = {
     {.name = "stiffness", .symbol = "k", .unit = "N/m", .summary = "spring stiffness"},
     {.name = "compression_ratio",
      .symbol = "ratio",

@@ -14,7 +14,7 @@
 namespace weft::forces {
 namespace {
 
-constexpr ParameterInfo kParameters[] = {
+constexpr ParameterInfo kTorsionParameters[] = {
     {.name = "stiffness",
      .symbol = "k",
      .unit = "N/(m*rad)",

@@ -7,7 +7,7 @@
 namespace weft::forces {
 namespace {
 
-constexpr ParameterInfo kParameters[] = {
+constexpr ParameterInfo kDriveParameters[] = {
     {.name = "stiffness",
      .symbol = "k",
      .unit = "N/m",
@@ -49,7 +49,7 @@ const LawInfo Drive<Scalar>::kInfo{
     .source = "proportional-derivative control of positions",
     .checked_by = "tests Drive.*",
     .traits = {.elements = ElementKind::kNodeSets},
-    .parameters = kParameters};
+    .parameters = kDriveParameters};
 
 template <class Scalar>
 Drive<Scalar>::Drive(const LawSpecification& specification, const ClothMesh& mesh)

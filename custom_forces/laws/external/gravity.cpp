@@ -6,7 +6,7 @@
 namespace weft::forces {
 namespace {
 
-constexpr ParameterInfo kParameters[] = {
+constexpr ParameterInfo kGravityParameters[] = {
     {.name = "acceleration",
      .symbol = "g",
      .unit = "m/s^2",

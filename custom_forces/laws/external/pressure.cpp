@@ -12,7 +12,7 @@
 namespace weft::forces {
 namespace {
 
-constexpr ParameterInfo kParameters[] = {
+constexpr ParameterInfo kPressureParameters[] = {
     {.name = "pressure",
      .symbol = "p0",
      .unit = "Pa",
@@ -105,7 +105,7 @@ const LawInfo Pressure<Scalar>::kInfo{
                .has_energy = true,
                .elements = ElementKind::kFaces,
                .needs_closed_surface = true},
-    .parameters = kParameters};
+    .parameters = kPressureParameters};
 
 template <class Scalar>
 Pressure<Scalar>::Pressure(const LawSpecification& specification, const ClothMesh& mesh)

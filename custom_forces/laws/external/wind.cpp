@@ -9,7 +9,7 @@
 namespace weft::forces {
 namespace {
 
-constexpr ParameterInfo kParameters[] = {
+constexpr ParameterInfo kWindParameters[] = {
     {.name = "velocity", .symbol = "u", .unit = "m/s", .summary = "velocity of the air", .size = 3},
     {.name = "air_density",
      .symbol = "rho",

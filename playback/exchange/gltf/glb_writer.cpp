@@ -18,7 +18,7 @@ static_assert(std::endian::native == std::endian::little, "glTF is little-endian
 
 // Constants of the glTF 2.0 specification, sections 3.6 and 4.4.
 constexpr std::uint32_t kMagic = 0x46546C67;
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kGlbVersion = 2;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;
 constexpr int kFloat = 5126;
@@ -135,7 +135,7 @@ std::string GlbWriter::bytes() const {
   std::string file;
   file.reserve(size);
   append_word(file, kMagic);
-  append_word(file, kVersion);
+  append_word(file, kGlbVersion);
   append_word(file, static_cast<std::uint32_t>(size));
   append_chunk(file, kJsonChunk, text);
   if (!binary.empty()) append_chunk(file, kBinaryChunk, binary);

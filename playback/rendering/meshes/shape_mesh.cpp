@@ -8,7 +8,6 @@
 namespace weft::scenes {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kColumns = 96;  // around an axis
 
 /// A point of a profile that is turned around the y axis.
@@ -24,7 +23,7 @@ SurfaceMesh revolved(const std::vector<ProfilePoint>& profile) {
   const int rows = static_cast<int>(profile.size()) - 1;
   append_patch(mesh, kColumns, rows, [&](double u, double v) {
     const ProfilePoint& point = profile[static_cast<std::size_t>(std::lround(v * rows))];
-    const double angle = -2.0 * kPi * u;
+    const double angle = -2.0 * std::numbers::pi * u;
     const Vector3<double> out(std::cos(angle), 0.0, std::sin(angle));
     const Vector3<double> up = Vector3<double>::UnitY();
     return body_vertex(point.radius * out + point.height * up,
@@ -37,7 +36,7 @@ SurfaceMesh revolved(const std::vector<ProfilePoint>& profile) {
 void append_disk(SurfaceMesh& mesh, double radius, double height, double side) {
   constexpr int kRings = 8;
   append_patch(mesh, kColumns, kRings, [&](double u, double v) {
-    const double angle = side * -2.0 * kPi * u;
+    const double angle = side * -2.0 * std::numbers::pi * u;
     const double distance = (1.0 - v) * radius;
     const Vector3<double> place(distance * std::cos(angle), height, distance * std::sin(angle));
     return body_vertex(place, side * Vector3<double>::UnitY(),
@@ -60,13 +59,13 @@ SurfaceMesh capsule_surface(double radius, double half_height) {
                        std::cos(latitude), std::sin(latitude)});
   };
   for (int i = 0; i <= kRows / 2; ++i)
-    add(kPi * (static_cast<double>(i) / kRows - 0.5), -half_height);
+    add(std::numbers::pi * (static_cast<double>(i) / kRows - 0.5), -half_height);
   if (half_height > 0.0) {
     for (int i = 1; i < kStraight; ++i) add(0.0, half_height * (2.0 * i / kStraight - 1.0));
     add(0.0, half_height);
   }
   for (int i = kRows / 2 + 1; i <= kRows; ++i) {
-    add(kPi * (static_cast<double>(i) / kRows - 0.5), half_height);
+    add(std::numbers::pi * (static_cast<double>(i) / kRows - 0.5), half_height);
   }
   return revolved(profile);
 }

@@ -14,8 +14,6 @@ namespace {
 using Light = Eigen::Vector3f;  // linear light
 using Place = Eigen::Vector2d;  // u, v from 0 to 1
 
-constexpr double kPi = std::numbers::pi;
-
 /// Samples per pixel and axis: edges without stairs.
 constexpr int kSamples = 3;
 
@@ -90,7 +88,8 @@ Light flowers(const Place& p, double cell, const Light& field, const Inks& inks)
   const Place place(fraction(q.x() + odd) - 0.5, fraction(q.y()) - 0.5);
   if (place.norm() < 0.09) return inks.dark;
   if (rosette(place, 0.28, 4) < 0.0) return inks.figure;
-  const double vine = std::abs(place.y() + 0.18 * std::sin(2.0 * kPi * (place.x() + 0.25)));
+  const double vine =
+      std::abs(place.y() + 0.18 * std::sin(2.0 * std::numbers::pi * (place.x() + 0.25)));
   if (vine < 0.035) return 0.55f * inks.figure + 0.45f * field;
   return field;
 }
@@ -118,7 +117,7 @@ Light carpet(const Place& p, const Inks& inks) {
     const Place q(fold(10.0 * along) / 10.0, rim - 0.080);
     if (q.norm() < 0.009) return inks.ground;
     if (rosette(q, 0.034, 6) < 0.0) return inks.figure;
-    const double wave = 0.026 * std::cos(20.0 * kPi * along);
+    const double wave = 0.026 * std::cos(20.0 * std::numbers::pi * along);
     if (std::abs(q.y() + wave) < 0.004) return inks.pale;
     return inks.dark;
   }
@@ -156,8 +155,8 @@ Light eyeball(const Place& p, const Inks& inks) {
   // Fine veins that come from behind and end before the iris.
   const double wander =
       around + 0.05 * std::sin(angle / 5.0) + 0.03 * std::sin(angle / 2.3 + 4.0 * around);
-  const double vein =
-      fold(wander * 9.0 / (2.0 * kPi)) / 9.0 * 360.0 * std::sin(angle * kPi / 180.0);
+  const double vein = fold(wander * 9.0 / (2.0 * std::numbers::pi)) / 9.0 * 360.0 *
+                      std::sin(angle * std::numbers::pi / 180.0);
   const double strength = std::clamp((angle - 52.0) / 70.0, 0.0, 1.0);
   const auto red = static_cast<float>(vein < 0.4 + 1.6 * strength ? 0.55 * strength : 0.0);
   const auto edge = static_cast<float>(std::clamp((angle - kIris) / 4.0, 0.0, 1.0));

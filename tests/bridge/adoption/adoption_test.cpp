@@ -37,7 +37,7 @@ double height(const btSoftBody& body, int node) {
   return static_cast<double>(body.m_nodes[node].m_x.y());
 }
 
-void add_floor(PlainWorld& world) {
+void add_ground(PlainWorld& world) {
   world.add_rigid(std::make_unique<btBoxShape>(vector(20, 1, 20)), 0, vector(0, -1, 0));
 }
 
@@ -132,7 +132,7 @@ TEST(Adoption, TakesWhatBulletsConstructorsMake) {
           << maker.name;
     });
     PlainWorld world(&solver);
-    add_floor(world);
+    add_ground(world);
     btSoftBody& body = *world.add(maker.make(world.world.getWorldInfo()));
     run(world, 180);
     EXPECT_EQ(num_told, 1) << maker.name;
@@ -305,7 +305,7 @@ TEST(Adoption, WhatCannotBeAdoptedIsReportedOnceAndStaysBullets) {
   });
   PlainWorld world(&solver);
   PlainWorld plain(nullptr);
-  for (PlainWorld* each : {&world, &plain}) add_floor(*each);
+  for (PlainWorld* each : {&world, &plain}) add_ground(*each);
   btSoftBody& body = *world.add(make_posed(world.world.getWorldInfo()));
   btSoftBody& same = *plain.add(make_posed(plain.world.getWorldInfo()));
   run(world, 60);

@@ -11,12 +11,13 @@
 namespace weft::bridge {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<btScalar>::epsilon();
-constexpr double kTimeStep = 1.0 / 128;  // [s] exact in single precision
+constexpr double kDampingPlaceEpsilon = std::numeric_limits<btScalar>::epsilon();
+constexpr double kDampingPlaceTimeStep = 1.0 / 128;  // [s] exact in single precision
 /// Bullet derives velocities from positions of 1 m: an error of eps x / h per step.
-constexpr double kVelocityNoise = 2 * kEpsilon / kTimeStep;  // [m/s]
+constexpr double kVelocityNoise = 2 * kDampingPlaceEpsilon / kDampingPlaceTimeStep;  // [m/s]
 
-forces::LawSpecification law(const std::string& id, const std::string& parameter, double value) {
+forces::LawSpecification damping_law(const std::string& id, const std::string& parameter,
+                                     double value) {
   return {id, {}, {{parameter, {value}}}};
 }
 
@@ -38,7 +39,7 @@ class Scene {
     world_.solver().attach(*body_, mesh, laws, place);
   }
 
-  void step(int num_steps = 1, double time_step = kTimeStep) {
+  void step(int num_steps = 1, double time_step = kDampingPlaceTimeStep) {
     for (int i = 0; i < num_steps; ++i) world_.step(time_step);
   }
   [[nodiscard]] btSoftBody& body() { return *body_; }
@@ -98,8 +99,10 @@ Matrix3X<double> tumbling(const ClothMesh& mesh) {
 double spin_error(DampingPlace place, double factor_per_step) {
   constexpr int kNumSteps = 128;
   const ClothMesh mesh = lopsided_cloth();
-  Scene scene(mesh, {law("tension", "stiffness", 5.0), law("rotation_damping", "rate", 2.0)},
-              place);
+  Scene scene(
+      mesh,
+      {damping_law("tension", "stiffness", 5.0), damping_law("rotation_damping", "rate", 2.0)},
+      place);
   scene.set_velocities(tumbling(mesh));
   const Vector3<double> start = scene.spin_momentum();
   scene.step(kNumSteps);
@@ -108,7 +111,7 @@ double spin_error(DampingPlace place, double factor_per_step) {
 }
 
 TEST(DampingPlace, RotationDecaysByTheExactFactorAfterTheProjection) {
-  const double factor = std::exp(-2.0 * kTimeStep);
+  const double factor = std::exp(-2.0 * kDampingPlaceTimeStep);
   const double tolerance = 100 * kVelocityNoise;  // 128 steps of noise of about 1 m/s
   EXPECT_LT(spin_error(DampingPlace::kAutomatic, factor), tolerance);
   EXPECT_LT(spin_error(DampingPlace::kAfterProjection, factor), tolerance);
@@ -116,8 +119,10 @@ TEST(DampingPlace, RotationDecaysByTheExactFactorAfterTheProjection) {
 
 TEST(DampingPlace, RotationDecaysByTheEulerFactorBeforeTheIntegration) {
   const double tolerance = 100 * kVelocityNoise;
-  EXPECT_LT(spin_error(DampingPlace::kBeforeIntegration, 1 - 2.0 * kTimeStep), tolerance);
-  EXPECT_GT(spin_error(DampingPlace::kBeforeIntegration, std::exp(-2.0 * kTimeStep)), 1e-3);
+  EXPECT_LT(spin_error(DampingPlace::kBeforeIntegration, 1 - 2.0 * kDampingPlaceTimeStep),
+            tolerance);
+  EXPECT_GT(spin_error(DampingPlace::kBeforeIntegration, std::exp(-2.0 * kDampingPlaceTimeStep)),
+            1e-3);
 }
 
 TEST(DampingPlace, TranslationFeelsNothing) {
@@ -125,7 +130,7 @@ TEST(DampingPlace, TranslationFeelsNothing) {
   for (const char* id : {"rotation_damping", "torsional_rotation_damping"}) {
     for (const DampingPlace place :
          {DampingPlace::kBeforeIntegration, DampingPlace::kAfterProjection}) {
-      Scene scene(mesh, {law(id, "rate", 2.0)}, place);
+      Scene scene(mesh, {damping_law(id, "rate", 2.0)}, place);
       const Matrix3X<double> v = Vector3<double>(0.5, -0.3, 0.2).replicate(1, mesh.num_nodes());
       scene.set_velocities(v);
       scene.step(64);
@@ -137,7 +142,8 @@ TEST(DampingPlace, TranslationFeelsNothing) {
 TEST(DampingPlace, TheSpinOfABodyDoesNotFeelTorsionalDamping) {
   const ClothMesh mesh = lopsided_cloth();
   Scene scene(mesh,
-              {law("tension", "stiffness", 5.0), law("torsional_rotation_damping", "rate", 2.0)},
+              {damping_law("tension", "stiffness", 5.0),
+               damping_law("torsional_rotation_damping", "rate", 2.0)},
               DampingPlace::kAutomatic);
   scene.set_velocities(tumbling(mesh));
   const Vector3<double> spin = scene.spin_momentum();
@@ -156,7 +162,9 @@ double phase_per_step(double beta) {
   mesh.triangles.resize(3, 0);
   mesh.edge_sets.push_back({"spring", Edges{{0}, {1}}});
   mesh.masses = Eigen::Vector2d(0.1, 0.3);
-  Scene scene(mesh, {law("tension", "stiffness", 100.0), law("acceleration_damping", "beta", beta)},
+  Scene scene(mesh,
+              {damping_law("tension", "stiffness", 100.0),
+               damping_law("acceleration_damping", "beta", beta)},
               DampingPlace::kAutomatic);
   scene.body().m_nodes[1].m_x.setX(btScalar(0.6));
   std::vector<double> d;
@@ -174,9 +182,9 @@ double phase_per_step(double beta) {
 }
 
 TEST(DampingPlace, AddedInertiaMakesPeriodsLonger) {
-  const double half = 0.5 * kTimeStep * std::sqrt(100.0 / 0.075);  // of omega h [-]
+  const double half = 0.5 * kDampingPlaceTimeStep * std::sqrt(100.0 / 0.075);  // of omega h [-]
   // 1000: rounding of positions relative to the elongation, over the square of the phase.
-  const double tolerance = 1000 * kEpsilon;
+  const double tolerance = 1000 * kDampingPlaceEpsilon;
   for (const double beta : {0.0, 0.5, 1.0, 3.0}) {
     const double exact = 2 * std::asin(half / std::sqrt(1 + beta));
     EXPECT_NEAR(phase_per_step(beta) / exact, 1.0, tolerance) << "beta " << beta;
@@ -189,7 +197,9 @@ bool is_stable(double beta, double time_step) {
   constexpr double kDisturbance = 1e-4;  // [m]
   constexpr double kGrown = 1e-2;        // [m]
   const ClothMesh mesh = cloth(6);
-  Scene scene(mesh, {law("tension", "stiffness", 200.0), law("acceleration_damping", "beta", beta)},
+  Scene scene(mesh,
+              {damping_law("tension", "stiffness", 200.0),
+               damping_law("acceleration_damping", "beta", beta)},
               DampingPlace::kAutomatic);
   for (int i = 0; i < mesh.num_nodes(); ++i) {
     scene.body().m_nodes[i].m_x += btVector3(btScalar(kDisturbance * std::sin(7.0 * i + 1)), 0,
@@ -229,9 +239,9 @@ TEST(DampingPlace, AClothExplodesWithoutAddedInertiaAndComesToRestWithIt) {
   const auto hang = [&](double beta, int num_steps) {
     auto scene = std::make_unique<Scene>(
         mesh,
-        std::vector<forces::LawSpecification>{law("tension", "stiffness", 200.0),
-                                              law("velocity_damping", "rate", 4.0),
-                                              law("acceleration_damping", "beta", beta),
+        std::vector<forces::LawSpecification>{damping_law("tension", "stiffness", 200.0),
+                                              damping_law("velocity_damping", "rate", 4.0),
+                                              damping_law("acceleration_damping", "beta", beta),
                                               {"gravity", {}, {{"acceleration", {0, -9.81, 0}}}}},
         DampingPlace::kAutomatic);
     scene->step(num_steps, time_step);
@@ -251,14 +261,14 @@ TEST(DampingPlace, FreeFallIsTheSameAtEveryPlace) {
   const auto drop = [&](DampingPlace place, double beta) {
     Scene scene(mesh,
                 {{"gravity", {}, {{"acceleration", {0, -9.81, 0}}}},
-                 law("acceleration_damping", "beta", beta)},
+                 damping_law("acceleration_damping", "beta", beta)},
                 place);
     scene.step(64);
     return scene.positions();
   };
   const Matrix3X<double> expected = drop(DampingPlace::kAutomatic, 0.0);
   // eps x / h per step in velocity, twice summed over 64 steps.
-  const double tolerance = 64 * 64 * kEpsilon;
+  const double tolerance = 64 * 64 * kDampingPlaceEpsilon;
   for (const DampingPlace place :
        {DampingPlace::kBeforeIntegration, DampingPlace::kAfterProjection}) {
     EXPECT_LT((drop(place, 2.0) - expected).cwiseAbs().maxCoeff(), tolerance);
@@ -268,7 +278,7 @@ TEST(DampingPlace, FreeFallIsTheSameAtEveryPlace) {
 ClothSettings with_links() {
   ClothSettings settings;
   settings.links = {{{}, 100.0}};
-  settings.time_step = kTimeStep;
+  settings.time_step = kDampingPlaceTimeStep;
   return settings;
 }
 
@@ -285,7 +295,7 @@ TEST(DampingPlace, InertiaAfterTheProjectionDividesTheChangeOfVelocity) {
     return std::pair{scene.positions(), scene.velocities()};
   };
   const auto [x_plain, v_plain] = step({});
-  const auto [x, v] = step({law("acceleration_damping", "beta", kBeta)});
+  const auto [x, v] = step({damping_law("acceleration_damping", "beta", kBeta)});
   EXPECT_EQ(x, x_plain);
   Matrix3X<double> start = tumbling(mesh);
   start.col(0).setZero();
@@ -297,15 +307,16 @@ TEST(DampingPlace, InertiaAfterTheProjectionDividesTheChangeOfVelocity) {
   Matrix3X<double> expected = start;
   expected.rightCols(n).colwise() += mean * (1 - 1 / (1 + kBeta));
   expected.rightCols(n) += change.rightCols(n) / (1 + kBeta);
-  EXPECT_LT((v - expected).cwiseAbs().maxCoeff(), 16 * kEpsilon);
+  EXPECT_LT((v - expected).cwiseAbs().maxCoeff(), 16 * kDampingPlaceEpsilon);
 }
 
 TEST(DampingPlace, AutomaticIsAfterTheProjectionForABodyWithLinks) {
   const ClothMesh mesh = lopsided_cloth();
   const auto end = [&](DampingPlace place, const ClothSettings& settings) {
     Scene scene(mesh,
-                {law("spring_damping", "damping", 0.05), law("acceleration_damping", "beta", 1.0),
-                 law("torsional_rotation_damping", "rate", 3.0)},
+                {damping_law("spring_damping", "damping", 0.05),
+                 damping_law("acceleration_damping", "beta", 1.0),
+                 damping_law("torsional_rotation_damping", "rate", 3.0)},
                 place, settings);
     scene.set_velocities(tumbling(mesh));
     scene.step(16);

@@ -13,7 +13,7 @@
 namespace weft::bridge {
 namespace {
 
-constexpr double kTimeStep = 1.0 / 128;  // [s] exact in single precision
+constexpr double kDeferredTimeStep = 1.0 / 128;  // [s] exact in single precision
 constexpr int kNumSteps = 100;
 
 const std::vector<forces::LawSpecification> kLaws = {
@@ -40,7 +40,7 @@ class FallingCloth {
     world_.solver().set_deferred(is_deferred);
   }
 
-  void step() { world_.step(kTimeStep); }
+  void step() { world_.step(kDeferredTimeStep); }
   [[nodiscard]] btSoftBody& body() { return *body_; }
   [[nodiscard]] SoftWorld& world() { return world_; }
   [[nodiscard]] const ClothMesh& mesh() const { return mesh_; }
@@ -125,11 +125,11 @@ TEST(Deferred, ABodyMayBeDetachedOrDeletedInFlight) {
     auto body = make_cloth_body(world.info(), cloth.mesh(), {});
     world.world().addSoftBody(body.get());
     world.solver().attach(*body, cloth.mesh(), kLaws);
-    world.step(kTimeStep);
+    world.step(kDeferredTimeStep);
     world.world().removeSoftBody(body.get());
     body.reset();             // its forces are in flight
     if (repetition % 2 == 0)  // else the solver goes with them
-      world.step(kTimeStep);
+      world.step(kDeferredTimeStep);
   }
 }
 

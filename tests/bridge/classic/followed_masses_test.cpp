@@ -11,10 +11,11 @@
 namespace weft::bridge {
 namespace {
 
-constexpr double kTimeStep = 1.0 / 128;  // [s] exact in single precision
-constexpr double kStiffness = 500.0;     // [N/m]
-const forces::LawSpecification kGravity{"gravity", {}, {{"acceleration", {0.0, -9.81, 0.0}}}};
-const forces::LawSpecification kSpring{"tension", {}, {{"stiffness", {kStiffness}}}};
+constexpr double kFollowedMassesTimeStep = 1.0 / 128;  // [s] exact in single precision
+constexpr double kStiffness = 500.0;                   // [N/m]
+const forces::LawSpecification kFollowedMassesGravity{
+    "gravity", {}, {{"acceleration", {0.0, -9.81, 0.0}}}};
+const forces::LawSpecification kFollowedMassesSpring{"tension", {}, {{"stiffness", {kStiffness}}}};
 const forces::LawSpecification kDrag{"velocity_damping", {}, {{"rate", {8.0}}}};
 
 /// 1 m long, with 1 kg at each of its ends; the upper one is pinned.
@@ -37,7 +38,7 @@ const Change kChanges[] = {[](btSoftBody& body) { body.setMass(1, 10); },
                            [](btSoftBody& body) { body.setTotalMass(10); }};
 
 double sag(SoftWorld& world, const btSoftBody& body, double time) {
-  for (double t = 0; t < time; t += kTimeStep) world.step(kTimeStep);
+  for (double t = 0; t < time; t += kFollowedMassesTimeStep) world.step(kFollowedMassesTimeStep);
   return -1.0 - static_cast<double>(body.m_nodes[1].m_x.y());
 }
 
@@ -45,7 +46,8 @@ TEST(FollowedMasses, FastBodyHangsByItsPresentWeight) {
   for (const Change change : kChanges) {
     SoftWorld world({});
     btSoftBody& body = world.add(make_cloth_body(world.info(), pendulum(), {}));
-    ASSERT_FALSE(world.solver().attach_fast(body, pendulum(), {kSpring, kGravity, kDrag},
+    ASSERT_FALSE(world.solver().attach_fast(body, pendulum(),
+                                            {kFollowedMassesSpring, kFollowedMassesGravity, kDrag},
                                             {.may_sleep = false}));
     EXPECT_NEAR(sag(world, body, 4), 9.81 / kStiffness, 1e-4);
     change(body);
@@ -58,7 +60,7 @@ TEST(FollowedMasses, FastBodyHangsByItsPresentWeightUnderBulletsGravity) {
   SoftWorld world({});
   world.info().m_gravity.setValue(0, btScalar(-9.81), 0);
   btSoftBody& body = world.add(make_cloth_body(world.info(), pendulum(), {}));
-  ASSERT_FALSE(world.solver().attach_fast(body, pendulum(), {kSpring, kDrag}));
+  ASSERT_FALSE(world.solver().attach_fast(body, pendulum(), {kFollowedMassesSpring, kDrag}));
   EXPECT_NEAR(sag(world, body, 6), 9.81 / kStiffness, 1e-3);  // asleep by then
   body.setMass(1, 10);
   EXPECT_NEAR(sag(world, body, 4), 10 * 9.81 / kStiffness, 2e-3);
@@ -67,33 +69,34 @@ TEST(FollowedMasses, FastBodyHangsByItsPresentWeightUnderBulletsGravity) {
 TEST(FollowedMasses, ABodyFallsAsFastWithAnyMass) {
   SoftWorld world({});
   btSoftBody& body = world.add(make_cloth_body(world.info(), pendulum(), {}));
-  world.solver().attach(body, pendulum(), {kGravity});
+  world.solver().attach(body, pendulum(), {kFollowedMassesGravity});
   body.setMass(1, 10);
-  world.step(kTimeStep);
-  EXPECT_NEAR(static_cast<double>(body.m_nodes[1].m_v.y()), -9.81 * kTimeStep, 1e-4);
+  world.step(kFollowedMassesTimeStep);
+  EXPECT_NEAR(static_cast<double>(body.m_nodes[1].m_v.y()), -9.81 * kFollowedMassesTimeStep, 1e-4);
 }
 
 TEST(FollowedMasses, ABodyOfTheDeformableWorldToo) {
   DeformableWorld world({});
   btSoftBody& body = world.add(make_cloth_body(world.info(), pendulum(), {}));
-  world.forces().attach(body, pendulum(), {kGravity});
+  world.forces().attach(body, pendulum(), {kFollowedMassesGravity});
   body.setMass(1, 10);
-  world.step(kTimeStep);
-  EXPECT_NEAR(static_cast<double>(body.m_nodes[1].m_v.y()), -9.81 * kTimeStep, 1e-4);
+  world.step(kFollowedMassesTimeStep);
+  EXPECT_NEAR(static_cast<double>(body.m_nodes[1].m_v.y()), -9.81 * kFollowedMassesTimeStep, 1e-4);
 }
 
 TEST(FollowedMasses, ANodeThatWasPinnedAndLetGoHasItsMassAgain) {
   SoftWorld world({});
   btSoftBody& body = world.add(make_cloth_body(world.info(), pendulum(), {}));
-  world.solver().attach(body, pendulum(), {kGravity});
+  world.solver().attach(body, pendulum(), {kFollowedMassesGravity});
   body.m_nodes[1].m_im = 0;
-  world.step(kTimeStep);
+  world.step(kFollowedMassesTimeStep);
   EXPECT_EQ(body.m_nodes[1].m_v.y(), btScalar(0));
   body.m_nodes[1].m_im = btScalar(0.5);
   body.m_nodes[0].m_im = 1;
-  world.step(kTimeStep);
+  world.step(kFollowedMassesTimeStep);
   for (int i = 0; i < 2; ++i) {
-    EXPECT_NEAR(static_cast<double>(body.m_nodes[i].m_v.y()), -9.81 * kTimeStep, 1e-4) << i;
+    EXPECT_NEAR(static_cast<double>(body.m_nodes[i].m_v.y()), -9.81 * kFollowedMassesTimeStep, 1e-4)
+        << i;
   }
 }
 
@@ -103,13 +106,14 @@ TEST(FollowedMasses, AMassThatIsNoneIsReported) {
       SoftWorld world({});
       btSoftBody& body = world.add(make_cloth_body(world.info(), pendulum(), {}));
       if (is_fast) {
-        ASSERT_FALSE(world.solver().attach_fast(body, pendulum(), {kSpring, kGravity}));
+        ASSERT_FALSE(world.solver().attach_fast(body, pendulum(),
+                                                {kFollowedMassesSpring, kFollowedMassesGravity}));
       } else {
-        world.solver().attach(body, pendulum(), {kGravity});
+        world.solver().attach(body, pendulum(), {kFollowedMassesGravity});
       }
-      world.step(kTimeStep);
+      world.step(kFollowedMassesTimeStep);
       body.m_nodes[1].m_im = static_cast<btScalar>(inverse_mass);
-      world.step(kTimeStep);
+      world.step(kFollowedMassesTimeStep);
       const auto blow_up = world.solver().blow_up(body);
       ASSERT_TRUE(blow_up) << inverse_mass;
       EXPECT_EQ(blow_up->node, 1);

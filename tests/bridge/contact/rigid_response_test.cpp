@@ -17,9 +17,9 @@
 namespace weft::bridge {
 namespace {
 
-constexpr double kTimeStep = 1.0 / 1000;  // [s]
-constexpr double kMargin = 0.01;          // [m]
-constexpr double kGravity = 9.81;         // [m/s^2]
+constexpr double kRigidResponseTimeStep = 1.0 / 1000;  // [s]
+constexpr double kMargin = 0.01;                       // [m]
+constexpr double kGravity = 9.81;                      // [m/s^2]
 
 /// A flat cloth along a slope through the origin, lifted [m] over where it would touch, in Bullet's world with laws.
 class Slope {
@@ -63,7 +63,7 @@ class Slope {
     }
   }
   void step(int num_steps) {
-    for (int i = 0; i < num_steps; ++i) world_.step(kTimeStep);
+    for (int i = 0; i < num_steps; ++i) world_.step(kRigidResponseTimeStep);
   }
   /// How far the middle has come [m], and how fast it is [m/s].
   [[nodiscard]] double way() const { return down_.dot(mean(0)); }
@@ -125,7 +125,8 @@ TEST(RigidResponse, StopsASlidingClothAfterItsWay) {
     EXPECT_LT(slope.largest_speed(), 1e-3);
     return std::abs(slope.way() - 1 / (2 * 0.4 * kGravity));
   };
-  EXPECT_LT(error(ContactResponse::kCoulomb), 1 * kTimeStep);  // v h of a sum over steps
+  EXPECT_LT(error(ContactResponse::kCoulomb),
+            1 * kRigidResponseTimeStep);  // v h of a sum over steps
   EXPECT_GT(error(ContactResponse::kBullet), 0.1);
 }
 

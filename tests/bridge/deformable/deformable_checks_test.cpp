@@ -15,9 +15,9 @@
 namespace weft::bridge {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<btScalar>::epsilon();
-constexpr unsigned kSeed = 7;       // Bullet draws its random directions from rand()
-constexpr double kStiffness = 3.0;  // [N/m]
+constexpr double kDeformableChecksEpsilon = std::numeric_limits<btScalar>::epsilon();
+constexpr unsigned kSeed = 7;  // Bullet draws its random directions from rand()
+constexpr double kDeformableChecksStiffness = 3.0;  // [N/m]
 
 // Bullet moves nodes by 0.1 m and then by 0.5 m and halves of it. In a cloth with springs of 10 m
 // that is a small change from the start.
@@ -45,7 +45,7 @@ std::vector<double> errors_of(void (btDeformableLagrangianForce::*check)()) {
   DeformableWorld world({});
   btSoftBody& body = world.add(make_cloth_body(world.info(), mesh, {}));
   world.forces().attach(body, mesh,
-                        {{"tension", {}, {{"stiffness", {kStiffness}}}},
+                        {{"tension", {}, {{"stiffness", {kDeformableChecksStiffness}}}},
                          {"gravity", {}, {{"acceleration", {0, -9.81, 0}}}}});
   world.solver().reinitialize(world.world().getSoftBodyArray(), btScalar(0.01));  // node numbers
   std::srand(kSeed);
@@ -71,13 +71,15 @@ void expect_third_order(const std::vector<double>& errors, double rounding) {
 
 TEST(DeformableChecks, BulletsDerivativeTestSeesThirdOrder) {
   // Stored energy: some hundred springs stretched by half a metre, and 25 kg within half a metre.
-  const double energy = 300 * kStiffness * 0.5 * 0.5 + 25 * 9.81 * 0.5;
-  expect_third_order(errors_of(&btDeformableLagrangianForce::testDerivative), energy * kEpsilon);
+  const double energy = 300 * kDeformableChecksStiffness * 0.5 * 0.5 + 25 * 9.81 * 0.5;
+  expect_third_order(errors_of(&btDeformableLagrangianForce::testDerivative),
+                     energy * kDeformableChecksEpsilon);
 }
 
 TEST(DeformableChecks, BulletsHessianTestSeesThirdOrder) {
   // Lengths of 10 m carry the rounding, times the stiffness; 25 nodes with two dozen springs each.
-  const double force_rounding = kStiffness * 10 * kEpsilon * std::sqrt(25.0 * 24.0);
+  const double force_rounding =
+      kDeformableChecksStiffness * 10 * kDeformableChecksEpsilon * std::sqrt(25.0 * 24.0);
   expect_third_order(errors_of(&btDeformableLagrangianForce::testHessian), force_rounding);
 }
 

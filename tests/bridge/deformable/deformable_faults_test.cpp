@@ -29,9 +29,9 @@ using testing::law;
 using testing::set_velocity;
 using testing::spring_chain;
 
-constexpr double kEpsilon = std::numeric_limits<btScalar>::epsilon();
+constexpr double kDeformableFaultsEpsilon = std::numeric_limits<btScalar>::epsilon();
 
-DeformableWorldSettings implicit_settings() {
+DeformableWorldSettings implicit_fault_settings() {
   DeformableWorldSettings settings;
   settings.scheme = DeformableScheme::kImplicit;
   return settings;
@@ -77,12 +77,13 @@ constexpr double kImpulse = kTimeStep * kStiffness * kPull;  // [N s]
 // Upstream fault a, in btDeformableBackwardEulerObjective::applyForce; b would add an uninitialised
 // gravity to every number here.
 TEST(DeformableFaults, ImplicitPredictionReachesTheNodeItBelongsTo) {
-  DeformableWorld world(implicit_settings());
+  DeformableWorld world(implicit_fault_settings());
   btSoftBody& body =
       add_body(world, spring_chain(4, 2), {law("tension", "stiffness", {kStiffness})});
   displace(body, 3, {btScalar(kPull), 0, 0});
   const std::vector<double> seen = predicted_velocities(world.world(), body);
-  const double tolerance = kTimeStep * kStiffness * 4 * kEpsilon;  // rounding of positions of 4 m
+  const double tolerance =
+      kTimeStep * kStiffness * 4 * kDeformableFaultsEpsilon;  // rounding of positions of 4 m
   EXPECT_EQ(seen.at(0), 0.0);
   EXPECT_EQ(seen.at(1), 0.0);
   EXPECT_NEAR(seen.at(2), kImpulse, tolerance);
@@ -90,14 +91,14 @@ TEST(DeformableFaults, ImplicitPredictionReachesTheNodeItBelongsTo) {
 }
 
 TEST(DeformableFaults, ImplicitGravityForceOfBulletMovesItsFreeNodesOnly) {
-  DeformableWorld world(implicit_settings());
+  DeformableWorld world(implicit_fault_settings());
   btSoftBody& falling = add_body(world, spring_chain(2, 1), {});
   btSoftBody& floating = add_body(world, spring_chain(2, 0), {});
   btDeformableGravityForce gravity(btVector3(-8, 0, 0));
   world.world().addForce(&falling, &gravity);
   const std::vector<double> seen = predicted_velocities(world.world(), falling);
   EXPECT_EQ(seen.at(0), 0.0);
-  EXPECT_NEAR(seen.at(1), -8 * kTimeStep, 8 * kTimeStep * kEpsilon);
+  EXPECT_NEAR(seen.at(1), -8 * kTimeStep, 8 * kTimeStep * kDeformableFaultsEpsilon);
   EXPECT_EQ(floating.m_nodes[0].m_v.x(), btScalar(0));
   world.world().removeForce(&falling, &gravity);
 }
@@ -132,7 +133,7 @@ TEST(DeformableFaults, BulletsOwnSolverCarriesTheLawsExplicitly) {
   forces.attach(*body, mesh, {law("gravity", "acceleration", {-8, 0, 0})});
   plain.world.stepSimulation(static_cast<btScalar>(kTimeStep), 0);
   EXPECT_NEAR(static_cast<double>(body->m_nodes[1].m_v.x()), -8 * kTimeStep,
-              8 * kTimeStep * kEpsilon);
+              8 * kTimeStep * kDeformableFaultsEpsilon);
   plain.world.removeSoftBody(body.get());
   forces.remove_from(solver);
 }
@@ -140,7 +141,7 @@ TEST(DeformableFaults, BulletsOwnSolverCarriesTheLawsExplicitly) {
 // Upstream fault c: "implicit not implemented", and a wrong result, without the projection.
 TEST(DeformableFaults, ImplicitStepDoesNotDependOnAForgottenProjection) {
   const auto run = [](bool projection) {
-    DeformableWorld world(implicit_settings());
+    DeformableWorld world(implicit_fault_settings());
     world.world().setUseProjection(projection);
     btSoftBody& body =
         add_body(world, spring_chain(4, 2), {law("tension", "stiffness", {kStiffness})});
@@ -241,11 +242,12 @@ TEST(DeformableFaults, ExplosionIsReportedAndFrozen) {
   EXPECT_TRUE(body.m_nodes[9].m_x == frozen);
   EXPECT_FALSE(world.forces().blow_up(other).has_value());
   const double speed = (num_steps + 1) * kTimeStep;
-  EXPECT_NEAR(static_cast<double>(other.m_nodes[5].m_v.y()), -speed, num_steps * kEpsilon * speed);
+  EXPECT_NEAR(static_cast<double>(other.m_nodes[5].m_v.y()), -speed,
+              num_steps * kDeformableFaultsEpsilon * speed);
 }
 
 TEST(DeformableFaults, NonFiniteStateIsReported) {
-  for (const auto& settings : {DeformableWorldSettings{}, implicit_settings()}) {
+  for (const auto& settings : {DeformableWorldSettings{}, implicit_fault_settings()}) {
     for (const auto vector : {&btSoftBody::Node::m_x, &btSoftBody::Node::m_v}) {
       DeformableWorld world(settings);
       btSoftBody& body =
@@ -260,7 +262,7 @@ TEST(DeformableFaults, NonFiniteStateIsReported) {
 }
 
 TEST(DeformableFaults, OverflowInTheLinearSolverIsReported) {
-  for (const auto& settings : {DeformableWorldSettings{}, implicit_settings()}) {
+  for (const auto& settings : {DeformableWorldSettings{}, implicit_fault_settings()}) {
     DeformableWorld world(settings);
     // Impulses of this damper, or their squares in the linear solver, do not fit the number type.
     const double damping =

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kEdges = 5000;
 /// n eps scale of the sum at one node: at most kEdges terms of size <= 1.
-constexpr double kSumRoundoff = kEdges * std::numeric_limits<double>::epsilon();
+constexpr double kEdgeAssemblySumRoundoff = kEdges * std::numeric_limits<double>::epsilon();
 
 Edges random_edges(int count, int num_nodes) {
   std::mt19937 generator(3);
@@ -76,7 +76,7 @@ void expect_naive_sum(const Edges& edges, int num_nodes, int grain) {
     expected.col(edges(0, e)) += force;
     expected.col(edges(1, e)) -= force;
   }
-  EXPECT_LE((sum<double>(assembly) - expected).lpNorm<Eigen::Infinity>(), kSumRoundoff)
+  EXPECT_LE((sum<double>(assembly) - expected).lpNorm<Eigen::Infinity>(), kEdgeAssemblySumRoundoff)
       << "grain " << grain;
 }
 

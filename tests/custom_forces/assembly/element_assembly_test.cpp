@@ -10,7 +10,7 @@ namespace {
 
 /// n eps scale of the sum at one node: at most kElements terms of size 1.
 constexpr int kElements = 5000;
-constexpr double kSumRoundoff = kElements * std::numeric_limits<double>::epsilon();
+constexpr double kElementAssemblySumRoundoff = kElements * std::numeric_limits<double>::epsilon();
 
 template <int kNodes>
 typename ElementAssembly<kNodes>::Elements random_elements(int count, int num_nodes) {
@@ -47,7 +47,8 @@ void expect_naive_sum(int count, int num_nodes, int grain) {
     }
   };
   assembly.template add<double>(kernel, scratch, result);
-  EXPECT_LE((result - expected).lpNorm<Eigen::Infinity>(), kSumRoundoff) << "grain " << grain;
+  EXPECT_LE((result - expected).lpNorm<Eigen::Infinity>(), kElementAssemblySumRoundoff)
+      << "grain " << grain;
   EXPECT_EQ(assembly.num_nodes(), num_nodes);
   EXPECT_EQ(assembly.elements(), elements);
 }

@@ -33,16 +33,16 @@ ClothMesh sheet(double curvature) {
   return mesh;
 }
 
-using Pairs = std::map<std::pair<int, int>, double>;
+using PairTraces = std::map<std::pair<int, int>, double>;
 
 /// Traces of the blocks, from products with unit displacements of each node.
-Pairs traces_by_products(const ClothMesh& mesh, const std::vector<LawSpecification>& laws) {
+PairTraces traces_by_products(const ClothMesh& mesh, const std::vector<LawSpecification>& laws) {
   forces::LawSet<double> set;
   for (const auto& law : laws) set.add(forces::make_law<double>(law, mesh));
   const int n = mesh.num_nodes();
   const Matrix3X<double> still = Matrix3X<double>::Zero(3, n);
   const forces::State<double> rest{mesh.rest_positions, still, mesh.masses, 0.0};
-  Pairs traces;
+  PairTraces traces;
   for (int node = 0; node < n; ++node) {
     for (int axis = 0; axis < 3; ++axis) {
       Matrix3X<double> displacements = Matrix3X<double>::Zero(3, n);
@@ -56,12 +56,12 @@ Pairs traces_by_products(const ClothMesh& mesh, const std::vector<LawSpecificati
 }
 
 void expect_traces(const ClothMesh& mesh, const std::vector<LawSpecification>& laws) {
-  Pairs found;
+  PairTraces found;
   for (const MatrixPart& part : rest_stiffness(mesh, laws)) {
     EXPECT_LT(part.row, part.column);
     EXPECT_TRUE(found.insert({{part.row, part.column}, part.value}).second) << "a pair twice";
   }
-  const Pairs expected = traces_by_products(mesh, laws);
+  const PairTraces expected = traces_by_products(mesh, laws);
   double largest = 0;
   for (const auto& [pair, trace] : expected) largest = std::max(largest, std::abs(trace));
   ASSERT_GT(largest, 0);

@@ -14,7 +14,7 @@ namespace weft::scenes {
 namespace {
 
 /// As in renderer_test.cpp: surely a different thing and not a gradient.
-constexpr int kOtherThing = 12;
+constexpr int kAppearanceRenderOtherThing = 12;
 
 struct AppearanceRenderTest : testing::Test {
   Scene scene = small_scene();
@@ -31,10 +31,10 @@ struct AppearanceRenderTest : testing::Test {
 };
 
 bool is_red(const Rgb& color) {
-  return color[0] > color[2] + kOtherThing;
+  return color[0] > color[2] + kAppearanceRenderOtherThing;
 }
 bool is_blue(const Rgb& color) {
-  return color[2] > color[0] + kOtherThing;
+  return color[2] > color[0] + kAppearanceRenderOtherThing;
 }
 
 TEST_F(AppearanceRenderTest, ColoursOfASceneReplaceThePalette) {
@@ -116,9 +116,9 @@ TEST_F(AppearanceRenderTest, CameraFollowsABody) {
   // The ball stays where it was; the cloth stays behind.
   const Vector3<double> ball = scene.colliders[0].position;
   EXPECT_LE(difference(pixel_at(before, scene.camera, ball), pixel_at(after, scene.camera, ball)),
-            kOtherThing);
+            kAppearanceRenderOtherThing);
   EXPECT_GT(difference(cloth_pixel(before, 0.53, 0.53), cloth_pixel(after, 0.53, 0.53)),
-            kOtherThing);
+            kAppearanceRenderOtherThing);
 }
 
 TEST_F(AppearanceRenderTest, FlatTrianglesHaveEachOneShade) {

@@ -20,7 +20,7 @@ using samples::make_state;
 using samples::same_bits;
 using samples::TemporaryFolder;
 
-constexpr auto kPrecision = StoredPrecision::kFloat64;
+constexpr auto kCrashPrecision = StoredPrecision::kFloat64;
 constexpr int kChunkFrames = 8;
 
 /// A process that writes frames without end, and tells the number of committed frames through a
@@ -65,9 +65,9 @@ class WritingProcess {
  private:
   [[noreturn]] void write_for_ever(const std::filesystem::path& path, int pipe) const {
     const Scene scene = make_scene(12);
-    RecordingWriter writer(path, scene, {}, kPrecision, {.frames = kChunkFrames});
+    RecordingWriter writer(path, scene, {}, kCrashPrecision, {.frames = kChunkFrames});
     for (int i = 0;; ++i) {
-      const SceneState state = make_state(scene, i, kPrecision);
+      const SceneState state = make_state(scene, i, kCrashPrecision);
       writer.add_frame(state);
       writer.add_metric("height_m", state.time, i);
       const int committed = (i + 1) / kChunkFrames * kChunkFrames;
@@ -90,7 +90,7 @@ void expect_prefix(const std::filesystem::path& path, int min_frames) {
   EXPECT_FALSE(reader.finished());
   EXPECT_GE(reader.num_frames(), min_frames);
   for (int i = 0; i < reader.num_frames(); ++i) {
-    ASSERT_TRUE(same_bits(reader.frame(i), make_state(scene, i, kPrecision))) << i;
+    ASSERT_TRUE(same_bits(reader.frame(i), make_state(scene, i, kCrashPrecision))) << i;
   }
   EXPECT_EQ(reader.content_hash().size(), 32U);
   const auto metric = reader.metric("height_m");
@@ -162,22 +162,22 @@ TEST(ReadOnlyFolder, OfACrashedRecordingLosesNothing) {
 TEST(ReadOnlyFolder, OfAFinishedOrUnfinishedRecordingIsReadable) {
   const TemporaryFolder folder;
   const Scene scene = make_scene();
-  samples::write_sample(folder / "finished", scene, kPrecision, 3);
+  samples::write_sample(folder / "finished", scene, kCrashPrecision, 3);
   {
-    RecordingWriter writer(folder / "unfinished", scene, {}, kPrecision);
-    writer.add_frame(make_state(scene, 0, kPrecision));
+    RecordingWriter writer(folder / "unfinished", scene, {}, kCrashPrecision);
+    writer.add_frame(make_state(scene, 0, kCrashPrecision));
   }
   const ReadOnlyFolder read_only(folder.path());
   EXPECT_EQ(RecordingReader(folder / "finished").frame(2).cloths.size(), 2U);
-  EXPECT_TRUE(
-      same_bits(RecordingReader(folder / "unfinished").frame(0), make_state(scene, 0, kPrecision)));
-  EXPECT_THROW(RecordingWriter(folder / "new", scene, {}, kPrecision), Error);
+  EXPECT_TRUE(same_bits(RecordingReader(folder / "unfinished").frame(0),
+                        make_state(scene, 0, kCrashPrecision)));
+  EXPECT_THROW(RecordingWriter(folder / "new", scene, {}, kCrashPrecision), Error);
 }
 
 TEST(ReadOnlyFolder, ThatCannotBeEnteredIsAnError) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "closed");
-  samples::write_sample(folder / "closed/a", make_scene(), kPrecision, 1);
+  samples::write_sample(folder / "closed/a", make_scene(), kCrashPrecision, 1);
   std::filesystem::permissions(folder / "closed", std::filesystem::perms::none);
   {
     const ReadOnlyFolder read_only(folder.path());
@@ -204,14 +204,14 @@ TEST(Reader, DoesNotKeepTheWriterFromFinishing) {
   const TemporaryFolder folder;
   const Scene scene = make_scene();
   const auto path = folder / "a.weftrec";
-  RecordingWriter writer(path, scene, {}, kPrecision, {.frames = 1});
-  writer.add_frame(make_state(scene, 0, kPrecision));
+  RecordingWriter writer(path, scene, {}, kCrashPrecision, {.frames = 1});
+  writer.add_frame(make_state(scene, 0, kCrashPrecision));
   const RecordingReader reader(path);
   EXPECT_EQ(reader.num_frames(), 1);
-  writer.add_frame(make_state(scene, 1, kPrecision));
+  writer.add_frame(make_state(scene, 1, kCrashPrecision));
   writer.finish();
   EXPECT_FALSE(std::filesystem::exists(folder / "a.weftrec-wal"));
-  EXPECT_TRUE(same_bits(reader.frame(0), make_state(scene, 0, kPrecision)));
+  EXPECT_TRUE(same_bits(reader.frame(0), make_state(scene, 0, kCrashPrecision)));
   EXPECT_EQ(reader.num_frames(), 1);  // what was there when it was opened
   EXPECT_EQ(RecordingReader(path).num_frames(), 2);
 }

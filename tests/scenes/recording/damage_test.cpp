@@ -32,7 +32,7 @@ void write_bytes(const std::filesystem::path& path, const std::vector<char>& byt
       .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
-void run_sql(const std::filesystem::path& path, const char* sql) {
+void damage_with_sql(const std::filesystem::path& path, const char* sql) {
   sqlite3* connection = nullptr;
   ASSERT_EQ(sqlite3_open(path.c_str(), &connection), SQLITE_OK);
   EXPECT_EQ(sqlite3_exec(connection, sql, nullptr, nullptr, nullptr), SQLITE_OK)
@@ -81,16 +81,16 @@ TEST(Damage, EveryKindHasAnErrorOfItsOwn) {
   EXPECT_THAT(error_of(folder / "empty"), HasSubstr("empty: is empty"));
   write_bytes(folder / "text", {'h', 'i', '\n'});
   EXPECT_THAT(error_of(folder / "text"), HasSubstr("text: not a Weft recording"));
-  run_sql(folder / "foreign", "CREATE TABLE meta (key, value)");
+  damage_with_sql(folder / "foreign", "CREATE TABLE meta (key, value)");
   EXPECT_THAT(error_of(folder / "foreign"), HasSubstr("foreign: not a Weft recording but another"));
   write_sample(folder / "newer", make_scene(), StoredPrecision::kFloat32, 3);
-  run_sql(folder / "newer", "PRAGMA user_version=3");
+  damage_with_sql(folder / "newer", "PRAGMA user_version=3");
   EXPECT_THAT(error_of(folder / "newer"), HasSubstr("newer: recording format version 3"));
   write_sample(folder / "table", make_scene(), StoredPrecision::kFloat32, 3);
-  run_sql(folder / "table", "DROP TABLE metric; CREATE VIEW metric AS SELECT * FROM frame");
+  damage_with_sql(folder / "table", "DROP TABLE metric; CREATE VIEW metric AS SELECT * FROM frame");
   EXPECT_THAT(error_of(folder / "table"), HasSubstr("table: holds 'metric', which is not as in a"));
   write_sample(folder / "less", make_scene(), StoredPrecision::kFloat32, 3);
-  run_sql(folder / "less", "DROP TABLE metric");
+  damage_with_sql(folder / "less", "DROP TABLE metric");
   EXPECT_THAT(error_of(folder / "less"), HasSubstr("less: has no table 'metric'"));
 }
 
@@ -108,14 +108,14 @@ TEST(Damage, AForeignSchemaIsRefusedWhateverItDoes) {
        }) {
     const auto path = folder / std::to_string(number++);
     write_sample(path, make_scene(), StoredPrecision::kFloat32, 3);
-    run_sql(path, sql);
+    damage_with_sql(path, sql);
     EXPECT_THAT(error_of(path), HasSubstr("which is not as in a recording")) << sql;
   }
 }
 
 /// Changes a recording as a forger does, who computes the hashes of the header too.
 void forge(const std::filesystem::path& path, const char* sql) {
-  run_sql(path, sql);
+  damage_with_sql(path, sql);
   Database database(path, Database::Access::kReadWrite);
   Header header;
   Statement meta = database.prepare("SELECT key, value FROM meta ORDER BY key");
@@ -250,7 +250,7 @@ TEST(Damage, ChangedRowsAreErrors) {
        }) {
     const auto path = folder / std::to_string(number++);
     write_sample(path, make_scene(), StoredPrecision::kFloat32, 3);
-    run_sql(path, sql);
+    damage_with_sql(path, sql);
     EXPECT_THAT(error_of(path), HasSubstr(path.string() + ": ")) << sql;
   }
 }
@@ -259,7 +259,7 @@ TEST(Damage, AWrongChunkIsNamedAndTheOthersStayReadable) {
   const TemporaryFolder folder;
   const auto path = folder / "a";
   write_sample(path, make_scene(), StoredPrecision::kFloat32, 9, {.frames = 3});
-  run_sql(
+  damage_with_sql(
       path,
       "UPDATE chunk SET data=CAST(substr(data, 1, length(data)-1) || x'5a' AS BLOB) WHERE id=1");
   const RecordingReader reader(path);

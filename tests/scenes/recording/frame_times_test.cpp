@@ -15,7 +15,7 @@ using samples::make_state;
 using samples::TemporaryFolder;
 using testing::ElementsAre;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFrameTimesInfinity = std::numeric_limits<double>::infinity();
 
 /// A recording with frames at these times [s].
 void write_times(const std::filesystem::path& path, const std::vector<double>& times) {
@@ -57,9 +57,9 @@ TEST(FrameTimes, ARangeHasItsEndsThoughTheyAreRounded) {
   EXPECT_THAT(frames_between(reader, 0.1, 0.3), ElementsAre(1, 2, 3));
   EXPECT_THAT(frames_between(reader, 0.10005, 0.29995), ElementsAre(1, 2, 3));
   EXPECT_THAT(frames_between(reader, 0.102, 0.298), ElementsAre(2));
-  EXPECT_THAT(frames_between(reader, -kInfinity, 0.1), ElementsAre(0, 1));
-  EXPECT_THAT(frames_between(reader, 0.35, kInfinity), ElementsAre(4));
-  EXPECT_THAT(frames_between(reader, 0.41, kInfinity), ElementsAre());
+  EXPECT_THAT(frames_between(reader, -kFrameTimesInfinity, 0.1), ElementsAre(0, 1));
+  EXPECT_THAT(frames_between(reader, 0.35, kFrameTimesInfinity), ElementsAre(4));
+  EXPECT_THAT(frames_between(reader, 0.41, kFrameTimesInfinity), ElementsAre());
   EXPECT_THAT(frames_between(reader, 0.3, 0.1), ElementsAre());
 }
 

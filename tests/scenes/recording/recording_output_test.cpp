@@ -18,7 +18,7 @@ using samples::write_sample;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr auto kPrecision = StoredPrecision::kFloat64;
+constexpr auto kRecordingOutputPrecision = StoredPrecision::kFloat64;
 
 int num_files(const TemporaryFolder& folder) {
   const fs::directory_iterator files(folder.path());
@@ -40,7 +40,7 @@ TEST(RecordingOutput, IsPartialUntilItIsWhole) {
   {
     const RecordingOutput output(folder / "a.weftrec", false);
     EXPECT_EQ(output.partial(), folder / "a.partial.weftrec");
-    write_sample(output.partial(), make_scene(), kPrecision, 3);
+    write_sample(output.partial(), make_scene(), kRecordingOutputPrecision, 3);
     EXPECT_FALSE(fs::exists(folder / "a.weftrec"));
     output.publish();
   }
@@ -50,14 +50,14 @@ TEST(RecordingOutput, IsPartialUntilItIsWhole) {
 
 TEST(RecordingOutput, OfAnEarlierRunIsKeptAndNamed) {
   const TemporaryFolder folder;
-  write_sample(folder / "a.partial.weftrec", make_scene(), kPrecision, 2);
-  write_sample(folder / "a.partial-2.weftrec", make_scene(), kPrecision, 3);
+  write_sample(folder / "a.partial.weftrec", make_scene(), kRecordingOutputPrecision, 2);
+  write_sample(folder / "a.partial-2.weftrec", make_scene(), kRecordingOutputPrecision, 3);
   {
     const RecordingOutput output(folder / "a.weftrec", true);
     EXPECT_THAT(output.earlier(),
                 ElementsAre(folder / "a.partial.weftrec", folder / "a.partial-2.weftrec"));
     EXPECT_EQ(output.partial(), folder / "a.partial-3.weftrec");
-    write_sample(output.partial(), make_scene(), kPrecision, 4);
+    write_sample(output.partial(), make_scene(), kRecordingOutputPrecision, 4);
     output.publish();
   }
   EXPECT_EQ(RecordingReader(folder / "a.partial.weftrec").num_frames(), 2);
@@ -74,13 +74,13 @@ TEST(RecordingOutput, HasOneRunAtATime) {
 
 TEST(RecordingOutput, ReplacesARecordingWithForceAndItsLogToo) {
   const TemporaryFolder folder;
-  write_sample(folder / "a.weftrec", make_scene(), kPrecision, 1);
+  write_sample(folder / "a.weftrec", make_scene(), kRecordingOutputPrecision, 1);
   EXPECT_THAT(message_of([&] { RecordingOutput(folder / "a.weftrec", false); }),
               HasSubstr("--force"));
   std::ofstream(folder / "a.weftrec-wal") << "log of the old one";
   {
     const RecordingOutput output(folder / "a.weftrec", true);
-    write_sample(output.partial(), make_scene(), kPrecision, 5);
+    write_sample(output.partial(), make_scene(), kRecordingOutputPrecision, 5);
     EXPECT_EQ(RecordingReader(folder / "a.weftrec").num_frames(), 1);
     output.publish();
   }
@@ -91,8 +91,8 @@ TEST(RecordingOutput, ReplacesARecordingWithForceAndItsLogToo) {
 TEST(RecordingOutput, ARecordingThatAppearsMeanwhileStays) {
   const TemporaryFolder folder;
   const RecordingOutput output(folder / "a.weftrec", true);
-  write_sample(output.partial(), make_scene(), kPrecision, 3);
-  write_sample(folder / "a.weftrec", make_scene(), kPrecision, 7);
+  write_sample(output.partial(), make_scene(), kRecordingOutputPrecision, 3);
+  write_sample(folder / "a.weftrec", make_scene(), kRecordingOutputPrecision, 7);
   EXPECT_THAT(message_of([&] { output.publish(); }), HasSubstr("a-2.weftrec"));
   EXPECT_EQ(RecordingReader(folder / "a.weftrec").num_frames(), 7);
   EXPECT_EQ(RecordingReader(folder / "a-2.weftrec").num_frames(), 3);
@@ -108,10 +108,10 @@ TEST(RecordingOutput, RefusesTheNameOfALogWithoutItsRecording) {
 TEST(RecordingWriter, TellsWhatAReaderWouldFind) {
   const TemporaryFolder folder;
   const Scene scene = make_scene();
-  RecordingWriter writer(folder / "a.weftrec", scene, {}, kPrecision, {.frames = 4});
-  for (int i = 0; i < 6; ++i) writer.add_frame(make_state(scene, i, kPrecision));
+  RecordingWriter writer(folder / "a.weftrec", scene, {}, kRecordingOutputPrecision, {.frames = 4});
+  for (int i = 0; i < 6; ++i) writer.add_frame(make_state(scene, i, kRecordingOutputPrecision));
   EXPECT_EQ(writer.committed().frames, 4);
-  EXPECT_EQ(writer.committed().time, make_state(scene, 3, kPrecision).time);
+  EXPECT_EQ(writer.committed().time, make_state(scene, 3, kRecordingOutputPrecision).time);
   EXPECT_EQ(RecordingReader(folder / "a.weftrec").num_frames(), 4);
   writer.commit();
   EXPECT_EQ(writer.committed().frames, 6);

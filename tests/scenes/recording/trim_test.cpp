@@ -20,7 +20,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
 
-constexpr auto kPrecision = StoredPrecision::kFloat32;
+constexpr auto kTrimPrecision = StoredPrecision::kFloat32;
 constexpr double kInterval = 1.0 / 60;  ///< of the sample's frames [s]
 
 /// Copies a range of a recording into another one and gives that one's content hash.
@@ -43,7 +43,7 @@ std::string message_of(const RecordingReader& reader, const TrimRange& range) {
 
 TEST(Trim, KeepsTimesAndBitsOfTheRange) {
   const TemporaryFolder folder;
-  write_sample(folder / "a", make_scene(), kPrecision, 12, {.frames = 5});
+  write_sample(folder / "a", make_scene(), kTrimPrecision, 12, {.frames = 5});
   trim(folder / "a", folder / "b", {.from = 3 * kInterval, .to = 9 * kInterval, .every = 2});
   const RecordingReader a(folder / "a");
   const RecordingReader b(folder / "b");
@@ -52,20 +52,20 @@ TEST(Trim, KeepsTimesAndBitsOfTheRange) {
     EXPECT_TRUE(same_bits(b.frame(frame), a.frame(3 + 2 * frame))) << frame;
   }
   EXPECT_TRUE(b.finished());
-  EXPECT_EQ(b.precision(), kPrecision);
+  EXPECT_EQ(b.precision(), kTrimPrecision);
   EXPECT_EQ(b.scene_text(), a.scene_text());
 }
 
 TEST(Trim, TheWholeHasTheContentOfTheRecording) {
   const TemporaryFolder folder;
-  const std::string hash = write_sample(folder / "a", make_scene(), kPrecision, 7);
+  const std::string hash = write_sample(folder / "a", make_scene(), kTrimPrecision, 7);
   EXPECT_EQ(trim(folder / "a", folder / "b", {}), hash);
   EXPECT_EQ(RecordingReader(folder / "b").blow_up()->reason, kBlowUp.reason);
 }
 
 TEST(Trim, MetricsAndABlowUpComeAlongIfTheyAreInTheRange) {
   const TemporaryFolder folder;
-  write_sample(folder / "a", make_scene(), kPrecision, 30);  // blows up at 0.41 s
+  write_sample(folder / "a", make_scene(), kTrimPrecision, 30);  // blows up at 0.41 s
   trim(folder / "a", folder / "before", {.from = 10 * kInterval, .to = 0.4});
   const RecordingReader before(folder / "before");
   EXPECT_FALSE(before.blow_up());
@@ -80,14 +80,14 @@ TEST(Trim, MetricsAndABlowUpComeAlongIfTheyAreInTheRange) {
 
 TEST(Trim, TellsWhatItIsAPartOf) {
   const TemporaryFolder folder;
-  write_sample(folder / "a", make_scene(), kPrecision, 12, {}, {{"engine", "reference"}});
+  write_sample(folder / "a", make_scene(), kTrimPrecision, 12, {}, {{"engine", "reference"}});
   const RecordingReader a(folder / "a");
   const Provenance part = trimmed_provenance(a, {.from = 2.5 * kInterval, .every = 4});
   EXPECT_EQ(part.at("trimmed"), "frames 3 to 11 of 12, counted from 0, one in 4");
   EXPECT_EQ(part.at("engine"), "reference");
   {
-    RecordingWriter writer(folder / "b", make_scene(), {}, kPrecision);
-    writer.add_frame(make_state(make_scene(), 0, kPrecision));
+    RecordingWriter writer(folder / "b", make_scene(), {}, kTrimPrecision);
+    writer.add_frame(make_state(make_scene(), 0, kTrimPrecision));
   }
   EXPECT_EQ(trimmed_provenance(RecordingReader(folder / "b"), {}).at("trimmed"),
             "frames 0 to 0 of 1 of a partial recording, counted from 0");
@@ -95,20 +95,20 @@ TEST(Trim, TellsWhatItIsAPartOf) {
 
 TEST(Trim, RefusesARangeWithoutFrames) {
   const TemporaryFolder folder;
-  write_sample(folder / "a", make_scene(), kPrecision, 7);
+  write_sample(folder / "a", make_scene(), kTrimPrecision, 7);
   const RecordingReader reader(folder / "a");
   EXPECT_EQ(message_of(reader, {.from = 2, .to = 3}),
             "has no frame from 2 s to 3 s, expected a time from its 7 frames, t = 0 s to 0.1 s");
   EXPECT_THAT(message_of(reader, {.to = -1}), HasSubstr("has no frame from the beginning to -1 s"));
   EXPECT_THAT(message_of(reader, {.from = 1}), HasSubstr("has no frame from 1 s to the end"));
   EXPECT_THAT(message_of(reader, {.every = 0}), HasSubstr("every = 0, expected >= 1"));
-  write_sample(folder / "b", make_scene(), kPrecision, 0);
+  write_sample(folder / "b", make_scene(), kTrimPrecision, 0);
   EXPECT_EQ(message_of(RecordingReader(folder / "b"), {}), "has no frame to keep");
 }
 
 TEST(Trim, SavesWhatIsBesideADamagedChunk) {
   const TemporaryFolder folder;
-  write_sample(folder / "a", make_scene(), kPrecision, 12, {.frames = 4});
+  write_sample(folder / "a", make_scene(), kTrimPrecision, 12, {.frames = 4});
   sqlite3* connection = nullptr;
   ASSERT_EQ(sqlite3_open((folder / "a").c_str(), &connection), SQLITE_OK);
   EXPECT_EQ(sqlite3_exec(connection, "UPDATE chunk SET data = zeroblob(9) WHERE id = 1", nullptr,
@@ -119,7 +119,7 @@ TEST(Trim, SavesWhatIsBesideADamagedChunk) {
   trim(folder / "a", folder / "b", {.from = 8 * kInterval});
   const RecordingReader saved(folder / "b");
   ASSERT_EQ(saved.num_frames(), 4);
-  EXPECT_TRUE(same_bits(saved.frame(3), make_state(make_scene(), 11, kPrecision)));
+  EXPECT_TRUE(same_bits(saved.frame(3), make_state(make_scene(), 11, kTrimPrecision)));
 }
 
 TEST(Trim, TornClothKeepsItsTopologies) {
@@ -138,9 +138,9 @@ TEST(Trim, TornClothKeepsItsTopologies) {
   const std::vector<std::shared_ptr<const ClothTopology>> topologies = {nullptr, torn(1), torn(2),
                                                                         torn(3)};
   {
-    RecordingWriter writer(folder / "a", scene, {}, kPrecision);
+    RecordingWriter writer(folder / "a", scene, {}, kTrimPrecision);
     for (int frame = 0; frame < 8; ++frame) {  // tears more in frames 2, 4 and 6
-      SceneState state = make_state(scene, frame, kPrecision);
+      SceneState state = make_state(scene, frame, kTrimPrecision);
       ClothState& cloth = state.cloths[0];
       cloth.topology = topologies[static_cast<std::size_t>(frame / 2)];
       const Eigen::Index added = frame / 2;

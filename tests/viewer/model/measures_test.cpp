@@ -21,7 +21,7 @@ scenes::Scene sheet() {
   return scene;
 }
 
-scenes::SceneState at_rest(const scenes::Scene& scene) {
+scenes::SceneState measured_at_rest(const scenes::Scene& scene) {
   scenes::SceneState state;
   for (const scenes::Cloth& cloth : scene.cloths) {
     const ClothMesh mesh = scenes::make_mesh(cloth);
@@ -34,7 +34,7 @@ scenes::SceneState at_rest(const scenes::Scene& scene) {
 TEST(Measures, EnergiesAreThoseOfTheLaws) {
   const scenes::Scene scene = sheet();
   Meter meter(scene);
-  scenes::SceneState state = at_rest(scene);
+  scenes::SceneState state = measured_at_rest(scene);
   const double rest = meter.measure(state).potential_energy;
   state.cloths[0].positions.row(1).array() += 2.0;
   state.cloths[0].velocities.row(0).array() = 3.0;
@@ -47,7 +47,7 @@ TEST(Measures, EnergiesAreThoseOfTheLaws) {
 TEST(Measures, FindsTheWorstNode) {
   const scenes::Scene scene = sheet();
   Meter meter(scene);
-  scenes::SceneState state = at_rest(scene);
+  scenes::SceneState state = measured_at_rest(scene);
   // The middle node goes sideways by a fifth of a thread: one thread is longer, one shorter.
   const Vector3<double> way = state.cloths[0].positions.col(1) - state.cloths[0].positions.col(0);
   state.cloths[0].positions.col(8) += 0.2 * way;
@@ -62,7 +62,7 @@ TEST(Measures, FindsTheWorstNode) {
 TEST(Measures, ATornClothHasNoEnergy) {
   const scenes::Scene scene = sheet();
   Meter meter(scene);
-  scenes::SceneState state = at_rest(scene);
+  scenes::SceneState state = measured_at_rest(scene);
   const ClothMesh mesh = scenes::make_mesh(scene.cloths[0]);
   auto topology = std::make_shared<scenes::ClothTopology>();
   topology->triangles = mesh.triangles;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kTolerance = 1e-12;
 
-scenes::Camera camera() {
+scenes::Camera orbit_camera() {
   scenes::Camera camera;
   camera.position = {1.0, 2.0, 5.0};
   camera.target = {1.0, 2.0, 1.0};
@@ -22,14 +22,14 @@ double distance(const scenes::Camera& camera) {
 }
 
 TEST(Orbit, AQuarterTurnGoesRound) {
-  scenes::Camera moved = camera();
+  scenes::Camera moved = orbit_camera();
   rotate(moved, M_PI / 2, 0.0);
   EXPECT_NEAR((moved.position - Vector3<double>(5.0, 2.0, 1.0)).norm(), 0.0, kTolerance);
-  EXPECT_EQ(moved.target, camera().target);
+  EXPECT_EQ(moved.target, orbit_camera().target);
 }
 
 TEST(Orbit, TurningUpwardsEndsBelowTheZenith) {
-  scenes::Camera moved = camera();
+  scenes::Camera moved = orbit_camera();
   rotate(moved, 0.0, 0.3);
   EXPECT_NEAR(moved.position.y() - 2.0, 4.0 * std::sin(0.3), kTolerance);
   for (int i = 0; i < 100; ++i) rotate(moved, 0.0, 0.3);
@@ -39,7 +39,7 @@ TEST(Orbit, TurningUpwardsEndsBelowTheZenith) {
 }
 
 TEST(Orbit, ZoomChangesTheDistanceWithinBounds) {
-  scenes::Camera moved = camera();
+  scenes::Camera moved = orbit_camera();
   zoom(moved, 2.0);
   EXPECT_NEAR(distance(moved), 2.0, kTolerance);
   for (int i = 0; i < 100; ++i) zoom(moved, 2.0);
@@ -49,14 +49,14 @@ TEST(Orbit, ZoomChangesTheDistanceWithinBounds) {
 }
 
 TEST(Orbit, PanMovesBothByTheHeightOfThePicture) {
-  scenes::Camera moved = camera();
+  scenes::Camera moved = orbit_camera();
   pan(moved, 0.0, 1.0);
   const double height = 2.0 * std::tan(0.25) * 4.0;
-  EXPECT_NEAR((moved.target - camera().target - Vector3<double>(0, height, 0)).norm(), 0.0,
+  EXPECT_NEAR((moved.target - orbit_camera().target - Vector3<double>(0, height, 0)).norm(), 0.0,
               kTolerance);
   EXPECT_NEAR(distance(moved), 4.0, kTolerance);
   pan(moved, 1.0, -1.0);
-  EXPECT_NEAR((moved.target - camera().target - Vector3<double>(height, 0, 0)).norm(), 0.0,
+  EXPECT_NEAR((moved.target - orbit_camera().target - Vector3<double>(height, 0, 0)).norm(), 0.0,
               kTolerance);
 }
 

@@ -26,16 +26,16 @@ namespace {
 
 constexpr double kClothRadius = 0.15;    // [m]
 constexpr double kSupportRadius = 0.09;  // [m]
-constexpr double kGravity = 9.81;        // [m/s^2]
+constexpr double kCusickGravity = 9.81;  // [m/s^2]
 constexpr int kSeeds = 8;
-constexpr double kNoise = 1e-5;    // [m]: unevenness of the start
-constexpr double kDrag = 10.0;     // [1/s]: a free flap of 6 cm swings at 13 / s
-constexpr double kEndTime = 1.5;   // [s]
-constexpr double kStrain = 0.003;  // of the net under the weight of the overhang, about
+constexpr double kNoise = 1e-5;          // [m]: unevenness of the start
+constexpr double kCusickDrag = 10.0;     // [1/s]: a free flap of 6 cm swings at 13 / s
+constexpr double kCusickEndTime = 1.5;   // [s]
+constexpr double kCusickStrain = 0.003;  // of the net under the weight of the overhang, about
 
-constexpr double kResolutionGap = 3.0;  // [%]
-constexpr double kSeedDeviation = 3.0;  // [%]
-constexpr double kRestSpeed = 0.008;    // [m/s]
+constexpr double kResolutionGap = 3.0;      // [%]
+constexpr double kSeedDeviation = 3.0;      // [%]
+constexpr double kCusickRestSpeed = 0.008;  // [m/s]
 
 /// A cloth with real areal density, and what its drape is compared with.
 struct Fabric {
@@ -51,7 +51,7 @@ constexpr std::array kFabrics = {Fabric{"cotton", 0.150, 2.34e-6}, Fabric{"wool"
 
 /// Length that a cloth of this rigidity bends over under its weight [m].
 double bending_length(const Fabric& fabric) {
-  return std::cbrt(fabric.rigidity / (fabric.areal_density * kGravity));
+  return std::cbrt(fabric.rigidity / (fabric.areal_density * kCusickGravity));
 }
 
 // Simulated with another program, ppf-contact-solver (Apache-2.0, folder calibration), whose fabrics were fitted to
@@ -60,7 +60,7 @@ constexpr std::array<std::array<double, 2>, 5> kPeer = {
     {{0.0076, 27.8}, {0.0097, 35.4}, {0.0141, 61.9}, {0.0150, 70.0}, {0.0203, 86.6}}};
 
 /// Rings of nodes from the support's edge outwards; the first two are held.
-struct Ring {
+struct CusickRing {
   int around = 96;
   int cells = 8;  ///< from the support's edge to the rim
   [[nodiscard]] int node(int ring, int at) const { return ring * around + (at % around); }
@@ -69,7 +69,7 @@ struct Ring {
   }
 };
 
-Triangles ring_triangles(const Ring& ring, int parity, int num_cells) {
+Triangles ring_triangles(const CusickRing& ring, int parity, int num_cells) {
   Triangles triangles(3, 2 * ring.around * num_cells);
   Eigen::Index t = 0;
   for (int r = 0; r < num_cells; ++r) {
@@ -90,7 +90,7 @@ Triangles ring_triangles(const Ring& ring, int parity, int num_cells) {
   return triangles;
 }
 
-ClothMesh make_ring(const Ring& ring, double areal_density) {
+ClothMesh make_ring(const CusickRing& ring, double areal_density) {
   Surface surface;
   surface.positions.resize(3, ring.around * (ring.cells + 2));
   for (int r = 0; r < ring.cells + 2; ++r) {
@@ -111,7 +111,7 @@ ClothMesh make_ring(const Ring& ring, double areal_density) {
 /// Energy of rings bent to y = (first x^2 + second z^2) / 2 over that of a plate of their rigidity. Hinges have half a
 /// cell less at each rim: an error of first order, taken out with a mesh twice as fine.
 double plate_ratio(double first, double second, bool cut_one_way) {
-  const auto ratio = [&](const Ring& ring) {
+  const auto ratio = [&](const CusickRing& ring) {
     ClothMesh mesh = make_ring(ring, 0.1);
     mesh.pinned.clear();
     if (cut_one_way) mesh.crossed_triangles.resize(3, 0);
@@ -145,7 +145,8 @@ struct Drape {
 };
 
 /// Share of the overhang that is left of it from above.
-double coefficient_of(const ClothMesh& mesh, const Ring& ring, ConstMatrix3XRef<double> positions) {
+double coefficient_of(const ClothMesh& mesh, const CusickRing& ring,
+                      ConstMatrix3XRef<double> positions) {
   const ShadowRaster raster{.cell_size =
                                 cusick_cell_size(std::numbers::pi * kClothRadius * kClothRadius)};
   const auto shadow = shadow_area(positions, mesh.triangles, raster);
@@ -155,18 +156,18 @@ double coefficient_of(const ClothMesh& mesh, const Ring& ring, ConstMatrix3XRef<
   return 100 * (*shadow - *held) / (*flat - *held);
 }
 
-Drape drape_once(const Fabric& fabric, const Ring& ring, std::uint32_t seed) {
+Drape drape_once(const Fabric& fabric, const CusickRing& ring, std::uint32_t seed) {
   reference::Body body;
   body.name = fabric.name;
   body.mesh = make_ring(ring, fabric.areal_density);
-  const double stiffness =
-      fabric.areal_density * kGravity * (kClothRadius - kSupportRadius) / (1.5 * kStrain);
+  const double stiffness = fabric.areal_density * kCusickGravity * (kClothRadius - kSupportRadius) /
+                           (1.5 * kCusickStrain);
   forces::LawSpecification net = tension_law(stiffness);
   net.sets = {"stretch"};
   const std::vector<forces::LawSpecification> laws{
       net,
-      gravity_law({0, -kGravity, 0}),
-      velocity_damping_law(kDrag),
+      gravity_law({0, -kCusickGravity, 0}),
+      velocity_damping_law(kCusickDrag),
       {"hinge_torsion", {}, {{"rigidity", {fabric.rigidity}}}}};
   for (const forces::LawSpecification& law : laws) {
     body.laws.add(forces::make_law<double>(law, body.mesh));
@@ -182,7 +183,7 @@ Drape drape_once(const Fabric& fabric, const Ring& ring, std::uint32_t seed) {
   const ClothMesh mesh = body.mesh;
   reference::SpringSolver solver =
       make_solver(std::move(body), reference::IntegratorKind::kVelocityVerlet);
-  const int num_steps = static_cast<int>(std::ceil(kEndTime / time_step));
+  const int num_steps = static_cast<int>(std::ceil(kCusickEndTime / time_step));
   for (int step = 0; step < num_steps; ++step) {
     if (solver.step(time_step).blow_up) return {};
   }
@@ -205,7 +206,7 @@ struct Statistics {
   std::array<double, kLastFoldMode - kFirstFoldMode + 1> spectrum{};  ///< mean amplitude [m]
 };
 
-Statistics statistics(const Fabric& fabric, const Ring& ring, int num_seeds = kSeeds) {
+Statistics statistics(const Fabric& fabric, const CusickRing& ring, int num_seeds = kSeeds) {
   std::vector<Drape> drapes(static_cast<std::size_t>(num_seeds));
   tbb::parallel_for(std::size_t{0}, drapes.size(), [&](std::size_t i) {
     drapes[i] = drape_once(fabric, ring, static_cast<std::uint32_t>(1 + i));
@@ -272,8 +273,8 @@ Series spectrum_of(const char* name, const Statistics& of) {
 }  // namespace
 
 void evaluate_cusick(const CaseInfo& info, const CaseOptions&, const EngineRuns&, Report& report) {
-  const Ring coarse{72, 6};
-  const Ring fine{96, 8};
+  const CusickRing coarse{72, 6};
+  const CusickRing fine{96, 8};
   const Tolerance plate{0.02, Basis::kTruncation, "cells 4 % wider outside than inside"};
   CheckResult rigid =
       check_of(info, "rings of hinges are a plate of their rigidity",
@@ -323,7 +324,7 @@ void evaluate_cusick(const CaseInfo& info, const CaseOptions&, const EngineRuns&
     CheckResult rest =
         check_of(info, fmt::format("{}: the cloth is at rest", fabric.name),
                  "RMS speed of the nodes at 1.5 s, largest of eight seeds", right.largest_speed,
-                 {kRestSpeed, Basis::kModelGap,
+                 {kCusickRestSpeed, Basis::kModelGap,
                   "with swings of 13 / s: 0.6 mm to each side, 1 % of the overhang"});
     rest.unit = "m/s";
     report.checks.push_back(std::move(rest));

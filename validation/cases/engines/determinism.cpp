@@ -13,7 +13,7 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kDuration = 1.2;  // [s]: falls, lies down on the sphere, starts to fold
+constexpr double kDeterminismDuration = 1.2;  // [s]: falls, lies down on the sphere, starts to fold
 
 struct Variant {
   const char* name;
@@ -22,7 +22,7 @@ struct Variant {
 constexpr std::array kVariants = {Variant{"1 thread", 1}, Variant{"1 thread, again", 1},
                                   Variant{"2 threads", 2}, Variant{"4 threads", 4}};
 
-std::vector<EngineChoice> engines(bool with_bullet) {
+std::vector<EngineChoice> determinism_engines(bool with_bullet) {
   using scenes::StoredPrecision;
   std::vector<EngineChoice> list;
   if (with_bullet) {
@@ -55,10 +55,10 @@ std::string hash_of(const EngineRuns& runs, const std::string& run_label) {
 
 void plan_determinism(const CaseInfo&, const CaseOptions& options, EngineRuns& runs) {
   scenes::Scene scene = scenes::load_scene("drape_sphere");
-  scene.world.duration = kDuration;
+  scene.world.duration = kDeterminismDuration;
   scenes::Scene moved = scene;
   moved.cloths[0].grid().center.y() += 1e-6;
-  for (const EngineChoice& engine : engines(options.bullet)) {
+  for (const EngineChoice& engine : determinism_engines(options.bullet)) {
     for (const Variant& variant : kVariants) {
       runs.add(
           {label(engine, variant.name), scene, engine.engine, engine.precision, variant.threads});
@@ -72,7 +72,7 @@ void evaluate_determinism(const CaseInfo& info, const CaseOptions& options, cons
   const Tolerance tolerance{0, Basis::kExact, "equal bits give equal hashes"};
   Table table{"Content hashes of drape_sphere, 1.2 s", {"engine"}, {}};
   for (const Variant& variant : kVariants) table.columns.emplace_back(variant.name);
-  for (const EngineChoice& engine : engines(options.bullet)) {
+  for (const EngineChoice& engine : determinism_engines(options.bullet)) {
     std::set<std::string> hashes;
     std::vector<std::string> row{engine.title()};
     for (const Variant& variant : kVariants) {

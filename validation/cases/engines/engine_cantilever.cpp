@@ -17,15 +17,13 @@
 namespace weft::validation {
 namespace {
 
-constexpr auto kFloat32 = scenes::StoredPrecision::kFloat32;
-constexpr auto kFloat64 = scenes::StoredPrecision::kFloat64;
 constexpr double kEngineGate = 0.01;  ///< of H / W between engines [-]
 constexpr double kGamma = 5.0;        ///< of the scene [-]
 /// The implicit step needs no small one, and each costs a linear solve.
 constexpr double kImplicitTimeStep = 2e-3;  // [s]
 
 /// The reference last.
-std::vector<EngineChoice> engines(bool with_bullet) {
+std::vector<EngineChoice> cantilever_engines(bool with_bullet) {
   std::vector<EngineChoice> list;
   if (with_bullet) {
     list = {{"bullet_forces", kFloat32},
@@ -90,7 +88,7 @@ CheckResult own_error_check(const CaseInfo& info, const std::array<double, 3>& l
 }  // namespace
 
 void plan_engine_cantilever(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
-  for (const EngineChoice& engine : engines(options.bullet)) {
+  for (const EngineChoice& engine : cantilever_engines(options.bullet)) {
     runs.add(
         {engine.label(std::string(info.id)), scene_for(engine), engine.engine, engine.precision});
   }
@@ -102,7 +100,7 @@ void evaluate_engine_cantilever(const CaseInfo& info, const CaseOptions& options
   const scenes::Scene scene = scenes::load_scene("heavy_strip");
   const HeavyElastica elastica = solve_heavy_elastica(kGamma);
   const double exact = elastica.drop / elastica.reach;
-  const std::vector<EngineChoice> list = engines(options.bullet);
+  const std::vector<EngineChoice> list = cantilever_engines(options.bullet);
   std::vector<double> values;
   Plot plot{"Tip drop over tip reach", "time [s]", "H / W [1]", false, false, {}};
   Table table{"H / W at rest", {"engine", "H / W", "to the elastica"}, {}};

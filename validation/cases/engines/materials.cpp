@@ -14,9 +14,6 @@
 namespace weft::validation {
 namespace {
 
-constexpr auto kFloat32 = scenes::StoredPrecision::kFloat32;
-constexpr auto kFloat64 = scenes::StoredPrecision::kFloat64;
-
 constexpr std::size_t kMaterials = 4;
 using Numbers = std::array<double, kMaterials>;
 constexpr Numbers kFactors = {0.55, 0.6, 0.7, 0.9};  ///< share of the velocity lost per step [-]
@@ -30,9 +27,9 @@ constexpr double kRestWindow = 5.0;     ///< [s] at the end, over which residual
 /// [-]. Kinetic energy would not do: a slow cloth has little of it all the time.
 constexpr double kDownShare = 0.02;
 
-constexpr double kRestSpeed = 2e-5;  ///< [m/s] RMS: measured 6e-7
+constexpr double kMaterialsRestSpeed = 2e-5;  ///< [m/s] RMS: measured 6e-7
 
-std::vector<EngineChoice> engines(bool with_bullet) {
+std::vector<EngineChoice> material_engines(bool with_bullet) {
   std::vector<EngineChoice> list;
   if (with_bullet) list = {{"bullet_soft", kFloat32}, {"bullet_forces", kFloat32}};
   list.push_back({"reference", kFloat64});
@@ -183,7 +180,8 @@ CheckResult rest_check(const CaseInfo& info, const History& history) {
   check.unit = "m/s";
   check.source = "de Joya 2011: at 0.2 particles near the edge keep jumping";
   check.measured = residual_speed(history, 2);
-  check.tolerance = {kRestSpeed, Basis::kTruncation, "what exp(-t / tau) leaves after 40 s"};
+  check.tolerance = {kMaterialsRestSpeed, Basis::kTruncation,
+                     "what exp(-t / tau) leaves after 40 s"};
   check.verdict = judge(check.measured, *check.tolerance);
   History early = history;  // before it can be at rest
   while (!early.frames.empty() && early.frames.back().time > 0.25 * kWeakDuration) {
@@ -200,7 +198,7 @@ CheckResult rest_check(const CaseInfo& info, const History& history) {
 
 void plan_materials(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
   const std::string id(info.id);
-  for (const EngineChoice& engine : engines(options.bullet)) {
+  for (const EngineChoice& engine : material_engines(options.bullet)) {
     runs.add({engine.label(id), damped(kFactors), engine.engine, engine.precision});
     runs.add({engine.label(id + "_weak"), weakly_damped(), engine.engine, engine.precision});
   }
@@ -219,7 +217,7 @@ void evaluate_materials(const CaseInfo& info, const CaseOptions& options, const 
   Plot heights{
       "Mean height of each material, reference", "time [s]", "height [m]", false, false, {}};
   std::vector<std::pair<std::string, Numbers>> rows;
-  for (const EngineChoice& engine : engines(options.bullet)) {
+  for (const EngineChoice& engine : material_engines(options.bullet)) {
     const History history = load_history(runs, id, engine);
     const Numbers times = times_down(history.frames);
     report.checks.push_back(order_check(info, engine, times));
@@ -258,7 +256,7 @@ void evaluate_materials(const CaseInfo& info, const CaseOptions& options, const 
     jitter.rows.push_back(std::move(row));
     sweep.series.push_back(std::move(series));
   };
-  for (const EngineChoice& engine : engines(options.bullet)) {
+  for (const EngineChoice& engine : material_engines(options.bullet)) {
     const History history = load_history(runs, id + "_weak", engine);
     add(engine.title(), history);
     if (engine.engine == "reference") report.checks.push_back(rest_check(info, history));

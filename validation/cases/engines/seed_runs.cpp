@@ -13,7 +13,6 @@
 namespace weft::validation {
 namespace {
 
-const EngineChoice kReference{"reference", scenes::StoredPrecision::kFloat64};
 constexpr int kDivisions[] = {2, 4};
 constexpr double kApart = 1e-4;  // [m]
 

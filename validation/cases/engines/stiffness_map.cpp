@@ -16,14 +16,13 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kStiffness = 200.0;  // of every spring [N/m]
-constexpr double kNodeMass = 0.05;    // [kg]
-constexpr double kSpacing = 0.5;      // [m]: a step's fall of 2.7 mm stretches it by 0.5 %
-constexpr double kGravity = 9.81;     // [m/s^2]
-constexpr double kRate = 8.0;         // of velocity_damping [1/s]
-constexpr auto kFloat64 = scenes::StoredPrecision::kFloat64;
+constexpr double kStiffnessMapStiffness = 200.0;  // of every spring [N/m]
+constexpr double kStiffnessMapNodeMass = 0.05;    // [kg]
+constexpr double kStiffnessMapSpacing = 0.5;   // [m]: a step's fall of 2.7 mm stretches it by 0.5 %
+constexpr double kStiffnessMapGravity = 9.81;  // [m/s^2]
+constexpr double kStiffnessMapRate = 8.0;      // of velocity_damping [1/s]
 
-struct Setting {
+struct StiffnessMapSetting {
   int springs;
   double time_step;  ///< [s]
   int iterations;
@@ -33,15 +32,16 @@ struct Setting {
 };
 
 constexpr int kSprings[] = {1, 2, 10, 30};
-constexpr double kSteps[] = {1.0 / 60, 1.0 / 120, 1.0 / 240};
-constexpr int kIterations[] = {1, 10, 50};
+constexpr double kStiffnessMapSteps[] = {1.0 / 60, 1.0 / 120, 1.0 / 240};
+constexpr int kStiffnessMapIterations[] = {1, 10, 50};
 const EngineChoice kLinks{"bullet_soft", kFloat64};
 
 /// The columns of the matrix.
-std::vector<Setting> settings(int springs) {
-  std::vector<Setting> list;
-  for (const double time_step : kSteps) {
-    for (const int iterations : kIterations) list.push_back({springs, time_step, iterations});
+std::vector<StiffnessMapSetting> settings(int springs) {
+  std::vector<StiffnessMapSetting> list;
+  for (const double time_step : kStiffnessMapSteps) {
+    for (const int iterations : kStiffnessMapIterations)
+      list.push_back({springs, time_step, iterations});
   }
   return list;
 }
@@ -55,16 +55,16 @@ std::vector<EngineChoice> engines() {
 }
 
 /// Whether an engine is to hold a rope at all: those with explicit springs have a largest step, 2 / omega.
-bool is_stable(const EngineChoice& engine, const Setting& setting) {
+bool is_stable(const EngineChoice& engine, const StiffnessMapSetting& setting) {
   if (engine.engine == "bullet_soft" || engine.engine == "bullet_weft") return true;
   const double n = setting.springs;
-  const double omega = 2 * std::sqrt(kStiffness / kNodeMass) *
+  const double omega = 2 * std::sqrt(kStiffnessMapStiffness / kStiffnessMapNodeMass) *
                        std::sin((2 * n - 1) / (2 * n + 1) * std::numbers::pi / 2);
   return omega * setting.time_step < 1.9;  // and not on the edge, where it takes for ever to rest
 }
 
 /// A rope that hangs from its first node, in its first place unstretched.
-scenes::Scene rope_scene(const Setting& setting) {
+scenes::Scene rope_scene(const StiffnessMapSetting& setting) {
   scenes::Scene scene = scenes::load_scene("hang");
   scene.name = "stiffness_map";
   scene.summary = "Shows a rope that hangs from its first node";
@@ -79,8 +79,8 @@ scenes::Scene rope_scene(const Setting& setting) {
   Rope rope;
   rope.nodes = nodes;
   rope.start = {0, 0, 0};
-  rope.end = {0, -kSpacing * setting.springs, 0};
-  rope.total_mass = kNodeMass * nodes;
+  rope.end = {0, -kStiffnessMapSpacing * setting.springs, 0};
+  rope.total_mass = kStiffnessMapNodeMass * nodes;
   rope.lumping = MassLumping::kUniform;
   cloth.source = rope;
   cloth.pins = {scenes::NodePin{{0}}};
@@ -89,23 +89,24 @@ scenes::Scene rope_scene(const Setting& setting) {
   cloth.regions.clear();
   cloth.bulge.reset();
   cloth.velocity.setZero();
-  cloth.laws = {{"gravity", {}, {{"acceleration", {0, -kGravity, 0}}}},
-                {"tension", {"stretch"}, {{"stiffness", {kStiffness}}}},
-                {"velocity_damping", {}, {{"rate", {kRate}}}}};
+  cloth.laws = {{"gravity", {}, {{"acceleration", {0, -kStiffnessMapGravity, 0}}}},
+                {"tension", {"stretch"}, {{"stiffness", {kStiffnessMapStiffness}}}},
+                {"velocity_damping", {}, {{"rate", {kStiffnessMapRate}}}}};
   scene.cloths.push_back(std::move(cloth));
   scene.bullet.position_iterations = setting.iterations;
   return scenes::with_bullets_time_step(scene);
 }
 
 double exact_drop(int springs) {
-  return kNodeMass * kGravity * springs * (springs + 1) / (2 * kStiffness);
+  return kStiffnessMapNodeMass * kStiffnessMapGravity * springs * (springs + 1) /
+         (2 * kStiffnessMapStiffness);
 }
 
 /// Stiffness of a spring over what was asked for, from how far the tip hangs down.
 double stiffness_ratio(const Frames& frames, int springs) {
   if (frames.empty()) return std::nan("");
   const auto tip = frames.back().cloths[0].positions.cols() - 1;
-  const double drop = -frames.back().cloths[0].positions(1, tip) - kSpacing * springs;
+  const double drop = -frames.back().cloths[0].positions(1, tip) - kStiffnessMapSpacing * springs;
   return exact_drop(springs) / drop;
 }
 
@@ -115,7 +116,7 @@ std::vector<std::vector<double>> ratios_of(const CaseInfo& info, const EngineCho
   std::vector<std::vector<double>> ratios;
   for (const int springs : kSprings) {
     ratios.emplace_back();
-    for (const Setting& setting : settings(springs)) {
+    for (const StiffnessMapSetting& setting : settings(springs)) {
       const bool is_run = is_stable(engine, setting);
       ratios.back().push_back(
           is_run ? stiffness_ratio(load_history(runs, setting.label(info), engine).frames, springs)
@@ -184,7 +185,7 @@ CheckResult independence_check(const CaseInfo& info, const EngineChoice& engine,
   check.source = "statics of a hanging chain; explicit engines where h w < 1.9";
   check.measured = 0.0;
   for (std::size_t s = 0; s < ratios.size(); ++s) {
-    const std::vector<Setting> columns = settings(kSprings[s]);
+    const std::vector<StiffnessMapSetting> columns = settings(kSprings[s]);
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const double error = std::abs(ratios[s][c] - 1);
       if (is_stable(engine, columns[c]) && !(error <= check.measured)) check.measured = error;
@@ -221,7 +222,7 @@ void plan_stiffness_map(const CaseInfo& info, const CaseOptions& options, Engine
   if (!options.bullet) return;
   for (const EngineChoice& engine : engines()) {
     for (const int springs : kSprings) {
-      for (const Setting& setting : settings(springs)) {
+      for (const StiffnessMapSetting& setting : settings(springs)) {
         if (!is_stable(engine, setting)) continue;
         runs.add({engine.label(setting.label(info)), rope_scene(setting), engine.engine,
                   engine.precision});
@@ -239,7 +240,7 @@ void evaluate_stiffness_map(const CaseInfo& info, const CaseOptions& options,
       "iterations (unstable: its step is too near 2 / omega, not run)",
       {"engine", "springs"},
       {}};
-  for (const Setting& setting : settings(1)) {
+  for (const StiffnessMapSetting& setting : settings(1)) {
     matrix.columns.push_back(
         fmt::format("1/{} s, {}", std::lround(1 / setting.time_step), setting.iterations));
   }

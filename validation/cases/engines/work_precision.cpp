@@ -91,19 +91,19 @@ CheckResult check_converged(const CaseInfo& info, const WorkStudy& study,
   return check;
 }
 
-struct Point {
+struct WorkPrecisionPoint {
   WorkRun run;
   double work = std::nan("");   ///< [ms] of wall time per simulated second
   double error = std::nan("");  ///< [m]
 };
 
-std::vector<Point> points_of(const WorkStudy& study, const SceneMetrics& metrics,
-                             const Frames& reference, const CaseOptions& options,
-                             const EngineRuns& runs) {
-  std::vector<Point> points;
+std::vector<WorkPrecisionPoint> points_of(const WorkStudy& study, const SceneMetrics& metrics,
+                                          const Frames& reference, const CaseOptions& options,
+                                          const EngineRuns& runs) {
+  std::vector<WorkPrecisionPoint> points;
   for (const WorkRun& run : work_runs(study, options.bullet)) {
     const EngineRuns::Outcome& outcome = runs.outcome(run.label(study.scene));
-    Point point{run};
+    WorkPrecisionPoint point{run};
     if (outcome.engine_seconds) point.work = 1e3 * *outcome.engine_seconds / study.duration;
     point.error = rms_distance(metrics, load_frames(outcome), reference);
     points.push_back(std::move(point));
@@ -121,7 +121,7 @@ Series series_of(const std::string& name, std::vector<std::pair<double, double>>
   return series;
 }
 
-Plot work_plot(const WorkStudy& study, const std::vector<Point>& points,
+Plot work_plot(const WorkStudy& study, const std::vector<WorkPrecisionPoint>& points,
                const Converged& converged) {
   Plot plot{fmt::format("{}, {} x {} nodes: precision against work", study.scene, study.nodes,
                         study.nodes),
@@ -134,7 +134,7 @@ Plot work_plot(const WorkStudy& study, const std::vector<Point>& points,
   std::map<std::string, std::vector<std::pair<double, double>>> series;
   std::vector<double> work;
   std::vector<double> error;
-  for (const Point& point : points) {
+  for (const WorkPrecisionPoint& point : points) {
     work.push_back(point.work);
     error.push_back(1e3 * point.error);
     if (!std::isfinite(point.error) || !std::isfinite(point.work)) continue;
@@ -155,20 +155,20 @@ Plot work_plot(const WorkStudy& study, const std::vector<Point>& points,
   return plot;
 }
 
-Table work_table(const WorkStudy& study, const std::vector<Point>& points) {
+Table work_table(const WorkStudy& study, const std::vector<WorkPrecisionPoint>& points) {
   Table table;
   table.title = fmt::format("{}: every run", study.scene);
   table.columns = {"engine",     "precision",   "integrator",        "time step [s]",
                    "iterations", "work [ms/s]", "RMS distance [mm]", "on the Pareto front"};
   std::vector<double> work;
   std::vector<double> error;
-  for (const Point& point : points) {
+  for (const WorkPrecisionPoint& point : points) {
     work.push_back(point.work);
     error.push_back(point.error);
   }
   const std::vector<std::size_t> front = pareto_front(work, error);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point& point = points[i];
+    const WorkPrecisionPoint& point = points[i];
     const bool is_reference = point.run.engine.engine == "reference";
     const std::size_t comma = point.run.series.find(", ");
     table.rows.push_back(
@@ -213,7 +213,8 @@ void evaluate_work_precision(const CaseInfo& info, const CaseOptions& options,
     const SceneMetrics metrics(work_scene(study, converged_runs(study).back()));
     const Converged converged = converged_reference(study, metrics, runs);
     report.checks.push_back(check_converged(info, study, metrics, converged));
-    const std::vector<Point> points = points_of(study, metrics, converged.frames, options, runs);
+    const std::vector<WorkPrecisionPoint> points =
+        points_of(study, metrics, converged.frames, options, runs);
     section.plots.push_back(work_plot(study, points, converged));
     section.tables.push_back(converged_table(study, converged));
     section.tables.push_back(work_table(study, points));

@@ -13,12 +13,9 @@
 namespace weft::validation {
 namespace {
 
-constexpr auto kFloat32 = scenes::StoredPrecision::kFloat32;
-constexpr auto kFloat64 = scenes::StoredPrecision::kFloat64;
-
 const EngineChoice kExact{"bullet_forces", kFloat64};
 /// In single precision, as programs have Bullet: where rounding decides, double precision goes astray elsewhere.
-const EngineChoice kJudged[] = {{"bullet_weft", kFloat32}};
+const EngineChoice kImpactsJudged[] = {{"bullet_weft", kFloat32}};
 
 std::vector<MotionScene> motions() {
   std::vector<MotionScene> list = judged_motions();
@@ -71,7 +68,7 @@ void plan_impacts(const CaseInfo& info, const CaseOptions& options, EngineRuns& 
     runs.add({kExact.label(id),
               with_step(motion.scene, motion.exact_step, motion.scene.world.frame_interval),
               kExact.engine, kExact.precision});
-    for (const EngineChoice& engine : kJudged) {
+    for (const EngineChoice& engine : kImpactsJudged) {
       runs.add({engine.label(id), motion.scene, engine.engine, engine.precision});
     }
   }
@@ -82,12 +79,13 @@ void evaluate_impacts(const CaseInfo& info, const CaseOptions& options, const En
   if (!options.bullet) return;
   Section section{std::string(info.id), std::string(info.summary), {}, {}, {}, ""};
   Table table{"Figures", {"scene", "figure", "unit", "short steps"}, {}};
-  for (const EngineChoice& engine : kJudged) table.columns.push_back(engine.title());
+  for (const EngineChoice& engine : kImpactsJudged) table.columns.push_back(engine.title());
   for (const MotionScene& motion : motions()) {
     const std::string id = label_of(info, motion);
     const History exact = load_history(runs, id, kExact);
     std::vector<History> histories;
-    for (const EngineChoice& engine : kJudged) histories.push_back(load_history(runs, id, engine));
+    for (const EngineChoice& engine : kImpactsJudged)
+      histories.push_back(load_history(runs, id, engine));
     for (const MotionFigure& figure : motion.figures) {
       const double right = figure.of(motion.scene, exact.frames);
       std::vector<std::string> row = {motion.scene.name, figure.name, figure.unit,

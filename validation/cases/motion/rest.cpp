@@ -15,8 +15,6 @@
 namespace weft::validation {
 namespace {
 
-constexpr auto kFloat32 = scenes::StoredPrecision::kFloat32;
-constexpr auto kFloat64 = scenes::StoredPrecision::kFloat64;
 constexpr double kLargest = 0.05;  ///< of m g
 constexpr double kMean = 0.01;
 constexpr double kPlace = 1e-3;                 ///< of the size
@@ -41,7 +39,7 @@ RestRun run_of(const CaseInfo& info, const scenes::Scene& scene, const EngineCho
   return {stepped, engine, fmt::format("{}_{}_{}", info.id, scene.name, step_name(step))};
 }
 
-const EngineChoice kExplicit{"bullet_forces", kFloat64};
+const EngineChoice kRestExplicit{"bullet_forces", kFloat64};
 const EngineChoice kFast32{"bullet_weft", kFloat32};
 const EngineChoice kFast64{"bullet_weft", kFloat64};
 
@@ -50,12 +48,12 @@ const EngineChoice kFast64{"bullet_weft", kFloat64};
 std::vector<RestRun> runs_of(const CaseInfo& info) {
   std::vector<RestRun> list;
   for (const scenes::Scene& scene : {hammock(), banner()}) {
-    list.push_back(run_of(info, scene, kExplicit, kExactStep));
+    list.push_back(run_of(info, scene, kRestExplicit, kExactStep));
     list.push_back(run_of(info, scene, kFast32, 1.0 / 60));
     list.push_back(run_of(info, scene, kFast64, 1.0 / 60));
   }
   for (const scenes::Scene& scene : {drape_over_box(), drape_over_ball()}) {
-    list.push_back(run_of(info, scene, kExplicit, kFinerExactStep));
+    list.push_back(run_of(info, scene, kRestExplicit, kFinerExactStep));
     list.push_back(run_of(info, scene, kFast64, 1.0 / 60));
   }
   for (const double step : {1.0 / 30, 1.0 / 240, 1.0 / 1000}) {
@@ -198,8 +196,8 @@ void plan_rest(const CaseInfo& info, const CaseOptions& options, EngineRuns& run
 void evaluate_rest(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
                    Report& report) {
   if (!options.bullet) return;
-  const RestRun exact_run = run_of(info, hammock(), kExplicit, kExactStep);
-  const History exact = load_history(runs, exact_run.label, kExplicit);
+  const RestRun exact_run = run_of(info, hammock(), kRestExplicit, kExactStep);
+  const History exact = load_history(runs, exact_run.label, kRestExplicit);
   const std::vector<Strip> strips = typical_strips();
   for (const RestRun& run : runs_of(info)) {
     const History history = load_history(runs, run.label, run.engine);

@@ -15,11 +15,11 @@
 namespace weft::validation {
 namespace {
 
-constexpr int kNodes = 25;
-constexpr double kMass = 0.25;      // [kg]
-constexpr double kStep = 1.0 / 60;  // [s]
-constexpr int kNumSteps = 180;      // 3 s
-constexpr double kMiddle = 1.0;     // [s]
+constexpr int kSwingNodes = 25;
+constexpr double kSwingMass = 0.25;      // [kg]
+constexpr double kSwingStep = 1.0 / 60;  // [s]
+constexpr int kSwingNumSteps = 180;      // 3 s
+constexpr double kMiddle = 1.0;          // [s]
 /// Kinetic energy may be 0.9 to 1.05 times what is right: so far from the middle of both.
 constexpr double kEnergyMiddle = 0.975;
 constexpr double kEnergyGate = 0.075;
@@ -39,7 +39,7 @@ constexpr std::array kRight = {
     Right{1e6, 0.5518, 0.5428, 0.834}, Right{1e7, 0.5489, 0.5452, 0.907},
 };
 
-const EngineChoice kJudged[] = {{"bullet_weft", scenes::StoredPrecision::kFloat32}};
+const EngineChoice kSwingJudged[] = {{"bullet_weft", scenes::StoredPrecision::kFloat32}};
 
 std::string label_of(const CaseInfo& info, const Right& right) {
   return fmt::format("{}_1e{:.0f}", info.id, std::log10(right.stiffness));
@@ -92,8 +92,8 @@ CheckResult check_of(const CaseInfo& info, const Right& right, const Figure& fig
 void plan_swing(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
   if (!options.bullet) return;
   for (const Right& right : kRight) {
-    const scenes::Scene scene = swinging_sheet(kNodes, kMass, right.stiffness);
-    for (const EngineChoice& engine : kJudged) {
+    const scenes::Scene scene = swinging_sheet(kSwingNodes, kSwingMass, right.stiffness);
+    for (const EngineChoice& engine : kSwingJudged) {
       runs.add({engine.label(label_of(info, right)), scene, engine.engine, engine.precision});
     }
   }
@@ -107,25 +107,27 @@ void evaluate_swing(const CaseInfo& info, const CaseOptions& options, const Engi
               {"stiffness [N/m]", "figure", "a rigid plate", "bullet_weft float32"},
               {}};
   for (const Right& right : kRight) {
-    const ClothMesh mesh = make_mesh(swinging_sheet(kNodes, kMass, right.stiffness).cloths[0]);
-    const SwingTrack still(mesh, kStep, frozen(mesh, kNumSteps));
-    const SwingTrack plate(mesh, kStep, rigid_plate(mesh, kStep, kNumSteps));
+    const ClothMesh mesh =
+        make_mesh(swinging_sheet(kSwingNodes, kSwingMass, right.stiffness).cloths[0]);
+    const SwingTrack still(mesh, kSwingStep, frozen(mesh, kSwingNumSteps));
+    const SwingTrack plate(mesh, kSwingStep, rigid_plate(mesh, kSwingStep, kSwingNumSteps));
     std::vector<std::optional<SwingTrack>> tracks;
-    for (const EngineChoice& engine : kJudged) {
+    for (const EngineChoice& engine : kSwingJudged) {
       const History history = load_history(runs, label_of(info, right), engine);
       Places places;
       for (const scenes::SceneState& frame : history.frames) {
         places.push_back(frame.cloths[0].positions);
       }
       tracks.emplace_back();
-      if (places.size() > kNumSteps) tracks.back().emplace(mesh, kStep, std::move(places));
+      if (places.size() > kSwingNumSteps)
+        tracks.back().emplace(mesh, kSwingStep, std::move(places));
     }
     for (const Figure& figure : figures_of(right)) {
       std::vector<std::string> row = {fmt::format("{:.0e}", right.stiffness), figure.name,
                                       fmt::format("{:.3f}", figure.of(plate) / figure.right)};
-      for (std::size_t e = 0; e < std::size(kJudged); ++e) {
+      for (std::size_t e = 0; e < std::size(kSwingJudged); ++e) {
         const SwingTrack* track = tracks[e] ? &*tracks[e] : nullptr;
-        CheckResult check = check_of(info, right, figure, kJudged[e], track, still);
+        CheckResult check = check_of(info, right, figure, kSwingJudged[e], track, still);
         judge_departing(check, motion_departures(), kMotionReason, report);
         report.checks.push_back(std::move(check));
         row.push_back(track != nullptr ? fmt::format("{:.3f}", figure.of(*track) / figure.right)

@@ -13,7 +13,6 @@ const EngineChoice kSoft32{"bullet_soft", scenes::StoredPrecision::kFloat32};
 const EngineChoice kSoft64{"bullet_soft", scenes::StoredPrecision::kFloat64};
 const EngineChoice kForces32{"bullet_forces", scenes::StoredPrecision::kFloat32};
 const EngineChoice kForces64{"bullet_forces", scenes::StoredPrecision::kFloat64};
-const EngineChoice kReference{"reference", scenes::StoredPrecision::kFloat64};
 
 constexpr double kFirstHalfSecond = 0.5;  // [s]
 

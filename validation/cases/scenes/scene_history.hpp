@@ -23,6 +23,10 @@ struct EngineChoice {
       const std::string& case_id) const;  ///< "hang_bullet_forces_float64"
 };
 
+inline constexpr auto kFloat32 = scenes::StoredPrecision::kFloat32;
+inline constexpr auto kFloat64 = scenes::StoredPrecision::kFloat64;
+inline const EngineChoice kReference{"reference", kFloat64};
+
 /// Every engine that takes part in cross-validation; the reference last.
 [[nodiscard]] std::vector<EngineChoice> cross_validated_engines(bool with_bullet);
 /// The recording to judge as one more engine. options.recorded must be set.

@@ -13,7 +13,7 @@ namespace weft::validation {
 namespace {
 
 /// Maximum that does not swallow a NaN.
-double larger(double a, double b) {
+double larger_metric(double a, double b) {
   return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::quiet_NaN() : std::max(a, b);
 }
 
@@ -40,13 +40,14 @@ double SceneMetrics::at(Quantity quantity, const scenes::SceneState& state,
   double value = 0.0;
   if (quantity == Quantity::kDepth) {
     for (const Penetration& penetration : penetrations(scene_, state)) {
-      value = larger(value, penetration.surface.deepest);
+      value = larger_metric(value, penetration.surface.deepest);
     }
     return value;
   }
   if (quantity == Quantity::kRigidDistance) {
     for (std::size_t r = 0; r < state.rigids.size(); ++r) {
-      value = larger(value, (state.rigids[r].position - reference.rigids[r].position).norm());
+      value =
+          larger_metric(value, (state.rigids[r].position - reference.rigids[r].position).norm());
     }
     return value;
   }
@@ -56,9 +57,9 @@ double SceneMetrics::at(Quantity quantity, const scenes::SceneState& state,
   for (std::size_t c = 0; c < state.cloths.size(); ++c) {
     const VertexDistance distance =
         vertex_distance(state.cloths[c].positions, reference.cloths[c].positions, weights_[c]);
-    value = larger(value, quantity == Quantity::kLargestDistance
-                              ? distance.largest
-                              : distance.rms_relative_to(cloth_size_));
+    value = larger_metric(value, quantity == Quantity::kLargestDistance
+                                     ? distance.largest
+                                     : distance.rms_relative_to(cloth_size_));
   }
   return value;
 }
@@ -102,7 +103,7 @@ double SceneMetrics::largest(Quantity quantity, const Frames& frames, const Fram
   for (std::size_t f = 0; f < std::min(frames.size(), reference.size()); ++f) {
     covered_until = frames[f].time;
     if (frames[f].time < begin - slack || frames[f].time > end + slack) continue;
-    value = larger(value, at(quantity, frames[f], reference[f]));
+    value = larger_metric(value, at(quantity, frames[f], reference[f]));
   }
   const bool covers = covered_until + scene_.world.frame_interval > end - slack;
   return covers ? value : std::numeric_limits<double>::infinity();
@@ -115,8 +116,8 @@ SceneMetrics::SurfaceGap SceneMetrics::surface_gap(const scenes::SceneState& sta
     const SurfaceDistance distance =
         surface_distance(Surface{state.cloths[c].positions, meshes_[c].triangles},
                          Surface{reference.cloths[c].positions, meshes_[c].triangles});
-    result.percentile_95 = larger(result.percentile_95, distance.hausdorff_95 / cloth_size_);
-    result.largest = larger(result.largest, distance.hausdorff / cloth_size_);
+    result.percentile_95 = larger_metric(result.percentile_95, distance.hausdorff_95 / cloth_size_);
+    result.largest = larger_metric(result.largest, distance.hausdorff / cloth_size_);
   }
   return result;
 }
@@ -125,9 +126,9 @@ double SceneMetrics::aligned_rms(const scenes::SceneState& state,
                                  const scenes::SceneState& reference) const {
   double value = 0.0;
   for (std::size_t c = 0; c < state.cloths.size(); ++c) {
-    value = larger(value, aligned_vertex_distance(state.cloths[c].positions,
-                                                  reference.cloths[c].positions, weights_[c])
-                              .rms_relative_to(cloth_size_));
+    value = larger_metric(value, aligned_vertex_distance(state.cloths[c].positions,
+                                                         reference.cloths[c].positions, weights_[c])
+                                     .rms_relative_to(cloth_size_));
   }
   return value;
 }

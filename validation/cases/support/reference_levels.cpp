@@ -11,7 +11,6 @@
 namespace weft::validation {
 namespace {
 
-const EngineChoice kReference{"reference", scenes::StoredPrecision::kFloat64};
 constexpr double kCoarseStep = 0.01;  // [s]
 
 std::vector<int> divisions(const LevelPlan& plan) {
@@ -35,7 +34,7 @@ Sabotage coarse_step(const scenes::Scene& scene) {
 }
 
 /// Maximum that does not swallow a NaN.
-double larger(double a, double b) {
+double larger_change(double a, double b) {
   return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::quiet_NaN() : std::max(a, b);
 }
 
@@ -95,7 +94,7 @@ CheckResult own_error_check(const ReferenceLevels& levels, const SceneMetrics& m
   const auto worst = [&](const Frames& finest) {
     double value = 0.0;
     for (const Window& window : windows) {
-      value = larger(value, levels.own_error(metrics, window, finest).study.uncertainty);
+      value = larger_change(value, levels.own_error(metrics, window, finest).study.uncertainty);
     }
     return value;
   };
@@ -111,7 +110,7 @@ CheckResult own_error_check(const ReferenceLevels& levels, const SceneMetrics& m
   double measured = 0.0;
   for (const Window& window : windows) {
     if (window.end > end) continue;
-    measured = larger(measured, levels.own_error(metrics, window, coarse).study.uncertainty);
+    measured = larger_change(measured, levels.own_error(metrics, window, coarse).study.uncertainty);
   }
   check.sabotages.push_back(
       {sabotage.name, measured,

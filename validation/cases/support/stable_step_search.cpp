@@ -10,23 +10,25 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kDisturbance = 1e-7;  // [m]
-constexpr double kGrown = 1e-3;  // [m]: 1e4 times as large, and still 1 % of a spring's length
+constexpr double kStableStepSearchDisturbance = 1e-7;  // [m]
+constexpr double kStableStepSearchGrown =
+    1e-3;  // [m]: 1e4 times as large, and still 1 % of a spring's length
 // A step 1e-3 beyond the stable one grows by exp(2 sqrt(2e-3)) per step, 1e15 in this many.
-constexpr int kNumSteps = 400;
+constexpr int kStableStepSearchNumSteps = 400;
 
 bool is_stable(reference::Body body, double time_step) {
   // In the plane of the cloth, where every spring resists, and another for each node and axis.
   for (int node = 0; node < body.mesh.num_nodes(); ++node) {
-    body.positions(0, node) += kDisturbance * std::sin(7.0 * node + 1.0);
-    body.positions(2, node) += kDisturbance * std::sin(11.0 * node + 2.0);
+    body.positions(0, node) += kStableStepSearchDisturbance * std::sin(7.0 * node + 1.0);
+    body.positions(2, node) += kStableStepSearchDisturbance * std::sin(11.0 * node + 2.0);
   }
   reference::SpringSolver solver =
       make_solver(std::move(body), reference::IntegratorKind::kModifiedEuler);
   const reference::Body& now = solver.system().bodies[0];
-  for (int step = 0; step < kNumSteps; ++step) {
+  for (int step = 0; step < kStableStepSearchNumSteps; ++step) {
     if (solver.step(time_step).blow_up) return false;
-    if ((now.positions - now.mesh.rest_positions).cwiseAbs().maxCoeff() > kGrown) return false;
+    if ((now.positions - now.mesh.rest_positions).cwiseAbs().maxCoeff() > kStableStepSearchGrown)
+      return false;
   }
   return true;
 }

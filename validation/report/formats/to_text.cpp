@@ -11,7 +11,7 @@
 namespace weft::validation {
 namespace {
 
-const char* verdict_word(Verdict verdict) {
+const char* shown_verdict(Verdict verdict) {
   switch (verdict) {
     case Verdict::kPass:
       return "pass";
@@ -37,7 +37,7 @@ std::string row(const CheckResult& check) {
       "{:<20} {:<25} {:<52} {:>11.3g} {:>11} {:>9}  {}{}\n", check.case_id, check.engine, metric,
       check.measured,
       check.tolerance ? fmt::format("{:.3g}", check.tolerance->value) : std::string("-"),
-      part ? fmt::format("{:.2g}", *part) : std::string("-"), verdict_word(check.verdict),
+      part ? fmt::format("{:.2g}", *part) : std::string("-"), shown_verdict(check.verdict),
       caught ? "" : " (a sabotage went unnoticed)");
 }
 

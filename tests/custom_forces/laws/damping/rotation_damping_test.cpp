@@ -8,39 +8,44 @@
 namespace weft::forces {
 namespace {
 
-constexpr double kRate = 0.8;      // [1/s]
-constexpr double kTimeStep = 0.3;  // [s]
-const LawSpecification kLaw{
-    .law = "rotation_damping", .sets = {}, .parameters = {{"rate", {kRate}}}};
+constexpr double kRotationDampingRate = 0.8;      // [1/s]
+constexpr double kRotationDampingTimeStep = 0.3;  // [s]
+const LawSpecification kRotationDampingLaw{
+    .law = "rotation_damping", .sets = {}, .parameters = {{"rate", {kRotationDampingRate}}}};
 
 /// Sums of 7 terms of size 10 (kg m^2/s), divided by an inertia of condition 10: round-off.
-constexpr double kSumRoundoff = 100 * kRoundoff;
+constexpr double kRotationDampingSumRoundoff = 100 * kRoundoff;
 
 TEST(RotationDamping, AngularMomentumDecaysInMagnitudeAndDirection) {
   const ClothMesh mesh = lopsided_body();
   const Matrix3X<double> before = arbitrary(7, 1);
-  const Matrix3X<double> after = advanced(kLaw, mesh, before, kTimeStep);
-  const Vector3<double> expected = std::exp(-kRate * kTimeStep) * spin_momentum(mesh, before);
+  const Matrix3X<double> after =
+      advanced(kRotationDampingLaw, mesh, before, kRotationDampingTimeStep);
+  const Vector3<double> expected =
+      std::exp(-kRotationDampingRate * kRotationDampingTimeStep) * spin_momentum(mesh, before);
   EXPECT_GT(expected.norm(), 0.1);
-  EXPECT_LT((spin_momentum(mesh, after) - expected).norm(), kSumRoundoff);
-  EXPECT_LT((momentum(mesh, after) - momentum(mesh, before)).norm(), kSumRoundoff);
+  EXPECT_LT((spin_momentum(mesh, after) - expected).norm(), kRotationDampingSumRoundoff);
+  EXPECT_LT((momentum(mesh, after) - momentum(mesh, before)).norm(), kRotationDampingSumRoundoff);
 }
 
 TEST(RotationDamping, WhatIsNotRotationStays) {
   const ClothMesh mesh = lopsided_body();
   const Matrix3X<double> before = arbitrary(7, 1);
-  const Matrix3X<double> lost = before - advanced(kLaw, mesh, before, kTimeStep);
+  const Matrix3X<double> lost =
+      before - advanced(kRotationDampingLaw, mesh, before, kRotationDampingTimeStep);
   // What is taken away is a rigid rotation about the centre of mass: nothing of it is left after
   // the law has acted for ever.
   EXPECT_GT(lost.norm(), 0.1);
-  EXPECT_LT(advanced(kLaw, mesh, lost, 1e3).norm(), kSumRoundoff);
+  EXPECT_LT(advanced(kRotationDampingLaw, mesh, lost, 1e3).norm(), kRotationDampingSumRoundoff);
 }
 
 TEST(RotationDamping, TranslationFeelsNothing) {
   const ClothMesh mesh = lopsided_body();
   const Matrix3X<double> before = rigid_motion(mesh, {0, 0, 0}, {3, -2, 1});
-  EXPECT_LT((advanced(kLaw, mesh, before, kTimeStep) - before).norm(), kSumRoundoff);
-  EXPECT_LT(forces_on(kLaw, mesh, mesh.rest_positions, before).norm(), kSumRoundoff);
+  EXPECT_LT((advanced(kRotationDampingLaw, mesh, before, kRotationDampingTimeStep) - before).norm(),
+            kRotationDampingSumRoundoff);
+  EXPECT_LT(forces_on(kRotationDampingLaw, mesh, mesh.rest_positions, before).norm(),
+            kRotationDampingSumRoundoff);
 }
 
 TEST(RotationDamping, ForceIsAgainstTheSpinOfEachNode) {
@@ -49,9 +54,9 @@ TEST(RotationDamping, ForceIsAgainstTheSpinOfEachNode) {
   positions << 2, 0, -2, 0, 0, 2, 0, -2, 0, 0, 0, 0;
   const ClothMesh mesh = small_mesh(positions, Edges(2, 0));
   const Matrix3X<double> spin = rigid_motion(mesh, {0, 0, 3}, {0, 0, 0});
-  const Matrix3X<double> force = forces_on(kLaw, mesh, positions, spin);
-  EXPECT_NEAR(force(1, 0), -kRate * 6, 6 * kRoundoff);
-  EXPECT_NEAR(force(0, 1), kRate * 6, 6 * kRoundoff);
+  const Matrix3X<double> force = forces_on(kRotationDampingLaw, mesh, positions, spin);
+  EXPECT_NEAR(force(1, 0), -kRotationDampingRate * 6, 6 * kRoundoff);
+  EXPECT_NEAR(force(0, 1), kRotationDampingRate * 6, 6 * kRoundoff);
   EXPECT_NEAR(force(2, 1), 0.0, kRoundoff);
 }
 
@@ -59,8 +64,9 @@ TEST(RotationDamping, ADumbbellTurnsMoreSlowlyAndSwingsOn) {
   const ClothMesh mesh = one_spring(2.0);
   Matrix3X<double> before(3, 2);
   before << 0.5, -0.5, 1, -1, 0, 0;  // along the line, and about z
-  const Matrix3X<double> after = advanced(kLaw, mesh, before, kTimeStep);
-  EXPECT_NEAR(after(1, 0), std::exp(-kRate * kTimeStep), kRoundoff);
+  const Matrix3X<double> after =
+      advanced(kRotationDampingLaw, mesh, before, kRotationDampingTimeStep);
+  EXPECT_NEAR(after(1, 0), std::exp(-kRotationDampingRate * kRotationDampingTimeStep), kRoundoff);
   EXPECT_NEAR(after(0, 0), 0.5, kRoundoff);
 }
 
@@ -74,8 +80,10 @@ TEST(RotationDamping, AThinRodIsNoSpecialCase) {
     positions << -1, 0, 1, 0, thickness, 0, 0, 0, 0;
     const ClothMesh mesh = small_mesh(positions, Edges(2, 0));
     const Matrix3X<double> before = rigid_motion(mesh, {0.3, -0.7, 0.5}, {0, 0, 0});
-    const Vector3<double> expected = std::exp(-kRate * kTimeStep) * spin_momentum(mesh, before);
-    const Matrix3X<double> after = advanced(kLaw, mesh, before, kTimeStep);
+    const Vector3<double> expected =
+        std::exp(-kRotationDampingRate * kRotationDampingTimeStep) * spin_momentum(mesh, before);
+    const Matrix3X<double> after =
+        advanced(kRotationDampingLaw, mesh, before, kRotationDampingTimeStep);
     EXPECT_LT((spin_momentum(mesh, after) - expected).norm(), kJump * expected.norm())
         << "thickness " << thickness;
   }
@@ -84,7 +92,7 @@ TEST(RotationDamping, AThinRodIsNoSpecialCase) {
 TEST(RotationDamping, ASingleNodeFeelsNothing) {
   const ClothMesh mesh = small_mesh(Matrix3X<double>::Ones(3, 1), Edges(2, 0));
   const Matrix3X<double> before = arbitrary(1, 1);
-  EXPECT_EQ(advanced(kLaw, mesh, before, kTimeStep), before);
+  EXPECT_EQ(advanced(kRotationDampingLaw, mesh, before, kRotationDampingTimeStep), before);
 }
 
 TEST(RotationDamping, PinnedNodesAreLeftOut) {
@@ -94,14 +102,16 @@ TEST(RotationDamping, PinnedNodesAreLeftOut) {
   rest.masses = mesh.masses.tail(6).eval();
   mesh.pinned = {0};
   const Matrix3X<double> before = arbitrary(7, 1);
-  const Matrix3X<double> after = advanced(kLaw, mesh, before, kTimeStep);
+  const Matrix3X<double> after =
+      advanced(kRotationDampingLaw, mesh, before, kRotationDampingTimeStep);
   EXPECT_EQ(after.col(0), before.col(0));
-  EXPECT_EQ(after.rightCols(6), advanced(kLaw, rest, before.rightCols(6), kTimeStep));
-  EXPECT_TRUE(forces_on(kLaw, mesh, mesh.rest_positions, before).col(0).isZero(0));
+  EXPECT_EQ(after.rightCols(6),
+            advanced(kRotationDampingLaw, rest, before.rightCols(6), kRotationDampingTimeStep));
+  EXPECT_TRUE(forces_on(kRotationDampingLaw, mesh, mesh.rest_positions, before).col(0).isZero(0));
 }
 
 TEST(RotationDamping, TheStateOfAnotherMeshIsRefused) {
-  const auto law = make_law<double>(kLaw, lopsided_body());
+  const auto law = make_law<double>(kRotationDampingLaw, lopsided_body());
   const ClothMesh other = one_spring(1.0);
   const Matrix3X<double> velocities = Matrix3X<double>::Zero(3, 2);
   Matrix3X<double> result = velocities;

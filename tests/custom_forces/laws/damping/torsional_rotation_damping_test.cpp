@@ -8,17 +8,19 @@
 namespace weft::forces {
 namespace {
 
-constexpr double kRate = 0.8;      // [1/s]
-constexpr double kTimeStep = 0.3;  // [s]
-const LawSpecification kLaw{
-    .law = "torsional_rotation_damping", .sets = {}, .parameters = {{"rate", {kRate}}}};
+constexpr double kTorsionalRotationDampingRate = 0.8;  // [1/s]
+constexpr double kTimeStep = 0.3;                      // [s]
+const LawSpecification kTorsionalRotationDampingLaw{
+    .law = "torsional_rotation_damping",
+    .sets = {},
+    .parameters = {{"rate", {kTorsionalRotationDampingRate}}}};
 
 /// Sums of 7 terms of size 10, divided by 3 x 3 matrices of condition 10: round-off.
-constexpr double kSumRoundoff = 100 * kRoundoff;
+constexpr double kTorsionalRotationDampingSumRoundoff = 100 * kRoundoff;
 
 /// Pi v: the force of a law of rate 1, without masses.
 Matrix3X<double> swirl(const ClothMesh& mesh, const Matrix3X<double>& velocities) {
-  const LawSpecification unit{kLaw.law, {}, {{"rate", {1.0}}}};
+  const LawSpecification unit{kTorsionalRotationDampingLaw.law, {}, {{"rate", {1.0}}}};
   return -forces_on(unit, mesh, mesh.rest_positions, velocities) *
          mesh.masses.cwiseInverse().asDiagonal();
 }
@@ -52,7 +54,7 @@ TEST(TorsionalRotationDamping, SwirlIsAProjection) {
   const ClothMesh mesh = lopsided_body();
   const Matrix3X<double> once = swirl(mesh, arbitrary(7, 1));
   EXPECT_GT(once.norm(), 0.1);
-  EXPECT_LT((swirl(mesh, once) - once).norm(), kSumRoundoff);
+  EXPECT_LT((swirl(mesh, once) - once).norm(), kTorsionalRotationDampingSumRoundoff);
 }
 
 TEST(TorsionalRotationDamping, TheProjectionIsOrthogonalInTheMasses) {
@@ -62,13 +64,15 @@ TEST(TorsionalRotationDamping, TheProjectionIsOrthogonalInTheMasses) {
   const auto product = [&](const Matrix3X<double>& u, const Matrix3X<double>& v) {
     return u.cwiseProduct(v * mesh.masses.asDiagonal()).sum();
   };
-  EXPECT_NEAR(product(a, swirl(mesh, b)), product(b, swirl(mesh, a)), kSumRoundoff);
+  EXPECT_NEAR(product(a, swirl(mesh, b)), product(b, swirl(mesh, a)),
+              kTorsionalRotationDampingSumRoundoff);
 }
 
 TEST(TorsionalRotationDamping, RigidAndRadialMotionIsAllThatIsLeftOut) {
   const ClothMesh mesh = lopsided_body();
-  EXPECT_LT(swirl(mesh, rigid_motion(mesh, {1, -2, 0.5}, {3, 1, -1})).norm(), kSumRoundoff);
-  EXPECT_LT(swirl(mesh, radial_motion(mesh)).norm(), kSumRoundoff);
+  EXPECT_LT(swirl(mesh, rigid_motion(mesh, {1, -2, 0.5}, {3, 1, -1})).norm(),
+            kTorsionalRotationDampingSumRoundoff);
+  EXPECT_LT(swirl(mesh, radial_motion(mesh)).norm(), kTorsionalRotationDampingSumRoundoff);
   // The trace of a projection is the dimension of what it keeps: 3 n without n radial motions, 3
   // translations and 3 rotations.
   double trace = 0.0;
@@ -77,16 +81,18 @@ TEST(TorsionalRotationDamping, RigidAndRadialMotionIsAllThatIsLeftOut) {
     unit.data()[i] = 1.0;
     trace += swirl(mesh, unit).data()[i];
   }
-  EXPECT_NEAR(trace, 2 * 7 - 6, kSumRoundoff);
+  EXPECT_NEAR(trace, 2 * 7 - 6, kTorsionalRotationDampingSumRoundoff);
 }
 
 TEST(TorsionalRotationDamping, MomentaStay) {
   const ClothMesh mesh = lopsided_body();
   const Matrix3X<double> before = arbitrary(7, 1);
-  const Matrix3X<double> after = advanced(kLaw, mesh, before, kTimeStep);
+  const Matrix3X<double> after = advanced(kTorsionalRotationDampingLaw, mesh, before, kTimeStep);
   EXPECT_GT((after - before).norm(), 0.1);
-  EXPECT_LT((momentum(mesh, after) - momentum(mesh, before)).norm(), kSumRoundoff);
-  EXPECT_LT((spin_momentum(mesh, after) - spin_momentum(mesh, before)).norm(), kSumRoundoff);
+  EXPECT_LT((momentum(mesh, after) - momentum(mesh, before)).norm(),
+            kTorsionalRotationDampingSumRoundoff);
+  EXPECT_LT((spin_momentum(mesh, after) - spin_momentum(mesh, before)).norm(),
+            kTorsionalRotationDampingSumRoundoff);
 }
 
 TEST(TorsionalRotationDamping, CentreAgainstRimDecaysAtTheRate) {
@@ -95,8 +101,10 @@ TEST(TorsionalRotationDamping, CentreAgainstRimDecaysAtTheRate) {
   Matrix3X<double> mode = rigid_motion(mesh, {0, 0, 1}, {0, 0, 0});
   mode.middleCols(6, 6) *= -0.5;
   const Matrix3X<double> rest = rigid_motion(mesh, {0.2, 0.1, -1}, {1, 2, 3});
-  const Matrix3X<double> after = advanced(kLaw, mesh, rest + mode, kTimeStep);
-  EXPECT_LT((after - rest - std::exp(-kRate * kTimeStep) * mode).norm(), kSumRoundoff);
+  const Matrix3X<double> after =
+      advanced(kTorsionalRotationDampingLaw, mesh, rest + mode, kTimeStep);
+  EXPECT_LT((after - rest - std::exp(-kTorsionalRotationDampingRate * kTimeStep) * mode).norm(),
+            kTorsionalRotationDampingSumRoundoff);
 }
 
 TEST(TorsionalRotationDamping, AndRotationDampingMindEachOthersWork) {
@@ -106,22 +114,23 @@ TEST(TorsionalRotationDamping, AndRotationDampingMindEachOthersWork) {
   const LawSpecification rotation{"rotation_damping", {}, {{"rate", {2.0}}}};
   const Matrix3X<double> before = arbitrary(7, 1);
   LawSet<double> laws;
-  laws.add(make_law<double>(kLaw, mesh));
+  laws.add(make_law<double>(kTorsionalRotationDampingLaw, mesh));
   laws.add(make_law<double>(rotation, mesh));
   Matrix3X<double> together = before;
   laws.advance_velocities({mesh.rest_positions, before, mesh.masses}, kTimeStep, together);
-  const Matrix3X<double> one_way =
-      advanced(rotation, mesh, advanced(kLaw, mesh, before, kTimeStep), kTimeStep);
-  const Matrix3X<double> other_way =
-      advanced(kLaw, mesh, advanced(rotation, mesh, before, kTimeStep), kTimeStep);
+  const Matrix3X<double> one_way = advanced(
+      rotation, mesh, advanced(kTorsionalRotationDampingLaw, mesh, before, kTimeStep), kTimeStep);
+  const Matrix3X<double> other_way = advanced(
+      kTorsionalRotationDampingLaw, mesh, advanced(rotation, mesh, before, kTimeStep), kTimeStep);
   EXPECT_EQ(together, one_way);
-  EXPECT_LT((one_way - other_way).norm(), kSumRoundoff);
+  EXPECT_LT((one_way - other_way).norm(), kTorsionalRotationDampingSumRoundoff);
 }
 
 TEST(TorsionalRotationDamping, ABreathingBodyBreathesOn) {
   const ClothMesh mesh = two_rings();
   const Matrix3X<double> breath = 0.3 * mesh.rest_positions;
-  EXPECT_LT((advanced(kLaw, mesh, breath, kTimeStep) - breath).norm(), kSumRoundoff);
+  EXPECT_LT((advanced(kTorsionalRotationDampingLaw, mesh, breath, kTimeStep) - breath).norm(),
+            kTorsionalRotationDampingSumRoundoff);
 }
 
 TEST(TorsionalRotationDamping, OnALineItIsTheBendingMotion) {
@@ -132,14 +141,17 @@ TEST(TorsionalRotationDamping, OnALineItIsTheBendingMotion) {
   bending.row(2) << 1, -2, 1;
   Matrix3X<double> rest = rigid_motion(mesh, {0, 2, 1}, {1, 1, 1});
   rest(0, 2) += 0.7;  // along the line
-  const Matrix3X<double> after = advanced(kLaw, mesh, rest + bending, kTimeStep);
-  EXPECT_LT((after - rest - std::exp(-kRate * kTimeStep) * bending).norm(), kSumRoundoff);
+  const Matrix3X<double> after =
+      advanced(kTorsionalRotationDampingLaw, mesh, rest + bending, kTimeStep);
+  EXPECT_LT((after - rest - std::exp(-kTorsionalRotationDampingRate * kTimeStep) * bending).norm(),
+            kTorsionalRotationDampingSumRoundoff);
 }
 
 TEST(TorsionalRotationDamping, ADumbbellFeelsNothing) {
   const ClothMesh mesh = one_spring(2.0);
   const Matrix3X<double> before = arbitrary(2, 5);
-  EXPECT_LT((advanced(kLaw, mesh, before, kTimeStep) - before).norm(), kSumRoundoff);
+  EXPECT_LT((advanced(kTorsionalRotationDampingLaw, mesh, before, kTimeStep) - before).norm(),
+            kTorsionalRotationDampingSumRoundoff);
 }
 
 }  // namespace

@@ -39,18 +39,18 @@ ClothMesh two_triangles(double rest_angle = 0.0) {
   return mesh;
 }
 
-Matrix3X<double> force_at(const ClothMesh& mesh, const Matrix3X<double>& positions) {
+Matrix3X<double> hinge_force_at(const ClothMesh& mesh, const Matrix3X<double>& positions) {
   return forces_on(hinge_torsion(), mesh, positions, Matrix3X<double>::Zero(3, positions.cols()));
 }
 
-double energy_at(const ClothMesh& mesh, const Matrix3X<double>& positions) {
+double hinge_energy_at(const ClothMesh& mesh, const Matrix3X<double>& positions) {
   return make_law<double>(hinge_torsion(), mesh)
       ->potential_energy({positions, Matrix3X<double>::Zero(3, positions.cols()), mesh.masses});
 }
 
 TEST(HingeTorsion, AWingIsPushedBackByTheMomentOverItsHeight) {
   constexpr double kAngle = 0.3;
-  const Matrix3X<double> force = force_at(two_triangles(), folded(kAngle));
+  const Matrix3X<double> force = hinge_force_at(two_triangles(), folded(kAngle));
   // l = 1, both heights 1: k = D l / h = D. The wing moves on a circle about the edge.
   EXPECT_NEAR(force.col(3).norm(), kRigidity * kAngle, kAngleRoundoff);
   EXPECT_NEAR(force(2, 3), -kRigidity * kAngle * std::cos(kAngle), kAngleRoundoff);
@@ -59,7 +59,7 @@ TEST(HingeTorsion, AWingIsPushedBackByTheMomentOverItsHeight) {
 
 TEST(HingeTorsion, TheEnergyIsThatOfTheAngleOnBothSides) {
   for (const double angle : {-3.0, -1.0, -1e-3, 1e-3, 1.0, 3.0}) {
-    EXPECT_NEAR(energy_at(two_triangles(), folded(angle)), kRigidity * angle * angle / 2,
+    EXPECT_NEAR(hinge_energy_at(two_triangles(), folded(angle)), kRigidity * angle * angle / 2,
                 10 * kAngleRoundoff)
         << angle;
   }
@@ -67,9 +67,9 @@ TEST(HingeTorsion, TheEnergyIsThatOfTheAngleOnBothSides) {
 
 TEST(HingeTorsion, TheMirrorImageOfAFoldIsNotAtRest) {
   const ClothMesh mesh = two_triangles(0.5);
-  EXPECT_NEAR(energy_at(mesh, folded(0.5)), 0, kAngleRoundoff);
-  EXPECT_NEAR(energy_at(mesh, folded(-0.5)), kRigidity / 2, 10 * kAngleRoundoff);
-  EXPECT_GT(force_at(mesh, folded(-0.5))(2, 3), 0) << "back through the flat state";
+  EXPECT_NEAR(hinge_energy_at(mesh, folded(0.5)), 0, kAngleRoundoff);
+  EXPECT_NEAR(hinge_energy_at(mesh, folded(-0.5)), kRigidity / 2, 10 * kAngleRoundoff);
+  EXPECT_GT(hinge_force_at(mesh, folded(-0.5))(2, 3), 0) << "back through the flat state";
 }
 
 TEST(HingeTorsion, ASquareCellCutBothWaysHasHingesOfHalfTheRigidity) {
@@ -83,16 +83,16 @@ TEST(HingeTorsion, ASquareCellCutBothWaysHasHingesOfHalfTheRigidity) {
   bent.row(2) = kLift * bent.row(0).cwiseAbs2();  // curvature 2 kLift along x
   // Two cells share the line x = 0, each with two hinges of D / 2 and angle 2 kLift.
   const double expected = 2 * kRigidity * (2 * kLift) * (2 * kLift) / 2;
-  EXPECT_NEAR(energy_at(mesh, bent), expected, expected * 1e-6) << "squares of slopes: 1e-8";
+  EXPECT_NEAR(hinge_energy_at(mesh, bent), expected, expected * 1e-6) << "squares of slopes: 1e-8";
 }
 
 TEST(HingeTorsion, AHingeAtAClampCountsTwice) {
   ClothMesh mesh = two_triangles();
-  const double free = energy_at(mesh, folded(0.4));
+  const double free = hinge_energy_at(mesh, folded(0.4));
   mesh.pinned = {0, 1, 2};
-  EXPECT_NEAR(energy_at(mesh, folded(0.4)), 2 * free, 10 * kAngleRoundoff);
+  EXPECT_NEAR(hinge_energy_at(mesh, folded(0.4)), 2 * free, 10 * kAngleRoundoff);
   mesh.pinned = {0, 1};
-  EXPECT_NEAR(energy_at(mesh, folded(0.4)), free, 10 * kAngleRoundoff) << "a hem is no clamp";
+  EXPECT_NEAR(hinge_energy_at(mesh, folded(0.4)), free, 10 * kAngleRoundoff) << "a hem is no clamp";
 }
 
 TEST(HingeTorsion, ATriangleWithoutAreaIsRefusedAtRestAndIgnoredInMotion) {
@@ -101,7 +101,7 @@ TEST(HingeTorsion, ATriangleWithoutAreaIsRefusedAtRestAndIgnoredInMotion) {
   EXPECT_THROW((void)make_law<double>(hinge_torsion(), flat), InvalidArgument);
   Matrix3X<double> crushed = folded(0.5);
   crushed.col(3) << 0, 0.5, 0;
-  EXPECT_EQ(force_at(two_triangles(), crushed).norm(), 0.0);
+  EXPECT_EQ(hinge_force_at(two_triangles(), crushed).norm(), 0.0);
 }
 
 TEST(HingeTorsion, ThreeTrianglesAtAnEdgeAndTwistedNeighboursAreRefused) {

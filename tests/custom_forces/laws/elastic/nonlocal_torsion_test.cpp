@@ -12,13 +12,13 @@
 namespace weft::forces {
 namespace {
 
-constexpr double kStiffness = 0.7;  // kappa [N m/rad]
-constexpr int kCentre = 12;         // of 5 x 5 nodes
-constexpr int kFar = 14;            // two cells along x
-constexpr double kReach = 2.0;      // [m] between them
+constexpr double kNonlocalTorsionStiffness = 0.7;  // kappa [N m/rad]
+constexpr int kCentre = 12;                        // of 5 x 5 nodes
+constexpr int kFar = 14;                           // two cells along x
+constexpr double kReach = 2.0;                     // [m] between them
 
 LawSpecification ties() {
-  return {"nonlocal_torsion", {}, {{"stiffness", {kStiffness}}}};
+  return {"nonlocal_torsion", {}, {{"stiffness", {kNonlocalTorsionStiffness}}}};
 }
 
 /// A flat sheet whose centre is tied to the middle of its right side.
@@ -40,16 +40,16 @@ Matrix3X<double> swung(const ClothMesh& mesh, double angle) {
   return positions;
 }
 
-Matrix3X<double> force_at(const ClothMesh& mesh, const Matrix3X<double>& positions) {
+Matrix3X<double> nonlocal_force_at(const ClothMesh& mesh, const Matrix3X<double>& positions) {
   return forces_on(ties(), mesh, positions, Matrix3X<double>::Zero(3, positions.cols()));
 }
 
 TEST(NonlocalTorsion, AFarNodeIsPushedBackByTheTorqueOverItsDistance) {
   const ClothMesh mesh = tied_sheet();
   for (const double angle : {-2.0, -0.5, 0.05, 1.5, 3.0}) {
-    const Vector3<double> force = force_at(mesh, swung(mesh, angle)).col(kFar);
+    const Vector3<double> force = nonlocal_force_at(mesh, swung(mesh, angle)).col(kFar);
     const Vector3<double> back(std::sin(angle), 0, -std::cos(angle));
-    const Vector3<double> expected = kStiffness * angle / kReach * back;
+    const Vector3<double> expected = kNonlocalTorsionStiffness * angle / kReach * back;
     EXPECT_LE((force - expected).norm(), 1000 * kRoundoff) << angle;
   }
 }
@@ -61,8 +61,8 @@ TEST(NonlocalTorsion, TurningTheRingAloneTurnsTheWantedDirectionWithIt) {
   for (int node = 0; node < mesh.num_nodes(); ++node) {
     if (node != kFar) positions.col(node) = turn * Vector3<double>(positions.col(node));
   }
-  const Vector3<double> force = force_at(mesh, positions).col(kFar);
-  EXPECT_NEAR(force.norm(), kStiffness * 0.4 / kReach, 1000 * kRoundoff);
+  const Vector3<double> force = nonlocal_force_at(mesh, positions).col(kFar);
+  EXPECT_NEAR(force.norm(), kNonlocalTorsionStiffness * 0.4 / kReach, 1000 * kRoundoff);
 }
 
 TEST(NonlocalTorsion, ANodeWithoutTrianglesIsRefused) {

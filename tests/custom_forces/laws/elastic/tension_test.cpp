@@ -10,14 +10,15 @@
 namespace weft::forces {
 namespace {
 
-constexpr double kStiffness = 20.0;  // [N/m]
-constexpr double kRestLength = 2.0;  // [m]
+constexpr double kTensionStiffness = 20.0;  // [N/m]
+constexpr double kRestLength = 2.0;         // [m]
 const Matrix3X<double> kStill = Matrix3X<double>::Zero(3, 2);
 
 LawSpecification tension(double compression_ratio) {
   return {.law = "tension",
           .sets = {},
-          .parameters = {{"stiffness", {kStiffness}}, {"compression_ratio", {compression_ratio}}}};
+          .parameters = {{"stiffness", {kTensionStiffness}},
+                         {"compression_ratio", {compression_ratio}}}};
 }
 
 Matrix3X<double> apart(double length) {
@@ -48,7 +49,7 @@ TEST(Tension, PullsAlongTheSpringInSpace) {
   positions << 1, 3, 1, 4, 1, 7;  // difference (2, 3, 6), length 7
   const Matrix3X<double> force =
       forces_on(tension(1.0), one_spring(kRestLength), positions, kStill);
-  const Vector3<double> expected = kStiffness * 5.0 * Vector3<double>(2, 3, 6) / 7.0;
+  const Vector3<double> expected = kTensionStiffness * 5.0 * Vector3<double>(2, 3, 6) / 7.0;
   EXPECT_LE((force.col(0) - expected).norm(), expected.norm() * kRoundoff);
   EXPECT_EQ(Vector3<double>(force.col(0)), Vector3<double>(-force.col(1)));
 }
@@ -67,7 +68,7 @@ TEST(Tension, TheRatioDoesNotTouchAStretchedSpring) {
 
 TEST(Tension, TheRatioIsOneIfNotGiven) {
   const LawSpecification specification{
-      .law = "tension", .sets = {}, .parameters = {{"stiffness", {kStiffness}}}};
+      .law = "tension", .sets = {}, .parameters = {{"stiffness", {kTensionStiffness}}}};
   EXPECT_EQ(forces_on(specification, one_spring(kRestLength), apart(1.5), kStill)(0, 0),
             pull_at(1.5, 1.0));
 }
@@ -88,7 +89,8 @@ TEST(Tension, ASpringWithoutDirectionExertsNoForce) {
 
 TEST(Tension, AWeightHangsByMassTimesGravityOverStiffness) {
   const double weight = 9.81;  // [N]
-  EXPECT_NEAR(pull_at(kRestLength + weight / kStiffness, 1.0), weight, kStiffness * kRoundoff);
+  EXPECT_NEAR(pull_at(kRestLength + weight / kTensionStiffness, 1.0), weight,
+              kTensionStiffness * kRoundoff);
 }
 
 TEST(Tension, ActsOnTheNamedSetsOnly) {

@@ -12,8 +12,8 @@
 namespace weft::forces {
 namespace {
 
-constexpr double kStiffness = 50.0;  // [N/m]
-constexpr double kDamping = 3.0;     // [N s/m]
+constexpr double kDriveStiffness = 50.0;  // [N/m]
+constexpr double kDriveDamping = 3.0;     // [N s/m]
 
 /// Four nodes on the corners of a square about (0.5, 0.5, 2); the first two are the region "hand".
 ClothMesh square() {
@@ -31,8 +31,8 @@ LawSpecification drive(const std::string& region, const std::vector<double>& dis
                        const std::vector<double>& angular_velocity) {
   return {.law = "drive",
           .sets = {region},
-          .parameters = {{"stiffness", {kStiffness}},
-                         {"damping", {kDamping}},
+          .parameters = {{"stiffness", {kDriveStiffness}},
+                         {"damping", {kDriveDamping}},
                          {"displacement", displacement},
                          {"velocity", velocity},
                          {"angular_velocity", angular_velocity}}};
@@ -49,30 +49,30 @@ Matrix3X<double> force_at_time(const LawSpecification& law, const Matrix3X<doubl
 }
 
 const std::vector<double> kNone = {0, 0, 0};
-const Matrix3X<double> kStill = Matrix3X<double>::Zero(3, 4);
+const Matrix3X<double> kDriveStill = Matrix3X<double>::Zero(3, 4);
 
 TEST(Drive, PullsOnlyTheNodesOfItsRegion) {
   const Matrix3X<double> force = force_at_time(drive("hand", {0.1, 0, -0.2}, kNone, kNone),
-                                               square().rest_positions, kStill, 0);
-  const Vector3<double> expected = kStiffness * Vector3<double>(0.1, 0, -0.2);
-  EXPECT_NEAR((force.col(0) - expected).norm(), 0, kStiffness * kRoundoff);
-  EXPECT_NEAR((force.col(1) - expected).norm(), 0, kStiffness * kRoundoff);
+                                               square().rest_positions, kDriveStill, 0);
+  const Vector3<double> expected = kDriveStiffness * Vector3<double>(0.1, 0, -0.2);
+  EXPECT_NEAR((force.col(0) - expected).norm(), 0, kDriveStiffness * kRoundoff);
+  EXPECT_NEAR((force.col(1) - expected).norm(), 0, kDriveStiffness * kRoundoff);
   EXPECT_TRUE(force.rightCols(2).isZero(0));
 }
 
 TEST(Drive, WithoutRegionsNamedPullsAllOfThem) {
   LawSpecification law = drive("all", {0.1, 0, 0}, kNone, kNone);
-  const Matrix3X<double> named = force_at_time(law, square().rest_positions, kStill, 0);
+  const Matrix3X<double> named = force_at_time(law, square().rest_positions, kDriveStill, 0);
   law.sets.clear();
-  EXPECT_EQ(named, force_at_time(law, square().rest_positions, kStill, 0));
+  EXPECT_EQ(named, force_at_time(law, square().rest_positions, kDriveStill, 0));
 }
 
 TEST(Drive, TheTargetMovesOnWithItsVelocity) {
   const double time = 2.5;
   const Vector3<double> velocity(0.4, -0.2, 1.0);
   const Matrix3X<double> force = force_at_time(drive("all", kNone, {0.4, -0.2, 1.0}, kNone),
-                                               square().rest_positions, kStill, time);
-  const Vector3<double> expected = kStiffness * time * velocity + kDamping * velocity;
+                                               square().rest_positions, kDriveStill, time);
+  const Vector3<double> expected = kDriveStiffness * time * velocity + kDriveDamping * velocity;
   EXPECT_NEAR((force.col(2) - expected).norm(), 0, expected.norm() * kRoundoff);
 }
 
@@ -92,7 +92,7 @@ TEST(Drive, LeavesNodesAloneThatMoveAsTheyShould) {
   }
   const Matrix3X<double> force =
       force_at_time(drive("all", kNone, {0.3, 0, -0.1}, {0, 0, rate}), positions, velocities, time);
-  EXPECT_NEAR(force.norm(), 0, kStiffness * positions.norm() * kRoundoff);
+  EXPECT_NEAR(force.norm(), 0, kDriveStiffness * positions.norm() * kRoundoff);
 }
 
 TEST(Drive, ARegionTurnsAboutItsOwnCentre) {
@@ -100,21 +100,21 @@ TEST(Drive, ARegionTurnsAboutItsOwnCentre) {
   const double pi = std::acos(-1.0);
   LawSpecification law = drive("hand", kNone, kNone, {0, 0, pi});
   law.parameters["damping"] = {0.0};
-  const Matrix3X<double> force = force_at_time(law, square().rest_positions, kStill, 1.0);
-  EXPECT_NEAR((force.col(0) - kStiffness * Vector3<double>(1, 0, 0)).norm(), 0,
-              kStiffness * kRoundoff);
-  EXPECT_NEAR((force.col(1) + kStiffness * Vector3<double>(1, 0, 0)).norm(), 0,
-              kStiffness * kRoundoff);
+  const Matrix3X<double> force = force_at_time(law, square().rest_positions, kDriveStill, 1.0);
+  EXPECT_NEAR((force.col(0) - kDriveStiffness * Vector3<double>(1, 0, 0)).norm(), 0,
+              kDriveStiffness * kRoundoff);
+  EXPECT_NEAR((force.col(1) + kDriveStiffness * Vector3<double>(1, 0, 0)).norm(), 0,
+              kDriveStiffness * kRoundoff);
 }
 
 TEST(Drive, PowerIsTheWorkOfTheHandPerTime) {
   const ClothMesh mesh = square();
   const auto law = make_law<double>(drive("hand", {0.1, 0, 0}, kNone, kNone), mesh);
-  Matrix3X<double> velocities = kStill;
+  Matrix3X<double> velocities = kDriveStill;
   velocities(0, 0) = 2.0;
-  const double expected = (kStiffness * 0.1 - kDamping * 2.0) * 2.0;
+  const double expected = (kDriveStiffness * 0.1 - kDriveDamping * 2.0) * 2.0;
   EXPECT_NEAR(law->non_conservative_power({mesh.rest_positions, velocities, mesh.masses}), expected,
-              kStiffness * kRoundoff);
+              kDriveStiffness * kRoundoff);
 }
 
 TEST(Drive, RefusesARegionThatTheMeshDoesNotHave) {

@@ -7,14 +7,14 @@
 namespace weft::forces {
 namespace {
 
-const LawSpecification kLaw{
+const LawSpecification kGravityLaw{
     .law = "gravity", .sets = {}, .parameters = {{"acceleration", {1.0, -9.0, 0.5}}}};
 
 TEST(Gravity, PullsEveryNodeByItsMass) {
   ClothMesh mesh = one_spring(1.0);
   mesh.masses << 2.0, 0.5;
   const Matrix3X<double> force =
-      forces_on(kLaw, mesh, mesh.rest_positions, Matrix3X<double>::Zero(3, 2));
+      forces_on(kGravityLaw, mesh, mesh.rest_positions, Matrix3X<double>::Zero(3, 2));
   EXPECT_EQ(Vector3<double>(force.col(0)), Vector3<double>(2, -18, 1));
   EXPECT_EQ(Vector3<double>(force.col(1)), Vector3<double>(0.5, -4.5, 0.25));
 }
@@ -23,13 +23,13 @@ TEST(Gravity, ActsOnPinnedNodesToo) {
   ClothMesh mesh = one_spring(1.0);
   mesh.pinned = {0};
   const Matrix3X<double> force =
-      forces_on(kLaw, mesh, mesh.rest_positions, Matrix3X<double>::Zero(3, 2));
+      forces_on(kGravityLaw, mesh, mesh.rest_positions, Matrix3X<double>::Zero(3, 2));
   EXPECT_EQ(force(1, 0), -9.0);
 }
 
 TEST(Gravity, EnergyFallsByWeightTimesWay) {
   const ClothMesh mesh = one_spring(1.0);
-  const auto law = make_law<double>(kLaw, mesh);
+  const auto law = make_law<double>(kGravityLaw, mesh);
   const Matrix3X<double> still = Matrix3X<double>::Zero(3, 2);
   Matrix3X<double> lower = mesh.rest_positions;
   lower.row(1).array() -= 2.0;

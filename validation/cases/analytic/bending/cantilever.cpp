@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kNumGammas = 12;
 constexpr int kNumCells = 40;
-constexpr double kStrain = 1e-3;  ///< of the springs under the whole weight [-]
+constexpr double kCantileverStrain = 1e-3;  ///< of the springs under the whole weight [-]
 
 double gamma_at(int index) {
   return 0.1 * std::pow(1000.0, index / (kNumGammas - 1.0));
@@ -76,7 +76,7 @@ StripModel strip_model(int angle) {
   model.strip.num_cells = kNumCells;
   model.strip.width_cells = angle == 45 ? 4 : 2;
   model.is_endless = angle == 45;
-  model.strain = kStrain;
+  model.strain = kCantileverStrain;
   return model;
 }
 
@@ -195,7 +195,7 @@ void add_free_sides_row(const CaseInfo& info, Report& report) {
 }
 
 /// One strip that anyone may ask for.
-struct Point {
+struct CantileverPoint {
   double gamma = 1.0;
   double angle = 0.0;  ///< of the grid to the strip [deg]
   double tilt = 0.0;   ///< of the clamp below the horizontal [deg]
@@ -213,14 +213,14 @@ struct Way {
   std::vector<ComparedValue> values = {};
 };
 
-Way way_of(const Point& point, double rigidity_factor) {
+Way way_of(const CantileverPoint& point, double rigidity_factor) {
   const double tilt = point.tilt * std::numbers::pi / 180;
   StripModel model;
   model.strip.angle = point.angle;
   model.strip.num_cells = point.cells;
   model.strip.width_cells = point.angle == 45 ? 4 : 2;
   model.is_endless = point.angle != 0 && point.angle != 90;
-  model.strain = kStrain;
+  model.strain = kCantileverStrain;
   model.gamma = point.gamma / rigidity_factor;
   model.tilt = tilt;
   const BentStrip strip = bend_strip(model);
@@ -237,7 +237,7 @@ Way way_of(const Point& point, double rigidity_factor) {
           {{"H / L", drop, exact.drop, "1"}, {"W / L", reach, exact.reach, "1"}}};
 }
 
-void add_point_check(const CaseInfo& info, const Point& point, Report& report) {
+void add_point_check(const CaseInfo& info, const CantileverPoint& point, Report& report) {
   const LatticeDirection direction = nearest_direction(point.angle);
   CheckResult check = check_of(
       info, fmt::format("a heavy strip hangs as the elastica, Gamma = {}, grid at {} degrees{}",
@@ -266,7 +266,7 @@ void add_point_check(const CaseInfo& info, const Point& point, Report& report) {
   report.checks.push_back(std::move(check));
 }
 
-constexpr std::array kParameters = {
+constexpr std::array kCantileverParameters = {
     CaseParameter{"gamma", "1", "rho g L^3 / D", 0.05, 500.0, 1.0},
     CaseParameter{"nodes", "1", "cells along the strip", 10, 160, std::nullopt, true},
     CaseParameter{"angle", "deg",
@@ -278,7 +278,7 @@ constexpr std::array kParameters = {
 }  // namespace
 
 std::span<const CaseParameter> cantilever_parameters() {
-  return kParameters;
+  return kCantileverParameters;
 }
 
 void evaluate_cantilever(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
@@ -300,9 +300,10 @@ void evaluate_cantilever(const CaseInfo& info, const CaseOptions& options, const
   }
   sweeps.push_back(add_jittered_check(info, report));
   add_free_sides_row(info, report);
-  for (const Point& point : {Point{0.05}, Point{200}, Point{500}, Point{3.7, 17}, Point{30, 63},
-                             Point{3.7, 0, 30}, Point{3.7, 0, -40}}) {
-    Point chosen = point;
+  for (const CantileverPoint& point :
+       {CantileverPoint{0.05}, CantileverPoint{200}, CantileverPoint{500}, CantileverPoint{3.7, 17},
+        CantileverPoint{30, 63}, CantileverPoint{3.7, 0, 30}, CantileverPoint{3.7, 0, -40}}) {
+    CantileverPoint chosen = point;
     chosen.cells = chosen_cells(point.gamma);
     add_point_check(info, chosen, report);
   }

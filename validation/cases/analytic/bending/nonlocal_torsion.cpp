@@ -14,9 +14,9 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kSpacing = 0.1;    // [m]
-constexpr double kTimeStep = 1e-3;  // [s]
-constexpr int kFlapColumn = 4;      // where the flap begins
+constexpr double kNonlocalTorsionSpacing = 0.1;    // [m]
+constexpr double kNonlocalTorsionTimeStep = 1e-3;  // [s]
+constexpr int kFlapColumn = 4;                     // where the flap begins
 
 enum class Ties { kNone, kNonlocal, kUnsignedTorsion };
 
@@ -41,7 +41,7 @@ double flap_distance(Ties ties) {
   constexpr double kEndTime = 12.0;  // [s]: the slowest motion has decayed by exp(-12)
   ClothGrid grid;
   grid.nodes = {9, 5};
-  grid.size = {8 * kSpacing, 4 * kSpacing};
+  grid.size = {8 * kNonlocalTorsionSpacing, 4 * kNonlocalTorsionSpacing};
   grid.stencil = GridStencil::k8Neighbour;
   grid.total_mass = 0.1;
   reference::Body body;
@@ -68,9 +68,11 @@ double flap_distance(Ties ties) {
   const Matrix3X<double> rest = body.mesh.rest_positions;
   reference::SpringSolver solver =
       make_solver(std::move(body), reference::IntegratorKind::kModifiedEuler);
-  for (int step = 0; step * kTimeStep < kEndTime; ++step) (void)solver.step(kTimeStep);
+  for (int step = 0; step * kNonlocalTorsionTimeStep < kEndTime; ++step)
+    (void)solver.step(kNonlocalTorsionTimeStep);
   const Matrix3X<double>& end = solver.system().bodies[0].positions;
-  return std::sqrt((end - rest).squaredNorm() / static_cast<double>(flap.size())) / (4 * kSpacing);
+  return std::sqrt((end - rest).squaredNorm() / static_cast<double>(flap.size())) /
+         (4 * kNonlocalTorsionSpacing);
 }
 
 /// How far the centre of a square sheet, pinned at its corners, hangs below them at rest [m].
@@ -78,7 +80,7 @@ double centre_sag(double stiffness) {
   constexpr double kEndTime = 10.0;  // [s]
   ClothGrid grid;
   grid.nodes = {11, 11};
-  grid.size = {10 * kSpacing, 10 * kSpacing};
+  grid.size = {10 * kNonlocalTorsionSpacing, 10 * kNonlocalTorsionSpacing};
   grid.stencil = GridStencil::k8Neighbour;
   grid.total_mass = 0.2;
   reference::Body body;
@@ -105,11 +107,12 @@ double centre_sag(double stiffness) {
   body.velocities.setZero(3, body.mesh.num_nodes());
   reference::SpringSolver solver =
       make_solver(std::move(body), reference::IntegratorKind::kModifiedEuler);
-  for (int step = 0; step * kTimeStep < kEndTime; ++step) (void)solver.step(kTimeStep);
+  for (int step = 0; step * kNonlocalTorsionTimeStep < kEndTime; ++step)
+    (void)solver.step(kNonlocalTorsionTimeStep);
   return -solver.system().bodies[0].positions(1, centre);
 }
 
-CheckResult base_check(const CaseInfo& info) {
+CheckResult torsion_check(const CaseInfo& info) {
   CheckResult check;
   check.case_id = info.id;
   check.engine = "reference";
@@ -127,7 +130,7 @@ void add_sabotage(CheckResult& check, const std::string& name, double measured) 
 
 void evaluate_nonlocal_torsion(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                                Report& report) {
-  CheckResult flap = base_check(info);
+  CheckResult flap = torsion_check(info);
   flap.claim = "a flap flipped over to its mirror image comes back";
   flap.metric = "RMS distance from the rest shape over the flap's length, after 12 s";
   flap.formula = "0: the rest shape is the one minimum";
@@ -139,7 +142,7 @@ void evaluate_nonlocal_torsion(const CaseInfo& info, const CaseOptions&, const E
   report.checks.push_back(std::move(flap));
 
   const double sag_without = centre_sag(0.0);
-  CheckResult held = base_check(info);
+  CheckResult held = torsion_check(info);
   held.claim = "a sheet whose centre is tied to all other nodes holds it up";
   held.metric = "sag of the centre with ties over the sag without";
   held.measured = centre_sag(3.0) / sag_without;

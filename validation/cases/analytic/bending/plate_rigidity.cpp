@@ -14,10 +14,10 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kSpacing = 0.01;   // [m]
+constexpr double kPlateRigiditySpacing = 0.01;  // [m]
 constexpr double kCurvature = 0.1;  // [1/m]: 1e-3 per cell, so that squares of slopes do not count
-constexpr double kRigidity = 1e-5;  // [N m]
-constexpr std::array<int, 7> kAngles = {0, 15, 30, 45, 60, 75, 90};  // [deg]
+constexpr double kPlateRigidityRigidity = 1e-5;                                   // [N m]
+constexpr std::array<int, 7> kPlateRigidityAngles = {0, 15, 30, 45, 60, 75, 90};  // [deg]
 
 struct Shape {
   const char* name;
@@ -27,17 +27,17 @@ struct Shape {
 constexpr std::array<Shape, 3> kShapes = {
     {{"cylinder", 1, 0}, {"sphere", 1, 1}, {"saddle", 1, -1}}};
 
-struct Sheet {
+struct PlateRigiditySheet {
   double jitter = 0.0;  ///< of nodes, in cells
   bool cut_one_way = false;
 };
 
 /// A square grid of cells x cells; sheets of all sizes share the nodes they have in common.
-ClothMesh make_sheet(int cells, const Sheet& sheet) {
+ClothMesh make_sheet(int cells, const PlateRigiditySheet& sheet) {
   ClothGrid grid;
   grid.nodes = {cells + 1, cells + 1};
-  grid.size = {kSpacing * cells, kSpacing * cells};
-  grid.center = {kSpacing * cells / 2, kSpacing * cells / 2, 0};
+  grid.size = {kPlateRigiditySpacing * cells, kPlateRigiditySpacing * cells};
+  grid.center = {kPlateRigiditySpacing * cells / 2, kPlateRigiditySpacing * cells / 2, 0};
   grid.v_axis = {0, 1, 0};
   grid.stencil = GridStencil::k8Neighbour;
   ClothMesh mesh = make_cloth_grid(grid);
@@ -48,8 +48,10 @@ ClothMesh make_sheet(int cells, const Sheet& sheet) {
     // Without a pattern of the grid's own, and the same for every size.
     const double u = std::sin(12.9898 * i + 78.233 * j) * 43758.5453;
     const double v = std::sin(39.3468 * i + 11.135 * j) * 24634.6345;
-    mesh.rest_positions(0, node) += sheet.jitter * kSpacing * (2 * (u - std::floor(u)) - 1);
-    mesh.rest_positions(1, node) += sheet.jitter * kSpacing * (2 * (v - std::floor(v)) - 1);
+    mesh.rest_positions(0, node) +=
+        sheet.jitter * kPlateRigiditySpacing * (2 * (u - std::floor(u)) - 1);
+    mesh.rest_positions(1, node) +=
+        sheet.jitter * kPlateRigiditySpacing * (2 * (v - std::floor(v)) - 1);
   }
   return mesh;
 }
@@ -69,10 +71,10 @@ Matrix3X<double> curved(const ClothMesh& mesh, const Shape& shape, int angle) {
   return positions;
 }
 
-double energy(int cells, const Sheet& sheet, const Shape& shape, int angle) {
+double energy(int cells, const PlateRigiditySheet& sheet, const Shape& shape, int angle) {
   const ClothMesh mesh = make_sheet(cells, sheet);
-  const auto law =
-      forces::make_law<double>({"hinge_torsion", {}, {{"rigidity", {kRigidity}}}}, mesh);
+  const auto law = forces::make_law<double>(
+      {"hinge_torsion", {}, {{"rigidity", {kPlateRigidityRigidity}}}}, mesh);
   const Matrix3X<double> positions = curved(mesh, shape, angle);
   const Matrix3X<double> still = Matrix3X<double>::Zero(3, mesh.num_nodes());
   return law->potential_energy({positions, still, mesh.masses});
@@ -80,20 +82,21 @@ double energy(int cells, const Sheet& sheet, const Shape& shape, int angle) {
 
 /// Energy of an inner cell over that of a cell of plate: sides and corners cancel in the second
 /// difference over sizes.
-double rigidity_ratio(const Sheet& sheet, const Shape& shape, int angle) {
+double rigidity_ratio(const PlateRigiditySheet& sheet, const Shape& shape, int angle) {
   constexpr int kCells = 12;
   const double second_difference = energy(3 * kCells, sheet, shape, angle) -
                                    2 * energy(2 * kCells, sheet, shape, angle) +
                                    energy(kCells, sheet, shape, angle);
   const double per_cell = second_difference / (2.0 * kCells * kCells);
   const double squared = shape.first * shape.first + shape.second * shape.second;
-  return per_cell / (kRigidity / 2 * squared * kCurvature * kCurvature * kSpacing * kSpacing);
+  return per_cell / (kPlateRigidityRigidity / 2 * squared * kCurvature * kCurvature *
+                     kPlateRigiditySpacing * kPlateRigiditySpacing);
 }
 
-double largest_error(const Sheet& sheet) {
+double largest_error(const PlateRigiditySheet& sheet) {
   double largest = 0.0;
   for (const Shape& shape : kShapes) {
-    for (const int angle : kAngles) {
+    for (const int angle : kPlateRigidityAngles) {
       const double error = std::abs(rigidity_ratio(sheet, shape, angle) - 1);
       if (!(error <= largest)) largest = error;
     }
@@ -102,13 +105,13 @@ double largest_error(const Sheet& sheet) {
 }
 
 /// Largest force on an inner node of a cylinder, in units of moment per width: D kappa.
-double largest_inner_force(const Sheet& sheet) {
+double largest_inner_force(const PlateRigiditySheet& sheet) {
   constexpr int kCells = 12;
   const ClothMesh mesh = make_sheet(kCells, sheet);
-  const auto law =
-      forces::make_law<double>({"hinge_torsion", {}, {{"rigidity", {kRigidity}}}}, mesh);
+  const auto law = forces::make_law<double>(
+      {"hinge_torsion", {}, {{"rigidity", {kPlateRigidityRigidity}}}}, mesh);
   double largest = 0.0;
-  for (const int angle : kAngles) {
+  for (const int angle : kPlateRigidityAngles) {
     const Matrix3X<double> positions = curved(mesh, kShapes[0], angle);
     const Matrix3X<double> still = Matrix3X<double>::Zero(3, mesh.num_nodes());
     Matrix3X<double> scratch(3, law->scratch_columns());
@@ -120,10 +123,10 @@ double largest_inner_force(const Sheet& sheet) {
       }
     }
   }
-  return largest / (kRigidity * kCurvature);
+  return largest / (kPlateRigidityRigidity * kCurvature);
 }
 
-CheckResult base_check(const CaseInfo& info) {
+CheckResult plate_check(const CaseInfo& info) {
   CheckResult check;
   check.case_id = info.id;
   check.engine = "laws";
@@ -144,8 +147,8 @@ void judge_with(CheckResult& check, double measured, const Tolerance& tolerance,
 
 void evaluate_plate_rigidity(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                              Report& report) {
-  const Sheet one_way{0.0, true};
-  CheckResult plate = base_check(info);
+  const PlateRigiditySheet one_way{0.0, true};
+  CheckResult plate = plate_check(info);
   plate.claim = "a grid of hinges is an isotropic plate of rigidity D";
   plate.metric = "largest |D measured / D - 1|: cylinder, sphere, saddle at seven angles";
   plate.formula = "energy per area = D (K : K) / 2";
@@ -155,7 +158,7 @@ void evaluate_plate_rigidity(const CaseInfo& info, const CaseOptions&, const Eng
              "cells cut one way, weighted by length", largest_error(one_way));
   report.checks.push_back(std::move(plate));
 
-  CheckResult balance = base_check(info);
+  CheckResult balance = plate_check(info);
   balance.claim = "a uniformly curved sheet is in balance: no node gives way";
   balance.metric = "largest force on an inner node over D kappa, cylinders at seven angles";
   balance.formula = "0";
@@ -165,7 +168,7 @@ void evaluate_plate_rigidity(const CaseInfo& info, const CaseOptions&, const Eng
              "cells cut one way only", largest_inner_force(one_way));
   report.checks.push_back(std::move(balance));
 
-  CheckResult irregular = base_check(info);
+  CheckResult irregular = plate_check(info);
   irregular.claim = "an irregular grid of hinges is nearly the same plate";
   irregular.metric = "largest |D measured / D - 1|, nodes off by up to 20 % of a cell";
   irregular.formula = "energy per area = D (K : K) / 2";
@@ -180,7 +183,7 @@ void evaluate_plate_rigidity(const CaseInfo& info, const CaseOptions&, const Eng
   for (const double jitter : {0.0, 0.2}) {
     for (const Shape& shape : kShapes) {
       Series series{fmt::format("{}{}", shape.name, jitter > 0 ? ", 20 % jitter" : ""), {}, {}};
-      for (const int angle : kAngles) {
+      for (const int angle : kPlateRigidityAngles) {
         series.x.push_back(angle);
         series.y.push_back(rigidity_ratio({jitter, false}, shape, angle));
       }

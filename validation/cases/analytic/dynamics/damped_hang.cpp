@@ -13,7 +13,7 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kDuration = 0.4;  // [s]
+constexpr double kDampedHangDuration = 0.4;  // [s]
 
 struct Damping {
   const char* law;
@@ -29,14 +29,14 @@ scenes::Scene damped_scene() {
   scenes::Scene scene = scenes::load_scene("hang");
   scene.name = "damped_hang";
   scene.summary = "Shows the cloth of hang with damped accelerations, spin and swirl";
-  scene.world.duration = kDuration;
+  scene.world.duration = kDampedHangDuration;
   for (const Damping& damping : kDampings) {
     scene.cloths[0].laws.push_back({damping.law, {}, {{damping.parameter, {damping.value}}}});
   }
   return scenes::with_bullets_time_step(scene);
 }
 
-std::vector<EngineChoice> engines(bool with_bullet) {
+std::vector<EngineChoice> damped_hang_engines(bool with_bullet) {
   constexpr auto kDouble = scenes::StoredPrecision::kFloat64;
   std::vector<EngineChoice> choices = {{"reference", kDouble}};
   if (with_bullet) choices.push_back({"bullet_forces", kDouble});
@@ -67,7 +67,7 @@ Sabotage one_percent_more(const Damping& damping) {
 }  // namespace
 
 void plan_damped_hang(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
-  for (const EngineChoice& engine : engines(options.bullet)) {
+  for (const EngineChoice& engine : damped_hang_engines(options.bullet)) {
     runs.add({engine.label(std::string(info.id)), damped_scene(), engine.engine, engine.precision});
   }
 }
@@ -75,7 +75,7 @@ void plan_damped_hang(const CaseInfo& info, const CaseOptions& options, EngineRu
 void evaluate_damped_hang(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
                           Report& report) {
   if (!options.bullet) return;
-  const std::vector<EngineChoice> choices = engines(true);
+  const std::vector<EngineChoice> choices = damped_hang_engines(true);
   const Frames reference = load_history(runs, std::string(info.id), choices[0]).frames;
   const Frames bullet = load_history(runs, std::string(info.id), choices[1]).frames;
   const Tolerance tolerance{1e-9, Basis::kRoundoff,
@@ -95,7 +95,8 @@ void evaluate_damped_hang(const CaseInfo& info, const CaseOptions& options, cons
   std::vector<Sabotage> mistakes = {one_step_dropped()};
   for (const Damping& damping : kDampings) mistakes.push_back(one_percent_more(damping));
   for (const Sabotage& mistake : mistakes) {
-    const double measured = distance(bullet, run_sabotaged(damped_scene(), mistake, kDuration));
+    const double measured =
+        distance(bullet, run_sabotaged(damped_scene(), mistake, kDampedHangDuration));
     check.sabotages.push_back(
         {mistake.name, measured, judge(measured, tolerance) == Verdict::kFail});
   }

@@ -18,13 +18,13 @@ namespace {
 
 using reference::IntegratorKind;
 
-constexpr int kNodes = 9;
-constexpr double kSide = 0.8;      // [m]
-constexpr double kMass = 0.13;     // [kg]
-constexpr double kGravity = 9.81;  // [m/s^2]
-constexpr double kEndTime = 2.0;   // [s]
+constexpr int kEnergyLedgerNodes = 9;
+constexpr double kEnergyLedgerSide = 0.8;      // [m]
+constexpr double kEnergyLedgerMass = 0.13;     // [kg]
+constexpr double kEnergyLedgerGravity = 9.81;  // [m/s^2]
+constexpr double kEnergyLedgerEndTime = 2.0;   // [s]
 
-struct Setting {
+struct EnergyLedgerSetting {
   IntegratorKind integrator = IntegratorKind::kVelocityVerlet;
   double damping = 0.01;      ///< of springs [N s/m]
   double drag = 0.3;          ///< velocity_damping [1/s]
@@ -33,22 +33,22 @@ struct Setting {
   double hidden = 0.0;        ///< sabotage: sideways acceleration that no ledger knows of [m/s^2]
 };
 
-reference::Body make_cloth(bool is_free, const Setting& setting) {
+reference::Body make_cloth(bool is_free, const EnergyLedgerSetting& setting) {
   ClothGrid grid;
-  grid.nodes = {kNodes, kNodes};
-  grid.size = {kSide, kSide};
+  grid.nodes = {kEnergyLedgerNodes, kEnergyLedgerNodes};
+  grid.size = {kEnergyLedgerSide, kEnergyLedgerSide};
   grid.stencil = GridStencil::k12Neighbour;
-  grid.total_mass = kMass;
+  grid.total_mass = kEnergyLedgerMass;
   reference::Body body;
   body.name = "cloth";
   body.mesh = make_cloth_grid(grid);
-  if (!is_free) body.mesh.pinned = {0, kNodes - 1};
+  if (!is_free) body.mesh.pinned = {0, kEnergyLedgerNodes - 1};
   std::vector<forces::LawSpecification> laws = {tension_law(120),
                                                 spring_damping_law(setting.damping),
                                                 {"hinge_torsion", {}, {{"rigidity", {2e-3}}}},
                                                 {"torsion", {}, {{"stiffness", {0.05}}}}};
   if (!is_free) {
-    laws.push_back(gravity_law({0, -kGravity, 0}));
+    laws.push_back(gravity_law({0, -kEnergyLedgerGravity, 0}));
     laws.push_back(velocity_damping_law(setting.drag));
   }
   for (const forces::LawSpecification& law : laws) {
@@ -72,7 +72,7 @@ struct Ledger {
   double taken = 0.0;  ///< [-]
 };
 
-Ledger keep_ledger(const Setting& setting) {
+Ledger keep_ledger(const EnergyLedgerSetting& setting) {
   reference::SpringSolver solver = make_solver(make_cloth(false, setting), setting.integrator);
   reference::Energies before = reference::energies(solver.system());
   const double start = before.total();
@@ -80,7 +80,7 @@ Ledger keep_ledger(const Setting& setting) {
   double scale = 1e-300;
   double work = 0;
   double gap = 0;
-  const auto steps = std::lround(kEndTime / setting.time_step);
+  const auto steps = std::lround(kEnergyLedgerEndTime / setting.time_step);
   for (long step = 0; step < steps; ++step) {
     (void)solver.step(setting.time_step);
     const reference::Energies now = reference::energies(solver.system());
@@ -99,12 +99,12 @@ struct Drift {
 };
 
 Drift drift(double hidden) {
-  Setting setting;
+  EnergyLedgerSetting setting;
   setting.hidden = hidden;
   reference::Body body = make_cloth(true, setting);
   for (int node = 0; node < body.mesh.num_nodes(); ++node) {
-    const double u = node % kNodes - (kNodes - 1) / 2.0;
-    const double v = node / kNodes - (kNodes - 1) / 2.0;
+    const double u = node % kEnergyLedgerNodes - (kEnergyLedgerNodes - 1) / 2.0;
+    const double v = node / kEnergyLedgerNodes - (kEnergyLedgerNodes - 1) / 2.0;
     body.positions(1, node) += 0.01 * u * v;
     body.positions(0, node) *= 1.1;
     body.velocities.col(node) << 0.3 * v, 1.0 - 0.2 * u, 0.4 - 0.3 * u;
@@ -121,8 +121,8 @@ Drift drift(double hidden) {
     result.linear = std::max(result.linear,
                              (reference::linear_momentum(solver.system()) - linear).norm() / scale);
     result.angular =
-        std::max(result.angular,
-                 (reference::angular_momentum(solver.system()) - angular).norm() / (scale * kSide));
+        std::max(result.angular, (reference::angular_momentum(solver.system()) - angular).norm() /
+                                     (scale * kEnergyLedgerSide));
   }
   return result;
 }
@@ -133,8 +133,8 @@ void evaluate_energy_ledger(const CaseInfo& info, const CaseOptions&, const Engi
                             Report& report) {
   const Tolerance half_percent{5e-3, Basis::kTruncation,
                                "second order in the step of 1 ms for velocity Verlet"};
-  const auto add = [&](const std::string& claim, const Setting& right, const Setting& wrong,
-                       const std::string& mistake) {
+  const auto add = [&](const std::string& claim, const EnergyLedgerSetting& right,
+                       const EnergyLedgerSetting& wrong, const std::string& mistake) {
     const Ledger ledger = keep_ledger(right);
     CheckResult check = judged(
         info,
@@ -154,7 +154,7 @@ void evaluate_energy_ledger(const CaseInfo& info, const CaseOptions&, const Engi
       "a sideways force of 1 % of the weight that is not in the ledger");
 
   // Dampers that drive are in the ledger as well, so order is what tells whether it is more than small.
-  const Setting fine{.time_step = 5e-4};
+  const EnergyLedgerSetting fine{.time_step = 5e-4};
   const double order = std::log2(keep_ledger({}).gap / keep_ledger(fine).gap);
   CheckResult second =
       judged(info,
@@ -165,8 +165,9 @@ void evaluate_energy_ledger(const CaseInfo& info, const CaseOptions&, const Engi
               {0.3, Basis::kTruncation, "two levels only, of a largest value over time"},
               "a work that is summed at the wrong time"},
              std::abs(order - 2));
-  const Setting euler{.integrator = IntegratorKind::kModifiedEuler};
-  const Setting fine_euler{.integrator = IntegratorKind::kModifiedEuler, .time_step = 5e-4};
+  const EnergyLedgerSetting euler{.integrator = IntegratorKind::kModifiedEuler};
+  const EnergyLedgerSetting fine_euler{.integrator = IntegratorKind::kModifiedEuler,
+                                       .time_step = 5e-4};
   add_sabotage(second, "modified Euler instead",
                std::abs(std::log2(keep_ledger(euler).gap / keep_ledger(fine_euler).gap) - 2));
   report.checks.push_back(std::move(second));

@@ -18,7 +18,7 @@ namespace weft::validation {
 namespace {
 
 /// A cloth held at two corners falls on a sphere. Everything that the transformations act on.
-struct Setting {
+struct InvariancesSetting {
   Matrix3<double> turn = Matrix3<double>::Identity();  ///< a mirror too
   Vector3<double> velocity{0, 0, 0};                   ///< [m/s] of everything
   bool ball_stays = false;  ///< sabotage: the sphere does not take part in the velocity
@@ -30,11 +30,11 @@ struct Setting {
   bool crossed_left_out = false;  ///< sabotage
 };
 
-constexpr int kNodes = 9;         // along a side
-constexpr double kSide = 0.8;     // [m]
-constexpr double kStep = 1e-3;    // [s]
-constexpr int kSteps = 400;       // the cloth meets the sphere after 0.15 s
-constexpr double kRadius = 0.25;  // [m]
+constexpr int kInvariancesNodes = 9;         // along a side
+constexpr double kInvariancesSide = 0.8;     // [m]
+constexpr double kInvariancesStep = 1e-3;    // [s]
+constexpr int kInvariancesSteps = 400;       // the cloth meets the sphere after 0.15 s
+constexpr double kInvariancesRadius = 0.25;  // [m]
 
 void renumber(ClothMesh& mesh, const std::vector<int>& order) {
   const ClothMesh old = mesh;
@@ -60,14 +60,14 @@ void renumber(ClothMesh& mesh, const std::vector<int>& order) {
   std::sort(mesh.pinned.begin(), mesh.pinned.end());
 }
 
-ClothMesh make_mesh(const Setting& setting) {
+ClothMesh make_mesh(const InvariancesSetting& setting) {
   ClothGrid grid;
-  grid.nodes = {kNodes, kNodes};
-  grid.size = {kSide, kSide};
+  grid.nodes = {kInvariancesNodes, kInvariancesNodes};
+  grid.size = {kInvariancesSide, kInvariancesSide};
   grid.stencil = GridStencil::k12Neighbour;
   grid.total_mass = 0.13;
   ClothMesh mesh = make_cloth_grid(grid);
-  mesh.pinned = {0, kNodes - 1};
+  mesh.pinned = {0, kInvariancesNodes - 1};
   if (setting.crossed_left_out) mesh.crossed_triangles.resize(3, 0);
   if (!setting.order.empty()) renumber(mesh, setting.order);
   mesh.rest_positions = setting.meter * setting.turn * mesh.rest_positions;
@@ -77,7 +77,7 @@ ClothMesh make_mesh(const Setting& setting) {
   return mesh;
 }
 
-reference::System make_system(const Setting& s) {
+reference::System make_system(const InvariancesSetting& s) {
   reference::System system;
   system.gravity = s.turn * Vector3<double>(0, -9.81, 0) * (s.meter / (s.second * s.second));
   reference::Body body;
@@ -101,7 +101,7 @@ reference::System make_system(const Setting& s) {
   system.bodies.push_back(std::move(body));
   reference::Collider ball;
   ball.name = "ball";
-  ball.shape = reference::Sphere{kRadius * s.meter};
+  ball.shape = reference::Sphere{kInvariancesRadius * s.meter};
   ball.position = s.meter * s.turn * Vector3<double>(0.03, -0.37, 0.07);
   if (!s.ball_stays) ball.velocity = speed;
   system.colliders.push_back(ball);
@@ -109,11 +109,12 @@ reference::System make_system(const Setting& s) {
 }
 
 /// Places at the end as the untransformed setting has them, 3 x n [m].
-Matrix3X<double> end_places(const Setting& s) {
+Matrix3X<double> end_places(const InvariancesSetting& s) {
   reference::SpringSolver solver(make_system(s), {});
-  for (int step = 0; step < kSteps; ++step) (void)solver.step(kStep * s.second);
+  for (int step = 0; step < kInvariancesSteps; ++step)
+    (void)solver.step(kInvariancesStep * s.second);
   const Matrix3X<double> moved = s.turn.transpose() * solver.system().bodies[0].positions / s.meter;
-  Matrix3X<double> places = moved.colwise() - s.velocity * (kSteps * kStep);
+  Matrix3X<double> places = moved.colwise() - s.velocity * (kInvariancesSteps * kInvariancesStep);
   if (s.order.empty()) return places;
   Matrix3X<double> in_order(3, places.cols());
   for (Eigen::Index node = 0; node < places.cols(); ++node) {
@@ -123,8 +124,8 @@ Matrix3X<double> end_places(const Setting& s) {
 }
 
 /// Largest way between the two, over the cloth's side [-].
-double difference(const Setting& setting, const Matrix3X<double>& original) {
-  return (end_places(setting) - original).colwise().norm().maxCoeff() / kSide;
+double difference(const InvariancesSetting& setting, const Matrix3X<double>& original) {
+  return (end_places(setting) - original).colwise().norm().maxCoeff() / kInvariancesSide;
 }
 
 std::vector<Matrix3<double>> turns() {
@@ -144,8 +145,8 @@ std::vector<Matrix3<double>> turns() {
   return list;
 }
 
-Setting turned(const Matrix3<double>& turn) {
-  Setting setting;
+InvariancesSetting turned(const Matrix3<double>& turn) {
+  InvariancesSetting setting;
   setting.turn = turn;
   return setting;
 }
@@ -178,23 +179,23 @@ void evaluate_invariances(const CaseInfo& info, const CaseOptions&, const Engine
   for (const Matrix3<double>& turn : turns()) {
     largest = std::max(largest, difference(turned(turn), original));
   }
-  Setting slipped = turned(turns().back());
+  InvariancesSetting slipped = turned(turns().back());
   slipped.stiffness_slip = 1 + 1e-6;
   add("a cloth falls alike in 24 directions of the axes and an odd one", "x' = R x", largest,
       "spring constant +1e-6", difference(slipped, original));
 
   // Feet, pounds and minutes: no power of two, so that every rounding is another one.
-  Setting units{.meter = 1 / 0.3048, .kilogram = 1 / 0.45359237, .second = 1.0 / 60};
+  InvariancesSetting units{.meter = 1 / 0.3048, .kilogram = 1 / 0.45359237, .second = 1.0 / 60};
   const double right = difference(units, original);
   units.stiffness_slip = 1 / 0.3048;
   add("a cloth falls alike in feet, pounds and minutes", "x' = x m/ft", right,
       "a stiffness in N/ft", difference(units, original));
 
-  std::vector<int> order(kNodes * kNodes);
+  std::vector<int> order(kInvariancesNodes * kInvariancesNodes);
   std::iota(order.begin(), order.end(), 0);
   for (std::size_t i = order.size() - 1; i > 0; --i)
     std::swap(order[i], order[(i * 7919 + 13) % (i + 1)]);
-  Setting mixed;
+  InvariancesSetting mixed;
   mixed.order = order;
   const double in_any_order = difference(mixed, original);
   mixed.crossed_left_out = true;

@@ -13,9 +13,7 @@
 namespace weft::validation {
 namespace {
 
-constexpr auto kFloat32 = scenes::StoredPrecision::kFloat32;
-constexpr auto kFloat64 = scenes::StoredPrecision::kFloat64;
-constexpr double kDuration = 0.5;  // [s]: the ball meets the cloth after 0.25 s
+constexpr double kMomentumDuration = 0.5;  // [s]: the ball meets the cloth after 0.25 s
 
 struct Judged {
   EngineChoice engine;
@@ -32,7 +30,7 @@ struct Judged {
   }
 };
 
-std::vector<Judged> engines(bool with_bullet) {
+std::vector<Judged> momentum_engines(bool with_bullet) {
   const Tolerance rounding{1e-9, Basis::kRoundoff, "equal and opposite impulses in each contact"};
   const Tolerance single{1e-4, Basis::kRoundoff,
                          "velocities from differences of single-precision positions"};
@@ -68,7 +66,7 @@ std::vector<Judged> engines(bool with_bullet) {
 scenes::Scene collision(int steps_per_second) {
   scenes::Scene scene = scenes::load_scene("ball_on_cloth");
   scene.world.gravity.setZero();
-  scene.world.duration = kDuration;
+  scene.world.duration = kMomentumDuration;
   scenes::Cloth& cloth = scene.cloths[0];
   cloth.pins.clear();
   std::erase_if(cloth.laws, [](const forces::LawSpecification& law) {
@@ -104,7 +102,7 @@ double largest_change(const Frames& frames, const scenes::Scene& scene, bool wit
 }  // namespace
 
 void plan_momentum(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
-  for (const Judged& judged : engines(options.bullet)) {
+  for (const Judged& judged : momentum_engines(options.bullet)) {
     runs.add({judged.engine.label(judged.run_id(info)), collision(judged.steps_per_second),
               judged.engine.engine, judged.engine.precision});
   }
@@ -119,7 +117,7 @@ void evaluate_momentum(const CaseInfo& info, const CaseOptions& options, const E
             false,
             false,
             {}};
-  for (const Judged& judged : engines(options.bullet)) {
+  for (const Judged& judged : momentum_engines(options.bullet)) {
     const History history = load_history(runs, judged.run_id(info), judged.engine);
     CheckResult check;
     check.case_id = info.id;

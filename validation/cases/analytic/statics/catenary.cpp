@@ -15,8 +15,8 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kSpan = 1.0;          // d [m]
-constexpr double kGravity = 9.81;      // [m/s^2]
+constexpr double kSpan = 1.0;              // d [m]
+constexpr double kCatenaryGravity = 9.81;  // [m/s^2]
 constexpr double kInextensible = 1e6;  ///< EA / (w d) of a chain that counts as inextensible [-]
 
 /// Static chain of springs of mass w a / g per node. weight: of it over what the formula is told [-].
@@ -27,9 +27,9 @@ CableShape hang(const Cable& cable, double weight) {
   SpringRow row;
   row.num_springs = n;
   row.spacing = spacing;
-  row.mass = weight * kWeight * spacing / kGravity;
+  row.mass = weight * kWeight * spacing / kCatenaryGravity;
   const double stiffness = cable.stiffness * kWeight * kSpan / spacing;
-  row.laws = {tension_law(stiffness), gravity_law({0, -kGravity, 0})};
+  row.laws = {tension_law(stiffness), gravity_law({0, -kCatenaryGravity, 0})};
   reference::Body body = make_row(row);
   body.mesh.pinned = {0, n};
   // From a parabola of about the right length: the equilibrium is the solver's to find.
@@ -93,22 +93,23 @@ CheckResult add_check(const CaseInfo& info, const Cable& cable, const CableShape
 }
 
 /// Tabulated H, sag and largest tension over w d.
-struct Row {
+struct CatenaryRow {
   Cable cable;
   CableShape exact;
 };
-constexpr std::array kTable = {Row{{1.2, 1200}, {.468698, .292818, .761366}},
-                               Row{{1.2, 120}, {.461352, .297014, .756866}},
-                               Row{{1.2, 12}, {.405121, .333842, .723963}},
-                               Row{{1.0, 1000}, {3.456022, .036106, 3.492004}},
-                               Row{{1.0, 100}, {1.586167, .078190, 1.663107}},
-                               Row{{1.0, 10}, {.699764, .172777, .860040}},
-                               Row{{1.05, kInextensible}, {.919640, .139304, 1.058944}},
-                               Row{{1.2, kInextensible}, {.469542, .292344, .761885}},
-                               Row{{2.0, kInextensible}, {.229640, .796388, 1.026029}},
-                               Row{{3.0, kInextensible}, {.176153, 1.334155, 1.510308}}};
+constexpr std::array kCatenaryTable = {
+    CatenaryRow{{1.2, 1200}, {.468698, .292818, .761366}},
+    CatenaryRow{{1.2, 120}, {.461352, .297014, .756866}},
+    CatenaryRow{{1.2, 12}, {.405121, .333842, .723963}},
+    CatenaryRow{{1.0, 1000}, {3.456022, .036106, 3.492004}},
+    CatenaryRow{{1.0, 100}, {1.586167, .078190, 1.663107}},
+    CatenaryRow{{1.0, 10}, {.699764, .172777, .860040}},
+    CatenaryRow{{1.05, kInextensible}, {.919640, .139304, 1.058944}},
+    CatenaryRow{{1.2, kInextensible}, {.469542, .292344, .761885}},
+    CatenaryRow{{2.0, kInextensible}, {.229640, .796388, 1.026029}},
+    CatenaryRow{{3.0, kInextensible}, {.176153, 1.334155, 1.510308}}};
 
-constexpr std::array kParameters = {
+constexpr std::array kCatenaryParameters = {
     CaseParameter{"length", "1", "unstretched length over the span", 0.8, 5.0, 1.2},
     CaseParameter{
         "stiffness", "1",
@@ -137,7 +138,7 @@ CableShape exact_cable(const Cable& cable) {
 }
 
 std::span<const CaseParameter> catenary_parameters() {
-  return kParameters;
+  return kCatenaryParameters;
 }
 
 void evaluate_catenary(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
@@ -148,7 +149,7 @@ void evaluate_catenary(const CaseInfo& info, const CaseOptions& options, const E
     add_check(info, cable, exact_cable(cable), "elastic catenary, solved on the spot", report);
     return;
   }
-  for (const Row& row : kTable) {
+  for (const CatenaryRow& row : kCatenaryTable) {
     add_check(info, row.cable, row.exact, "elastic catenary, six tabulated digits", report);
   }
 }

@@ -11,31 +11,31 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kSide = 0.6;           // [m]
-constexpr double kArealDensity = 0.15;  // [kg/m^2]: light cotton
-constexpr double kDensity = 1.2;        // of the air [kg/m^3]
-constexpr double kNormalDrag = 1.1;     // [-]
-constexpr double kGravity = 9.81;       // [m/s^2]
-constexpr double kTimeStep = 1e-3;      // [s]: half of the stable step
-constexpr double kEndTime = 2.0;        // [s]: 25 times u / (2 g), in which the speed settles
-constexpr int kBisections = 8;          // of 0.3 m/s: to 1.2 mm/s, 0.08 %
+constexpr double kHoverSide = 0.6;       // [m]
+constexpr double kArealDensity = 0.15;   // [kg/m^2]: light cotton
+constexpr double kHoverDensity = 1.2;    // of the air [kg/m^3]
+constexpr double kNormalDrag = 1.1;      // [-]
+constexpr double kHoverGravity = 9.81;   // [m/s^2]
+constexpr double kHoverTimeStep = 1e-3;  // [s]: half of the stable step
+constexpr double kHoverEndTime = 2.0;    // [s]: 25 times u / (2 g), in which the speed settles
+constexpr int kBisections = 8;           // of 0.3 m/s: to 1.2 mm/s, 0.08 %
 
-struct Sheet {
-  bool exactly_flat = false;  ///< masses in proportion to the drag of each node
-  double density = kDensity;  ///< that the law is told [kg/m^3]
+struct HoverSheet {
+  bool exactly_flat = false;       ///< masses in proportion to the drag of each node
+  double density = kHoverDensity;  ///< that the law is told [kg/m^3]
 };
 
 /// Speed at which drag carries the weight [m/s].
 double terminal_speed() {
-  return std::sqrt(2 * kArealDensity * kGravity / (kDensity * kNormalDrag));
+  return std::sqrt(2 * kArealDensity * kHoverGravity / (kHoverDensity * kNormalDrag));
 }
 
 /// Mean vertical velocity of the sheet's mass at the end, in an upward wind [m/s].
-double final_velocity(const Sheet& sheet, double wind) {
+double final_velocity(const HoverSheet& sheet, double wind) {
   ClothGrid grid;
   grid.nodes = {9, 9};
-  grid.size = {kSide, kSide};
-  grid.total_mass = kArealDensity * kSide * kSide;
+  grid.size = {kHoverSide, kHoverSide};
+  grid.total_mass = kArealDensity * kHoverSide * kHoverSide;
   grid.stencil = GridStencil::k8Neighbour;
   grid.lumping = MassLumping::kArea;
   reference::Body body;
@@ -43,7 +43,7 @@ double final_velocity(const Sheet& sheet, double wind) {
   body.mesh = make_cloth_grid(grid);
   if (sheet.exactly_flat) body.mesh.masses = kArealDensity * node_areas(body.mesh);
   for (const forces::LawSpecification& law :
-       {tension_law(25.0), spring_damping_law(0.01), gravity_law({0, -kGravity, 0}),
+       {tension_law(25.0), spring_damping_law(0.01), gravity_law({0, -kHoverGravity, 0}),
         forces::LawSpecification{"hinge_torsion", {}, {{"rigidity", {1e-3}}}},
         forces::LawSpecification{"wind",
                                  {},
@@ -56,14 +56,14 @@ double final_velocity(const Sheet& sheet, double wind) {
   body.velocities.setZero(3, body.mesh.num_nodes());
   reference::SpringSolver solver =
       make_solver(std::move(body), reference::IntegratorKind::kModifiedEuler);
-  const int num_steps = static_cast<int>(std::lround(kEndTime / kTimeStep));
-  for (int step = 0; step < num_steps; ++step) (void)solver.step(kTimeStep);
+  const int num_steps = static_cast<int>(std::lround(kHoverEndTime / kHoverTimeStep));
+  for (int step = 0; step < num_steps; ++step) (void)solver.step(kHoverTimeStep);
   const reference::Body& end = solver.system().bodies[0];
   return (end.velocities * end.mesh.masses).y() / end.mesh.masses.sum();
 }
 
 /// The upward wind in which the sheet neither rises nor falls [m/s].
-double hover_speed(const Sheet& sheet) {
+double hover_speed(const HoverSheet& sheet) {
   double low = terminal_speed() - 0.15;
   double high = terminal_speed() + 0.15;
   for (int i = 0; i < kBisections; ++i) {
@@ -73,16 +73,16 @@ double hover_speed(const Sheet& sheet) {
   return 0.5 * (low + high);
 }
 
-ComparedValue fall_speed(const Sheet& sheet) {
+ComparedValue fall_speed(const HoverSheet& sheet) {
   return {"speed after 2 s", -final_velocity(sheet, 0.0), terminal_speed(), "m/s"};
 }
 
-ComparedValue hover_wind(const Sheet& sheet) {
+ComparedValue hover_wind(const HoverSheet& sheet) {
   return {"wind", hover_speed(sheet), terminal_speed(), "m/s"};
 }
 
 CheckResult check_of(const CaseInfo& info, const Tolerance& tolerance,
-                     ComparedValue (*speed)(const Sheet&), const Sheet& right) {
+                     ComparedValue (*speed)(const HoverSheet&), const HoverSheet& right) {
   CheckResult check;
   check.case_id = info.id;
   check.engine = "reference";
@@ -93,7 +93,7 @@ CheckResult check_of(const CaseInfo& info, const Tolerance& tolerance,
   check.measured = relative_error(check.values[0]);
   check.tolerance = tolerance;
   check.verdict = judge(check.measured, tolerance);
-  Sheet wrong = right;
+  HoverSheet wrong = right;
   wrong.density *= 1.1;
   const double sabotaged = relative_error(speed(wrong));
   check.sabotages.push_back(
@@ -102,7 +102,7 @@ CheckResult check_of(const CaseInfo& info, const Tolerance& tolerance,
   return check;
 }
 
-Plot velocity_plot(const Sheet& sheet) {
+Plot velocity_plot(const HoverSheet& sheet) {
   Plot plot{"Vertical velocity of the sheet against the wind from below",
             "wind [m/s]",
             "velocity after 2 s [m/s]",
@@ -121,8 +121,9 @@ Plot velocity_plot(const Sheet& sheet) {
 }  // namespace
 
 void evaluate_hover(const CaseInfo& info, const CaseOptions&, const EngineRuns&, Report& report) {
-  const Sheet flat{.exactly_flat = true};
-  const Sheet bent;  // masses by the area of cells, drag by that of triangles: it bends a little
+  const HoverSheet flat{.exactly_flat = true};
+  const HoverSheet
+      bent;  // masses by the area of cells, drag by that of triangles: it bends a little
 
   CheckResult fall = check_of(
       info,
