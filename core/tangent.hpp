@@ -10,7 +10,7 @@ namespace weft {
 
 /// A number and its derivative along one direction. Laws use it to multiply by their own stiffness
 /// and damping matrices: the element's force is written once, as a template over the number.
-/// Unlike Dual it nests in any scalar, float and Dual too, and is as cheap as two numbers.
+/// It nests in any scalar, an automatically differentiated one too, and is as cheap as two numbers.
 template <class Scalar>
 struct Tangent {
   Scalar value{0};

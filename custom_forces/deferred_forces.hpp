@@ -3,7 +3,6 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
-#include <weft/core/dual.hpp>
 #include <weft/custom_forces/law_set.hpp>
 
 namespace weft::forces {

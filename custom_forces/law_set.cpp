@@ -18,9 +18,6 @@ double value_of(float x) {
 double value_of(double x) {
   return x;
 }
-double value_of(const Dual& x) {
-  return x.value();
-}
 
 /// x - x is 0 for every finite x and NaN otherwise. One sum over all numbers, for the vector unit.
 template <class Matrix>
@@ -184,6 +181,5 @@ Scalar LawSet<Scalar>::non_conservative_power(const State<Scalar>& state) const 
 
 template class LawSet<float>;
 template class LawSet<double>;
-template class LawSet<Dual>;
 
 }  // namespace weft::forces

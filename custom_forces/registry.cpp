@@ -6,21 +6,10 @@
 #include <cstdio>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <weft/core/error.hpp>
-#include <weft/custom_forces/laws/damping/acceleration_damping.hpp>
-#include <weft/custom_forces/laws/damping/rotation_damping.hpp>
-#include <weft/custom_forces/laws/damping/spring_damping.hpp>
-#include <weft/custom_forces/laws/damping/torsional_rotation_damping.hpp>
-#include <weft/custom_forces/laws/damping/velocity_damping.hpp>
-#include <weft/custom_forces/laws/elastic/hinge_torsion.hpp>
-#include <weft/custom_forces/laws/elastic/nonlocal_torsion.hpp>
-#include <weft/custom_forces/laws/elastic/tension.hpp>
-#include <weft/custom_forces/laws/elastic/torsion.hpp>
-#include <weft/custom_forces/laws/external/drive.hpp>
-#include <weft/custom_forces/laws/external/gravity.hpp>
-#include <weft/custom_forces/laws/external/pressure.hpp>
-#include <weft/custom_forces/laws/external/wind.hpp>
+#include <weft/custom_forces/law_list.hpp>
 
 namespace weft::forces {
 namespace {
@@ -38,33 +27,20 @@ struct Row {
   const LawInfo* info;
   Factory<float> make_float;
   Factory<double> make_double;
-  Factory<Dual> make_dual;
 };
 
 template <template <class> class Law>
 Row row() {
-  return {&Law<double>::kInfo, &make<Law, float>, &make<Law, double>, &make<Law, Dual>};
+  return {&Law<double>::kInfo, &make<Law, float>, &make<Law, double>};
 }
 
-// The one list of laws. Everything that enumerates laws reads this table.
-const auto& rows() {
-  // clang-format off
-  static const std::array kRows = {
-      row<Tension>(),
-      row<SpringDamping>(),
-      row<Torsion>(),
-      row<HingeTorsion>(),
-      row<NonlocalTorsion>(),
-      row<AccelerationDamping>(),
-      row<RotationDamping>(),
-      row<TorsionalRotationDamping>(),
-      row<VelocityDamping>(),
-      row<Wind>(),
-      row<Pressure>(),
-      row<Gravity>(),
-      row<Drive>(),
-  };
-  // clang-format on
+template <template <class> class... Laws>
+std::vector<Row> rows_of(LawList<Laws...> /*laws*/) {
+  return {row<Laws>()...};
+}
+
+const std::vector<Row>& rows() {
+  static const std::vector<Row> kRows = rows_of(AllLaws{});
   return kRows;
 }
 
@@ -209,12 +185,6 @@ template <>
 std::unique_ptr<ForceLaw<double>> make_law<double>(const LawSpecification& specification,
                                                    const ClothMesh& mesh) {
   return find_row(specification.law).make_double(checked(specification), mesh);
-}
-
-template <>
-std::unique_ptr<ForceLaw<Dual>> make_law<Dual>(const LawSpecification& specification,
-                                               const ClothMesh& mesh) {
-  return find_row(specification.law).make_dual(checked(specification), mesh);
 }
 
 }  // namespace weft::forces

@@ -6,7 +6,6 @@
 #include <span>
 #include <string_view>
 
-#include <weft/core/dual.hpp>
 #include <weft/custom_forces/force_law.hpp>
 #include <weft/mesh/cloth_mesh.hpp>
 
@@ -23,7 +22,7 @@ namespace weft::forces {
 /// expected.
 [[nodiscard]] LawSpecification checked(const LawSpecification& specification);
 
-/// Makes a law for a mesh. Scalar is float, double or Dual. Throws as checked(), and for a mesh
+/// Makes a law for a mesh. Scalar is float or double. Throws as checked(), and for a mesh
 /// that the law cannot use (an unknown edge set, a spring of zero rest length).
 template <class Scalar>
 [[nodiscard]] std::unique_ptr<ForceLaw<Scalar>> make_law(const LawSpecification& specification,
@@ -35,8 +34,5 @@ std::unique_ptr<ForceLaw<float>> make_law<float>(const LawSpecification& specifi
 template <>
 std::unique_ptr<ForceLaw<double>> make_law<double>(const LawSpecification& specification,
                                                    const ClothMesh& mesh);
-template <>
-std::unique_ptr<ForceLaw<Dual>> make_law<Dual>(const LawSpecification& specification,
-                                               const ClothMesh& mesh);
 
 }  // namespace weft::forces

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <weft/core/dual.hpp>
-
+#include "tests/contract/dual.hpp"
 #include "tests/contract/sample.hpp"
 
 namespace weft::contract {

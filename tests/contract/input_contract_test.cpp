@@ -12,6 +12,7 @@
 #include <weft/custom_forces/law_set.hpp>
 #include <weft/custom_forces/registry.hpp>
 
+#include "tests/contract/dual_laws.hpp"
 #include "tests/contract/sample.hpp"
 #include "tests/contract/subject.hpp"
 
@@ -68,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, LawInput,
 TEST_P(LawInput, TypicalValuesAreAccepted) {
   EXPECT_NO_THROW((void)forces::make_law<float>(good_, mesh_for(good_)));
   EXPECT_NO_THROW((void)forces::make_law<double>(good_, mesh_for(good_)));
-  EXPECT_NO_THROW((void)forces::make_law<Dual>(good_, mesh_for(good_)));
+  EXPECT_NO_THROW((void)make_dual_law(good_, mesh_for(good_)));
 }
 
 TEST_P(LawInput, NonFiniteParametersAreRefused) {

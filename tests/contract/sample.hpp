@@ -3,9 +3,10 @@
 #include <array>
 #include <cstdint>
 
-#include <weft/core/dual.hpp>
 #include <weft/custom_forces/force_law.hpp>
 #include <weft/mesh/cloth_mesh.hpp>
+
+#include "tests/contract/dual.hpp"
 
 namespace weft::contract {
 

@@ -2,6 +2,8 @@
 
 #include <weft/custom_forces/registry.hpp>
 
+#include "tests/contract/dual_laws.hpp"
+
 namespace weft::contract {
 namespace {
 
@@ -36,7 +38,7 @@ Subject registered_subject(const std::string& name, const LawSpecification& spec
       .traits = forces::find_law(specification.law)->traits,
       .make_float = [=](const ClothMesh& m) { return forces::make_law<float>(specification, m); },
       .make_double = [=](const ClothMesh& m) { return forces::make_law<double>(specification, m); },
-      .make_dual = [=](const ClothMesh& m) { return forces::make_law<Dual>(specification, m); }};
+      .make_dual = [=](const ClothMesh& m) { return make_dual_law(specification, m); }};
 }
 
 std::vector<Subject> all_subjects() {

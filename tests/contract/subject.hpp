@@ -6,9 +6,9 @@
 #include <type_traits>
 #include <vector>
 
-#include <weft/core/dual.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
+#include "tests/contract/dual.hpp"
 #include "tests/contract/sample.hpp"
 
 namespace weft::contract {

@@ -1,5 +1,6 @@
 #include <weft/custom_forces/laws/damping/acceleration_damping.hpp>
 
+#include <weft/custom_forces/instantiate_law.hpp>
 #include <weft/custom_forces/law_input.hpp>
 #include <weft/custom_forces/laws/damping/body_motion.hpp>
 
@@ -75,8 +76,6 @@ Scalar AccelerationDamping<Scalar>::added_kinetic_energy(const State<Scalar>& st
   return static_cast<Scalar>(Number(0.5) * Number(beta_) * sum);
 }
 
-template class AccelerationDamping<float>;
-template class AccelerationDamping<double>;
-template class AccelerationDamping<Dual>;
+WEFT_INSTANTIATE_LAW(AccelerationDamping);
 
 }  // namespace weft::forces

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <weft/core/dual.hpp>
 #include <weft/custom_forces/force_law.hpp>
 #include <weft/custom_forces/laws/damping/free_nodes.hpp>
 #include <weft/mesh/cloth_mesh.hpp>
@@ -44,6 +43,5 @@ class AccelerationDamping final : public ForceLaw<Scalar> {
 
 extern template class AccelerationDamping<float>;
 extern template class AccelerationDamping<double>;
-extern template class AccelerationDamping<Dual>;
 
 }  // namespace weft::forces

@@ -1,5 +1,6 @@
 #include <weft/custom_forces/laws/damping/rotation_damping.hpp>
 
+#include <weft/custom_forces/instantiate_law.hpp>
 #include <weft/custom_forces/law_input.hpp>
 
 namespace weft::forces {
@@ -63,8 +64,6 @@ void RotationDamping<Scalar>::advance_velocities(const State<Scalar>& state, Sca
   damping_.advance(state, time_step, velocities);
 }
 
-template class RotationDamping<float>;
-template class RotationDamping<double>;
-template class RotationDamping<Dual>;
+WEFT_INSTANTIATE_LAW(RotationDamping);
 
 }  // namespace weft::forces

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <weft/core/dual.hpp>
 #include <weft/custom_forces/force_law.hpp>
 #include <weft/custom_forces/laws/damping/body_damping.hpp>
 #include <weft/mesh/cloth_mesh.hpp>
@@ -61,6 +60,5 @@ class RotationDamping final : public ForceLaw<Scalar> {
 
 extern template class RotationDamping<float>;
 extern template class RotationDamping<double>;
-extern template class RotationDamping<Dual>;
 
 }  // namespace weft::forces

@@ -1,5 +1,6 @@
 #include <weft/custom_forces/laws/damping/spring_damping.hpp>
 
+#include <weft/custom_forces/instantiate_law.hpp>
 #include <weft/custom_forces/registry.hpp>
 
 namespace weft::forces {
@@ -75,8 +76,6 @@ Scalar SpringDamping<Scalar>::non_conservative_power(const State<Scalar>& state)
   return -springs_.sum(state, power, state.velocities);
 }
 
-template class SpringDamping<float>;
-template class SpringDamping<double>;
-template class SpringDamping<Dual>;
+WEFT_INSTANTIATE_LAW(SpringDamping);
 
 }  // namespace weft::forces

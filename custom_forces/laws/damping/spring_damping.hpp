@@ -1,6 +1,5 @@
 #pragma once
 
-#include <weft/core/dual.hpp>
 #include <weft/custom_forces/assembly/spring_set.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
@@ -42,6 +41,5 @@ class SpringDamping final : public ForceLaw<Scalar> {
 
 extern template class SpringDamping<float>;
 extern template class SpringDamping<double>;
-extern template class SpringDamping<Dual>;
 
 }  // namespace weft::forces

@@ -1,5 +1,6 @@
 #include <weft/custom_forces/laws/damping/torsional_rotation_damping.hpp>
 
+#include <weft/custom_forces/instantiate_law.hpp>
 #include <weft/custom_forces/law_input.hpp>
 
 namespace weft::forces {
@@ -67,8 +68,6 @@ void TorsionalRotationDamping<Scalar>::advance_velocities(const State<Scalar>& s
   damping_.advance(state, time_step, velocities);
 }
 
-template class TorsionalRotationDamping<float>;
-template class TorsionalRotationDamping<double>;
-template class TorsionalRotationDamping<Dual>;
+WEFT_INSTANTIATE_LAW(TorsionalRotationDamping);
 
 }  // namespace weft::forces

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <weft/core/dual.hpp>
 #include <weft/custom_forces/force_law.hpp>
 #include <weft/custom_forces/laws/damping/body_damping.hpp>
 #include <weft/mesh/cloth_mesh.hpp>
@@ -107,6 +106,5 @@ class TorsionalRotationDamping final : public ForceLaw<Scalar> {
 
 extern template class TorsionalRotationDamping<float>;
 extern template class TorsionalRotationDamping<double>;
-extern template class TorsionalRotationDamping<Dual>;
 
 }  // namespace weft::forces

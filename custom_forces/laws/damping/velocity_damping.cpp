@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <weft/custom_forces/instantiate_law.hpp>
 #include <weft/custom_forces/law_input.hpp>
 #include <weft/custom_forces/registry.hpp>
 
@@ -64,8 +65,6 @@ void VelocityDamping<Scalar>::advance_velocities(const State<Scalar>& /*state*/,
   velocities *= factor;
 }
 
-template class VelocityDamping<float>;
-template class VelocityDamping<double>;
-template class VelocityDamping<Dual>;
+WEFT_INSTANTIATE_LAW(VelocityDamping);
 
 }  // namespace weft::forces

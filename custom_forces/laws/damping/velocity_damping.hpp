@@ -1,6 +1,5 @@
 #pragma once
 
-#include <weft/core/dual.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
 namespace weft::forces {
@@ -37,6 +36,5 @@ class VelocityDamping final : public ForceLaw<Scalar> {
 
 extern template class VelocityDamping<float>;
 extern template class VelocityDamping<double>;
-extern template class VelocityDamping<Dual>;
 
 }  // namespace weft::forces

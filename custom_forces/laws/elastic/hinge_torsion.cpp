@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <weft/core/error.hpp>
+#include <weft/custom_forces/instantiate_law.hpp>
 #include <weft/custom_forces/law_input.hpp>
 #include <weft/mesh/hinges.hpp>
 
@@ -245,8 +246,6 @@ Scalar HingeTorsion<Scalar>::potential_energy(const State<Scalar>& state) const 
   });
 }
 
-template class HingeTorsion<float>;
-template class HingeTorsion<double>;
-template class HingeTorsion<Dual>;
+WEFT_INSTANTIATE_LAW(HingeTorsion);
 
 }  // namespace weft::forces

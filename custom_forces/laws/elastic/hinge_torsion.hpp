@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include <weft/core/dual.hpp>
 #include <weft/custom_forces/assembly/element_force.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
@@ -67,6 +66,5 @@ class HingeTorsion final : public ForceLaw<Scalar> {
 
 extern template class HingeTorsion<float>;
 extern template class HingeTorsion<double>;
-extern template class HingeTorsion<Dual>;
 
 }  // namespace weft::forces

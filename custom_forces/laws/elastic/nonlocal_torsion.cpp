@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <weft/core/error.hpp>
+#include <weft/custom_forces/instantiate_law.hpp>
 #include <weft/custom_forces/law_input.hpp>
 #include <weft/custom_forces/laws/elastic/turning_angle.hpp>
 #include <weft/mesh/hinges.hpp>
@@ -281,8 +282,6 @@ Scalar NonlocalTorsion<Scalar>::potential_energy(const State<Scalar>& state) con
   });
 }
 
-template class NonlocalTorsion<float>;
-template class NonlocalTorsion<double>;
-template class NonlocalTorsion<Dual>;
+WEFT_INSTANTIATE_LAW(NonlocalTorsion);
 
 }  // namespace weft::forces

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include <weft/core/dual.hpp>
 #include <weft/custom_forces/assembly/element_force.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
@@ -79,6 +78,5 @@ class NonlocalTorsion final : public ForceLaw<Scalar> {
 
 extern template class NonlocalTorsion<float>;
 extern template class NonlocalTorsion<double>;
-extern template class NonlocalTorsion<Dual>;
 
 }  // namespace weft::forces

@@ -1,5 +1,6 @@
 #include <weft/custom_forces/laws/elastic/tension.hpp>
 
+#include <weft/custom_forces/instantiate_law.hpp>
 #include <weft/custom_forces/registry.hpp>
 
 namespace weft::forces {
@@ -77,8 +78,6 @@ Scalar Tension<Scalar>::potential_energy(const State<Scalar>& state) const {
   });
 }
 
-template class Tension<float>;
-template class Tension<double>;
-template class Tension<Dual>;
+WEFT_INSTANTIATE_LAW(Tension);
 
 }  // namespace weft::forces

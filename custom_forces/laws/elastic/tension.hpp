@@ -1,6 +1,5 @@
 #pragma once
 
-#include <weft/core/dual.hpp>
 #include <weft/custom_forces/assembly/spring_set.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
@@ -51,6 +50,5 @@ class Tension final : public ForceLaw<Scalar> {
 
 extern template class Tension<float>;
 extern template class Tension<double>;
-extern template class Tension<Dual>;
 
 }  // namespace weft::forces

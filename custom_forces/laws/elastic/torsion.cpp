@@ -8,6 +8,7 @@
 
 #include <weft/core/error.hpp>
 #include <weft/custom_forces/assembly/spring_set.hpp>
+#include <weft/custom_forces/instantiate_law.hpp>
 #include <weft/custom_forces/law_input.hpp>
 #include <weft/custom_forces/laws/elastic/turning_angle.hpp>
 
@@ -297,8 +298,6 @@ Scalar Torsion<Scalar>::potential_energy(const State<Scalar>& state) const {
   });
 }
 
-template class Torsion<float>;
-template class Torsion<double>;
-template class Torsion<Dual>;
+WEFT_INSTANTIATE_LAW(Torsion);
 
 }  // namespace weft::forces

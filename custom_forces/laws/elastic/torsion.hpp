@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include <weft/core/dual.hpp>
 #include <weft/custom_forces/assembly/element_force.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
@@ -70,6 +69,5 @@ class Torsion final : public ForceLaw<Scalar> {
 
 extern template class Torsion<float>;
 extern template class Torsion<double>;
-extern template class Torsion<Dual>;
 
 }  // namespace weft::forces

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include <weft/custom_forces/instantiate_law.hpp>
 #include <weft/custom_forces/law_input.hpp>
 
 namespace weft::forces {
@@ -121,8 +122,6 @@ Scalar Drive<Scalar>::non_conservative_power(const State<Scalar>& state) const {
   return power;
 }
 
-template class Drive<float>;
-template class Drive<double>;
-template class Drive<Dual>;
+WEFT_INSTANTIATE_LAW(Drive);
 
 }  // namespace weft::forces

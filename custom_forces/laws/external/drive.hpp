@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include <weft/core/dual.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
 namespace weft::forces {
@@ -62,6 +61,5 @@ class Drive final : public ForceLaw<Scalar> {
 
 extern template class Drive<float>;
 extern template class Drive<double>;
-extern template class Drive<Dual>;
 
 }  // namespace weft::forces

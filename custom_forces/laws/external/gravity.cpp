@@ -1,5 +1,6 @@
 #include <weft/custom_forces/laws/external/gravity.hpp>
 
+#include <weft/custom_forces/instantiate_law.hpp>
 #include <weft/custom_forces/law_input.hpp>
 #include <weft/custom_forces/registry.hpp>
 
@@ -47,8 +48,6 @@ Scalar Gravity<Scalar>::potential_energy(const State<Scalar>& state) const {
   return energy;
 }
 
-template class Gravity<float>;
-template class Gravity<double>;
-template class Gravity<Dual>;
+WEFT_INSTANTIATE_LAW(Gravity);
 
 }  // namespace weft::forces

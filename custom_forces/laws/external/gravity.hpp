@@ -1,6 +1,5 @@
 #pragma once
 
-#include <weft/core/dual.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
 namespace weft::forces {
@@ -30,6 +29,5 @@ class Gravity final : public ForceLaw<Scalar> {
 
 extern template class Gravity<float>;
 extern template class Gravity<double>;
-extern template class Gravity<Dual>;
 
 }  // namespace weft::forces

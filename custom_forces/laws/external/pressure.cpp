@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <weft/core/error.hpp>
+#include <weft/custom_forces/instantiate_law.hpp>
 #include <weft/custom_forces/law_input.hpp>
 #include <weft/mesh/hinges.hpp>
 
@@ -186,8 +187,6 @@ Scalar Pressure<Scalar>::potential_energy(const State<Scalar>& state) const {
   return energy;
 }
 
-template class Pressure<float>;
-template class Pressure<double>;
-template class Pressure<Dual>;
+WEFT_INSTANTIATE_LAW(Pressure);
 
 }  // namespace weft::forces

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <weft/core/dual.hpp>
 #include <weft/custom_forces/assembly/element_force.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
@@ -64,6 +63,5 @@ class Pressure final : public ForceLaw<Scalar> {
 
 extern template class Pressure<float>;
 extern template class Pressure<double>;
-extern template class Pressure<Dual>;
 
 }  // namespace weft::forces

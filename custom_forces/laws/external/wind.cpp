@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <weft/custom_forces/instantiate_law.hpp>
 #include <weft/custom_forces/law_input.hpp>
 
 namespace weft::forces {
@@ -141,8 +142,6 @@ Scalar Wind<Scalar>::non_conservative_power(const State<Scalar>& state) const {
   });
 }
 
-template class Wind<float>;
-template class Wind<double>;
-template class Wind<Dual>;
+WEFT_INSTANTIATE_LAW(Wind);
 
 }  // namespace weft::forces

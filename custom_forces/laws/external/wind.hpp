@@ -1,6 +1,5 @@
 #pragma once
 
-#include <weft/core/dual.hpp>
 #include <weft/custom_forces/assembly/element_force.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
@@ -64,6 +63,5 @@ class Wind final : public ForceLaw<Scalar> {
 
 extern template class Wind<float>;
 extern template class Wind<double>;
-extern template class Wind<Dual>;
 
 }  // namespace weft::forces

@@ -1,7 +1,5 @@
 #pragma once
 
-// Tested by tests/contract/law_contract_test.cpp.
-
 #include <weft/core/eigen_alignment.hpp>
 
 #include <unsupported/Eigen/AutoDiff>
