@@ -47,7 +47,9 @@ bool is_among(const btAlignedObjectArray<btSoftBody*>& present, btSoftBody* body
 std::optional<std::string> reason_against_fast(const btSoftBody& body,
                                                const std::vector<forces::LawSpecification>& laws) {
   if (auto reason = reason_against_implicit(body)) return reason;
-  const auto is_tension = [](const forces::LawSpecification& law) { return law.law == "tension"; };
+  const auto is_tension = [](const forces::LawSpecification& law) {
+    return forces::role_of(law.law) == forces::LawRole::kSpring;
+  };
   if (body.m_links.size() > 0 && std::none_of(laws.begin(), laws.end(), is_tension)) {
     return "it has " + std::to_string(body.m_links.size()) +
            " links, which implicit springs replace, and no tension law is among the laws";

@@ -21,6 +21,16 @@ enum class ElementKind {
   kNodeSets,     ///< node sets: regions of the mesh
 };
 
+/// What solvers, readers and windows that treat some laws in a way of their own know a law by, in place of its id.
+enum class LawRole {
+  kOther,
+  kSpring,        ///< elastic force along edges: parameters stiffness, compression_ratio
+  kSpringDamper,  ///< viscous force along edges: parameter damping
+  kBending,       ///< resists bending; add_rest_stiffness says how strongly
+  kGravity,       ///< the same acceleration for all nodes: parameter acceleration
+  kWind,          ///< moving air: parameter velocity
+};
+
 /// What a law claims about itself. The contract tests hold every registered law to its claims.
 struct LawTraits {
   /// conserves linear and angular momentum and knows no direction of the world
@@ -40,6 +50,7 @@ struct LawTraits {
     kVelocity,  ///< a damper whose exact action on velocities is known: advance_velocities
     kInertia,   ///< adds no force, but shares out the sum of all others: redistribute_forces
   } level = Level::kForce;
+  LawRole role = LawRole::kOther;
 };
 
 /// Name of the key that holds the sets of a law: "edge_sets", "line_sets", "connection_sets",

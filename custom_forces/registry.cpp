@@ -145,6 +145,11 @@ const LawInfo* find_law(std::string_view id) {
   return nullptr;
 }
 
+LawRole role_of(std::string_view id) {
+  const LawInfo* info = find_law(id);
+  return info == nullptr ? LawRole::kOther : info->traits.role;
+}
+
 LawSpecification checked(const LawSpecification& specification) {
   const LawInfo& info = *find_row(specification.law).info;
   check_names(specification, info);

@@ -17,6 +17,9 @@ namespace weft::forces {
 /// The law with this id, or nullptr.
 [[nodiscard]] const LawInfo* find_law(std::string_view id);
 
+/// The role of the law with this id; kOther for an id that no law has.
+[[nodiscard]] LawRole role_of(std::string_view id);
+
 /// Fills in defaults and checks names, sizes and domains of the parameters, and the edge sets.
 /// Throws InvalidArgument that names the law, the parameter, its value and unit and what was
 /// expected.

@@ -45,6 +45,10 @@ class BulletSimulator final : public Simulator, public LiveLaws, public Resumabl
   [[nodiscard]] std::optional<BlowUp> find_blow_up() const;
   [[nodiscard]] SolveReport solve_report() const;
 
+  /// Whether the law becomes Bullet's links, in place of forces.
+  [[nodiscard]] bool is_link(const forces::LawSpecification& law) const {
+    return tension_ == Tension::kLinks && forces::role_of(law.law) == forces::LawRole::kSpring;
+  }
   Tension tension_;
   LoadedScene loaded_;
   std::vector<Cloth> cloths_;  ///< as loaded
@@ -96,7 +100,7 @@ void BulletSimulator::add_cloth(const Cloth& cloth, const Scene& scene) {
   std::vector<forces::LawSpecification> laws;
   for (const forces::LawSpecification& given : cloth.laws) {
     const forces::LawSpecification law = forces::checked(given);
-    if (law.law == "tension" && tension_ == Tension::kLinks) {
+    if (is_link(law)) {
       settings.links.push_back(link_set(cloth, law));
     } else {
       laws.push_back(law);
@@ -141,13 +145,11 @@ void BulletSimulator::replace_laws(std::size_t cloth,
   std::vector<forces::LawSpecification> links;
   for (const forces::LawSpecification& given : laws) {
     const forces::LawSpecification law = forces::checked(given);
-    const bool is_link = law.law == "tension" && tension_ == Tension::kLinks;
-    (is_link ? links : attached).push_back(law);
+    (is_link(law) ? links : attached).push_back(law);
   }
   std::vector<forces::LawSpecification> loaded_links;
   for (const forces::LawSpecification& given : loaded.laws) {
-    if (given.law == "tension" && tension_ == Tension::kLinks)
-      loaded_links.push_back(forces::checked(given));
+    if (is_link(given)) loaded_links.push_back(forces::checked(given));
   }
   const auto is_same = [](const forces::LawSpecification& a, const forces::LawSpecification& b) {
     return a.sets == b.sets && a.parameters == b.parameters;

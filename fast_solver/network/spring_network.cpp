@@ -24,7 +24,7 @@ using Entries = std::map<std::pair<int, int>, Entry>;
 void add_springs(const forces::LawSpecification& law, const ClothMesh& mesh, Entries& entries) {
   const Edges edges = forces::law_edges(law, mesh);
   const VectorX<double> lengths = forces::law_rest_lengths(law, mesh, edges);
-  const bool is_tension = law.law == "tension";
+  const bool is_tension = forces::role_of(law.law) == forces::LawRole::kSpring;
   const double stiffness = is_tension ? forces::law_scalar(law, "stiffness") : 0.0;
   const double ratio = is_tension ? forces::law_scalar(law, "compression_ratio") : 1.0;
   const double damping = is_tension ? 0.0 : forces::law_scalar(law, "damping");
@@ -40,11 +40,12 @@ void add_springs(const forces::LawSpecification& law, const ClothMesh& mesh, Ent
 }  // namespace
 
 bool is_bending(std::string_view law) {
-  return law == "hinge_torsion" || law == "torsion";
+  return forces::role_of(law) == forces::LawRole::kBending;
 }
 
 bool is_implicit(const forces::LawSpecification& law) {
-  return law.law == "tension" || law.law == "spring_damping";
+  const forces::LawRole role = forces::role_of(law.law);
+  return role == forces::LawRole::kSpring || role == forces::LawRole::kSpringDamper;
 }
 
 SpringNetwork make_network(const ClothMesh& mesh,

@@ -13,8 +13,6 @@
 namespace weft::validation {
 namespace {
 
-constexpr std::string_view kGravityLaw = "gravity";
-
 /// Principal moments of a homogeneous solid [kg m^2].
 Vector3<double> inertia(const scenes::Collider& collider) {
   const double mass = *collider.mass;
@@ -100,7 +98,8 @@ void SceneEnergy::add_cloth(const ClothPart& part, const scenes::ClothState& sta
   }
   const forces::State<double> law_state{state.positions, state.velocities, part.masses, time};
   for (const auto& law : part.laws) {
-    double& store = law->info().id == kGravityLaw ? energy.gravitational : energy.elastic;
+    const bool is_gravity = law->info().traits.role == forces::LawRole::kGravity;
+    double& store = is_gravity ? energy.gravitational : energy.elastic;
     store += law->potential_energy(law_state);
     energy.non_conservative_power += law->non_conservative_power(law_state);
   }

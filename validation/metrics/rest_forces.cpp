@@ -33,7 +33,7 @@ Matrix3X<double> rounded(const Matrix3X<double>& positions, double epsilon) {
 double gravity_of(const scenes::Scene& scene) {
   for (const scenes::Cloth& cloth : scene.cloths) {
     for (const forces::LawSpecification& given : cloth.laws) {
-      if (given.law != "gravity") continue;
+      if (forces::role_of(given.law) != forces::LawRole::kGravity) continue;
       const std::vector<double> a = forces::checked(given).parameters.at("acceleration");
       const double size = std::hypot(a.at(0), a.at(1), a.at(2));
       if (size > 0) return size;

@@ -22,8 +22,9 @@ constexpr int kLaterIterations = 4;
 
 /// Laws that bullet_weft solves for.
 bool is_implicit_law(const forces::LawSpecification& law) {
-  return law.law == "tension" || law.law == "spring_damping" || law.law == "torsion" ||
-         law.law == "hinge_torsion";
+  const forces::LawRole role = forces::role_of(law.law);
+  return role == forces::LawRole::kSpring || role == forces::LawRole::kSpringDamper ||
+         role == forces::LawRole::kBending;
 }
 
 bool is_simulated(const scenes::Cloth& cloth) {

@@ -23,7 +23,7 @@ constexpr std::array kTypes = {
 constexpr double kStandardGravity = 9.81;  // [m/s^2]
 
 bool is_bending(const forces::LawSpecification& law) {
-  return law.law == "torsion" || law.law == "hinge_torsion";
+  return forces::role_of(law.law) == forces::LawRole::kBending;
 }
 
 bool can_bend(const scenes::Cloth& cloth) {

@@ -98,7 +98,7 @@ SliderRange slider_range(const Parameter& parameter) {
 Vector3<double> wind_of(const scenes::Scene& scene) {
   for (const scenes::Cloth& cloth : scene.cloths) {
     for (const forces::LawSpecification& law : cloth.laws) {
-      if (law.law == "wind") return vector_of(law, "velocity");
+      if (forces::role_of(law.law) == forces::LawRole::kWind) return vector_of(law, "velocity");
     }
   }
   return {0, 0, 0};
@@ -107,7 +107,8 @@ Vector3<double> wind_of(const scenes::Scene& scene) {
 Vector3<double> gravity_of(const scenes::Scene& scene) {
   for (const scenes::Cloth& cloth : scene.cloths) {
     for (const forces::LawSpecification& law : cloth.laws) {
-      if (law.law == "gravity") return vector_of(law, "acceleration");
+      if (forces::role_of(law.law) == forces::LawRole::kGravity)
+        return vector_of(law, "acceleration");
     }
   }
   return scene.world.gravity;

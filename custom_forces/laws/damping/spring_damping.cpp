@@ -24,8 +24,9 @@ const LawInfo SpringDamping<Scalar>::kInfo{.id = "spring_damping",
                                                       .ignores_rigid_motion = true,
                                                       .free_at_rest = true,
                                                       .dissipative = true,
-                                                      .elements = ElementKind::kEdges},
-                                           .parameters = kParameters};
+                                                      .elements = ElementKind::kEdges,
+                                                      .role = LawRole::kSpringDamper},
+                                           .parameters = kSpringDampingParameters};
 
 template <class Scalar>
 SpringDamping<Scalar>::SpringDamping(const LawSpecification& specification, const ClothMesh& mesh)

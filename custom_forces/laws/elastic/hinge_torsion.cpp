@@ -154,8 +154,9 @@ const LawInfo HingeTorsion<Scalar>::kInfo{
                .ignores_rigid_motion = true,
                .free_at_rest = true,
                .has_energy = true,
-               .elements = ElementKind::kHinges},
-    .parameters = kParameters};
+               .elements = ElementKind::kHinges,
+               .role = LawRole::kBending},
+    .parameters = kHingeTorsionParameters};
 
 template <class Scalar>
 HingeTorsion<Scalar>::HingeTorsion(const LawSpecification& specification, const ClothMesh& mesh)

@@ -32,8 +32,9 @@ const LawInfo Tension<Scalar>::kInfo{
                .ignores_rigid_motion = true,
                .free_at_rest = true,
                .has_energy = true,
-               .elements = ElementKind::kEdges},
-    .parameters = kParameters};
+               .elements = ElementKind::kEdges,
+               .role = LawRole::kSpring},
+    .parameters = kTensionParameters};
 
 template <class Scalar>
 Tension<Scalar>::Tension(const LawSpecification& specification, const ClothMesh& mesh)

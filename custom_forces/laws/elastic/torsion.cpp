@@ -117,8 +117,9 @@ const LawInfo Torsion<Scalar>::kInfo{
                .ignores_rigid_motion = true,
                .free_at_rest = true,
                .has_energy = true,
-               .elements = ElementKind::kLines},
-    .parameters = kParameters};
+               .elements = ElementKind::kLines,
+               .role = LawRole::kBending},
+    .parameters = kTorsionParameters};
 
 template <class Scalar>
 Torsion<Scalar>::Torsion(const LawSpecification& specification, const ClothMesh& mesh)

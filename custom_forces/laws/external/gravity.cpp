@@ -24,8 +24,11 @@ const LawInfo Gravity<Scalar>::kInfo{
     .formula = "f = m g, E = -m g . x",
     .source = "uniform field",
     .checked_by = "cases hanging_chain, drape_sphere; tests Gravity.*",
-    .traits = {.ignores_rigid_motion = true, .has_energy = true, .is_pointwise = true},
-    .parameters = kParameters};
+    .traits = {.ignores_rigid_motion = true,
+               .has_energy = true,
+               .is_pointwise = true,
+               .role = LawRole::kGravity},
+    .parameters = kGravityParameters};
 
 template <class Scalar>
 Gravity<Scalar>::Gravity(const LawSpecification& specification, const ClothMesh&)

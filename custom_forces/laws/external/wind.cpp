@@ -43,8 +43,8 @@ const LawInfo Wind<Scalar>::kInfo{
         "w = u - v, w_t = w - (w.n) n",
     .source = "quadratic drag, resolved along and across the face",
     .checked_by = "cases hover, wind_hover; tests Wind.*",
-    .traits = {.elements = ElementKind::kFaces},
-    .parameters = kParameters};
+    .traits = {.elements = ElementKind::kFaces, .role = LawRole::kWind},
+    .parameters = kWindParameters};
 
 template <class Scalar>
 Wind<Scalar>::Wind(const LawSpecification& specification, const ClothMesh& mesh)

@@ -114,7 +114,7 @@ forces::LawSpecification read_law(const TomlTable& table, const Cloth& cloth, co
   for (const forces::ParameterInfo& parameter : info.parameters) {
     if (const std::optional<TomlValue> value = table.find(parameter.name)) {
       law.parameters.emplace(parameter.name, read_parameter(*value, parameter));
-    } else if (info.id == "gravity" && parameter.name == "acceleration") {
+    } else if (info.traits.role == forces::LawRole::kGravity && parameter.name == "acceleration") {
       law.parameters.emplace(
           parameter.name,
           std::vector<double>{world.gravity.x(), world.gravity.y(), world.gravity.z()});
