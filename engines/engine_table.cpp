@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <weft/engines/reference_simulator.hpp>
+#include <weft/scenes/engine_kind.hpp>
 
 #ifdef WEFT_WITH_BULLET
 #include <weft/engines/bullet/bullet_deformable_simulator.hpp>
@@ -12,24 +13,19 @@
 namespace weft::scenes {
 
 std::span<const EngineInfo> engine_table() {
+  const auto row = [](const EngineKind& kind, StoredPrecision precision,
+                      std::unique_ptr<Simulator> (*make)()) {
+    return EngineInfo{kind.name, precision, kind.summary, make};
+  };
   static const std::vector<EngineInfo> kEngines = {
 #ifdef WEFT_WITH_BULLET
-      {"bullet_soft", bullet_precision(),
-       "Bullet's own links, stiffness mapped from N/m; Weft's other laws", &make_bullet_soft},
-      {"bullet_forces", bullet_precision(),
-       "Weft's laws in Bullet's world, no links: the equations of the reference",
-       &make_bullet_forces},
-      {"bullet_weft", bullet_precision(),
-       "Weft's fast solver in Bullet's world: springs implicit, any time step", &make_bullet_weft},
-      {"bullet_deformable", bullet_precision(),
-       "Weft's laws in Bullet's deformable world: forces explicit, dampers implicit",
-       &make_bullet_deformable},
-      {"bullet_deformable_implicit", bullet_precision(),
-       "Weft's laws in Bullet's deformable world, all of them implicit",
-       &make_bullet_deformable_implicit},
+      row(kBulletSoft, bullet_precision(), &make_bullet_soft),
+      row(kBulletForces, bullet_precision(), &make_bullet_forces),
+      row(kBulletWeft, bullet_precision(), &make_bullet_weft),
+      row(kBulletDeformable, bullet_precision(), &make_bullet_deformable),
+      row(kBulletDeformableImplicit, bullet_precision(), &make_bullet_deformable_implicit),
 #endif
-      {"reference", StoredPrecision::kFloat64,
-       "Weft's own spring solver, double precision, no Bullet", &make_reference},
+      row(kReferenceEngine, StoredPrecision::kFloat64, &make_reference),
   };
   return kEngines;
 }

@@ -11,6 +11,7 @@
 #include <weft/reference/solver.hpp>
 #include <weft/scenes/characters/start_state.hpp>
 #include <weft/scenes/controllers/director.hpp>
+#include <weft/scenes/engine_kind.hpp>
 #include <weft/scenes/format/scene_words.hpp>
 #include <weft/scenes/live_laws.hpp>
 #include <weft/scenes/shape_surface.hpp>
@@ -223,14 +224,15 @@ void ReferenceSimulator::serialize(StateArchive& archive) {
 
 Snapshot ReferenceSimulator::save() {
   StateArchive archive = StateArchive::writer();
-  Snapshot snapshot{"reference", "float64", report_.step, state_.time, loaded_.text(), {}};
+  Snapshot snapshot{
+      std::string(kReferenceEngine.name), "float64", report_.step, state_.time, loaded_.text(), {}};
   serialize(archive);
   snapshot.state = archive.take();
   return snapshot;
 }
 
 void ReferenceSimulator::restore(const Snapshot& snapshot) {
-  loaded_.check(snapshot, "reference", "float64");
+  loaded_.check(snapshot, kReferenceEngine.name, "float64");
   const LoadedScene loaded = loaded_;
   load(loaded.scene());
   loaded_ = loaded;

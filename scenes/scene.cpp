@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <weft/core/error.hpp>
+#include <weft/scenes/engine_kind.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -186,7 +187,8 @@ bool is_for_engine(const Scene& scene, std::string_view engine) {
 
 Scene with_step_of(Scene scene, std::string_view engine) {
   World& world = scene.world;
-  if (engine == "bullet_weft" && world.implicit_time_step)
+  const EngineKind* kind = find_engine_kind(engine);
+  if (kind != nullptr && kind->is_implicit && world.implicit_time_step)
     world.time_step = *world.implicit_time_step;
   world.implicit_time_step.reset();
   return scene;

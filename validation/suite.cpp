@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <weft/core/error.hpp>
+#include <weft/scenes/engine_kind.hpp>
 #include <weft/validation/cases.hpp>
 #include <weft/validation/cases/support/parameters.hpp>
 #include <weft/validation/departures/stated_departures.hpp>
@@ -14,14 +15,15 @@ namespace {
 
 /// The reference answers for itself unless another engine is asked for.
 bool evaluates_itself(const CaseInfo& info, const CaseOptions& options) {
-  return info.evaluate != nullptr && (options.engine.empty() || options.engine == "reference");
+  return info.evaluate != nullptr &&
+         (options.engine.empty() || options.engine == scenes::kReferenceEngine.name);
 }
 
 /// One point of a case is the reference's alone, unless an engine is named for it.
 bool runs_theory(const CaseInfo& info, const CaseOptions& options) {
   if (info.theory == nullptr || options.recorded) return false;
   if (info.evaluate == nullptr) return true;
-  if (!options.engine.empty()) return options.engine != "reference";
+  if (!options.engine.empty()) return options.engine != scenes::kReferenceEngine.name;
   return !asks_for_point(options);
 }
 

@@ -17,6 +17,7 @@
 #include <weft/playback/rendering/montage.hpp>
 #include <weft/playback/rendering/renderer.hpp>
 #include <weft/scenes/catalog.hpp>
+#include <weft/scenes/engine_kind.hpp>
 #include <weft/scenes/recording/recording.hpp>
 
 #include "apps/app.hpp"
@@ -28,7 +29,7 @@ namespace weft::app {
 namespace {
 
 /// The engine for scenes that are made for all.
-constexpr const char* kUsualEngine = "bullet_forces";
+constexpr std::string_view kUsualEngine = scenes::kBulletForces.name;
 
 struct SheetOptions {
   std::vector<std::string> names;
@@ -60,7 +61,7 @@ double poster_time(const scenes::Scene& scene) {
 }
 
 std::string first_engine(const scenes::Scene& scene) {
-  return scene.engines.empty() ? kUsualEngine : scene.engines.front();
+  return scene.engines.empty() ? std::string(kUsualEngine) : scene.engines.front();
 }
 
 Exhibit simulate(const scenes::Scene& for_all, const std::string& name) {
@@ -254,7 +255,8 @@ Action add_contact_sheet_command(CLI::App& parser) {
       ->add_option("--engines", options->engines,
                    "Each scene on each of these, side by side, e.g. bullet_weft,reference")
       ->delimiter(',')
-      ->check(CLI::IsMember({"bullet_soft", "bullet_forces", "bullet_weft", "reference"}))
+      ->check(CLI::IsMember(
+          scenes::engine_names([](const scenes::EngineKind& kind) { return !kind.is_deformable; })))
       ->excludes(page);
   command->add_option("--columns", options->columns, "Pictures in a row")
       ->check(CLI::Range(1, 20))

@@ -8,6 +8,7 @@
 
 #include <weft/core/error.hpp>
 #include <weft/engines/engine_table.hpp>
+#include <weft/scenes/engine_kind.hpp>
 #include <weft/scenes/output/output_file.hpp>
 #include <weft/validation/contact_table/contact_table.hpp>
 
@@ -19,7 +20,7 @@ namespace weft::app {
 namespace {
 
 struct TableOptions {
-  std::string engine = "bullet_soft";
+  std::string engine{scenes::kBulletSoft.name};
   std::string markdown;
   std::string csv;
 };
@@ -73,7 +74,8 @@ Action add_contact_table_command(CLI::App& parser) {
       "Throw a cloth at every kind of collider: how deep its nodes go, how many pass");
   auto options = std::make_shared<TableOptions>();
   command->add_option("-e,--engine", options->engine, "Which engine simulates")
-      ->check(CLI::IsMember({"bullet_soft", "bullet_forces", "bullet_weft"}))
+      ->check(CLI::IsMember(scenes::engine_names(
+          [](const scenes::EngineKind& kind) { return kind.uses_bullet && !kind.is_deformable; })))
       ->capture_default_str();
   command->add_option("-o,--out", options->markdown, "Write the table here, as Markdown");
   command->add_option("--csv", options->csv, "Write every run here, one line each");

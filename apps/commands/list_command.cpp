@@ -7,6 +7,7 @@
 #include <weft/custom_forces/registry.hpp>
 #include <weft/engines/engine_table.hpp>
 #include <weft/scenes/catalog.hpp>
+#include <weft/scenes/engine_kind.hpp>
 
 #include "apps/app.hpp"
 #include "apps/terminal.hpp"
@@ -64,7 +65,7 @@ int list(bool verbose) {
   for (const scenes::CatalogEntry& entry : scenes::scene_catalog()) print_scene(entry, verbose);
   print("\nEngines:\n");
   for (const scenes::EngineInfo& engine : scenes::engine_table()) {
-    const bool both = engine.name != "reference";
+    const bool both = scenes::find_engine_kind(engine.name)->uses_bullet;
     print("  {:<26} {}{}\n", engine.name, engine.summary, both ? " (float32 and float64)" : "");
   }
   print("\nForce laws:\n");

@@ -16,6 +16,7 @@
 #include <weft/core/trace.hpp>
 #include <weft/engines/engine_table.hpp>
 #include <weft/scenes/catalog.hpp>
+#include <weft/scenes/engine_kind.hpp>
 #include <weft/scenes/format/scene_file.hpp>
 #include <weft/scenes/format/scene_words.hpp>
 #include <weft/scenes/recording/recording.hpp>
@@ -53,7 +54,9 @@ struct RunOptions {
 
 /// The engine asked for, or the first that the scene is made for.
 std::string requested_engine(const RunOptions& options, const scenes::Scene& scene) {
-  if (options.engine.empty()) return scene.engines.empty() ? "reference" : scene.engines.front();
+  if (options.engine.empty())
+    return scene.engines.empty() ? std::string(scenes::kReferenceEngine.name)
+                                 : scene.engines.front();
   if (!scenes::is_for_engine(scene, options.engine)) {
     throw InvalidArgument(fmt::format(
         "--engine {}: scene '{}' is not made for it, expected {}{}", options.engine, scene.name,
@@ -63,7 +66,7 @@ std::string requested_engine(const RunOptions& options, const scenes::Scene& sce
 }
 
 scenes::StoredPrecision requested_precision(const RunOptions& options) {
-  if (options.engine == "reference") {
+  if (options.engine == scenes::kReferenceEngine.name) {
     if (options.precision == "float32") {
       throw InvalidArgument("--precision float32: the reference solver has only float64");
     }
@@ -254,7 +257,7 @@ int run(RunOptions options, const CommandLine& command_line) {
   scene = scenes::with_step_of(std::move(scene), options.engine);
   if (options.bullet_time_step) scene = scenes::with_bullets_time_step(std::move(scene));
   const scenes::StoredPrecision precision = requested_precision(options);
-  if (!options.integrator.empty() && options.engine != "reference") {
+  if (!options.integrator.empty() && options.engine != scenes::kReferenceEngine.name) {
     throw InvalidArgument("--integrator " + options.integrator + ": " + options.engine +
                           " has Bullet's own integrator, expected --engine reference");
   }
@@ -310,8 +313,7 @@ Action add_run_command(CLI::App& parser, const CommandLine& command_line) {
       ->add_option("-e,--engine", options->engine,
                    "Which engine simulates (default: the first that the scene names, else the "
                    "reference)")
-      ->check(CLI::IsMember({"bullet_soft", "bullet_forces", "bullet_weft", "bullet_deformable",
-                             "bullet_deformable_implicit", "reference"}));
+      ->check(CLI::IsMember(scenes::engine_names()));
   command
       ->add_option("-p,--precision", options->precision,
                    "float32 or float64; of Bullet (default float32), the reference has float64")

@@ -15,6 +15,7 @@
 #include <weft/engines/engine_state.hpp>
 #include <weft/engines/engine_table.hpp>
 #include <weft/scenes/controllers/director.hpp>
+#include <weft/scenes/engine_kind.hpp>
 #include <weft/scenes/live_laws.hpp>
 
 namespace weft::scenes {
@@ -44,11 +45,11 @@ class BulletSimulator final : public Simulator, public LiveLaws, public Resumabl
   void set_freedom(const Steering& steering);
   [[nodiscard]] std::optional<BlowUp> find_blow_up() const;
   [[nodiscard]] SolveReport solve_report() const;
-
   /// Whether the law becomes Bullet's links, in place of forces.
   [[nodiscard]] bool is_link(const forces::LawSpecification& law) const {
     return tension_ == Tension::kLinks && forces::role_of(law.law) == forces::LawRole::kSpring;
   }
+
   Tension tension_;
   LoadedScene loaded_;
   std::vector<Cloth> cloths_;  ///< as loaded
@@ -167,13 +168,13 @@ void BulletSimulator::replace_laws(std::size_t cloth,
 std::string_view BulletSimulator::engine_name() const {
   switch (tension_) {
     case Tension::kLinks:
-      return "bullet_soft";
+      return kBulletSoft.name;
     case Tension::kLaws:
-      return "bullet_forces";
+      return kBulletForces.name;
     case Tension::kImplicit:
       break;
   }
-  return "bullet_weft";
+  return kBulletWeft.name;
 }
 
 void BulletSimulator::serialize(StateArchive& archive) {

@@ -5,6 +5,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <weft/engines/reference_simulator.hpp>
+#include <weft/scenes/engine_kind.hpp>
 #include <weft/python/bindings/core_module.hpp>
 #include <weft/python/bindings/numpy_arrays.hpp>
 #include <weft/python/bindings/scene_run.hpp>
@@ -45,6 +46,7 @@ void bind_scenes(py::module_& module) {
       .def_property_readonly("colliders",
                              [](const scenes::Scene& s) { return names_of(s.colliders); })
       .def("is_for_engine", &scenes::is_for_engine, py::arg("engine"));
+  module.attr("engines") = scenes::engine_names();
   module.def("scene_names", &catalog_names);
   module.def("load_scene", &scenes::load_scene, py::arg("name_or_path"));
   module.def(
@@ -57,7 +59,7 @@ void bind_scenes(py::module_& module) {
       "run_reference",
       [](const scenes::Scene& scene, const std::filesystem::path& output, bool may_replace,
          std::optional<double> duration, std::optional<double> time_step) {
-        return run_scene(scene, {.engine = "reference",
+        return run_scene(scene, {.engine = std::string(scenes::kReferenceEngine.name),
                                  .precision = scenes::StoredPrecision::kFloat64,
                                  .make = [] { return scenes::make_reference(); },
                                  .output = output,

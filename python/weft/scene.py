@@ -13,7 +13,8 @@ from weft._arguments import optional_number
 from weft.errors import Error, InvalidArgument
 from weft.recording import RecordedBlowUp, Recording
 
-ENGINES = ("reference", "bullet_forces", "bullet_soft", "bullet_weft", "bullet_deformable", "bullet_deformable_implicit")
+# The reference first: what a scene is run on that names no engine.
+ENGINES = tuple(sorted(_core.engines, key=lambda name: name != "reference"))
 
 
 class RunReport(NamedTuple):

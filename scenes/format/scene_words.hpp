@@ -12,12 +12,6 @@ namespace weft::scenes {
 
 inline constexpr std::string_view kSchema = "weft-scene/1";
 
-inline constexpr std::array<std::string_view, 6> kEngineWords = {"bullet_soft",
-                                                                 "bullet_forces",
-                                                                 "bullet_weft",
-                                                                 "bullet_deformable",
-                                                                 "bullet_deformable_implicit",
-                                                                 "reference"};
 inline constexpr std::array<std::string_view, 3> kStencilWords = {"24-neighbour", "12-neighbour",
                                                                   "8-neighbour"};
 /// Both spellings are read; that of kStencilWords, which older versions know, is written.

@@ -6,9 +6,10 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <weft/core/error.hpp>
+#include <weft/scenes/engine_kind.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -73,9 +74,9 @@ class SolveOfFrame {
 
 Resumable& resumable(Simulator& simulator) {
   if (auto* const found = dynamic_cast<Resumable*>(&simulator)) return *found;
-  throw InvalidArgument(
-      "record_run: the engine has no snapshots, expected reference, bullet_soft, bullet_forces or "
-      "bullet_weft");
+  throw InvalidArgument(fmt::format(
+      "record_run: the engine has no snapshots, expected one of: {}",
+      fmt::join(engine_names([](const EngineKind& kind) { return kind.can_resume; }), ", ")));
 }
 
 /// The number of steps after which the snapshot is taken; 0: never.

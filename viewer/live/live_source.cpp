@@ -8,6 +8,7 @@
 
 #include <weft/core/error.hpp>
 #include <weft/scenes/catalog.hpp>
+#include <weft/scenes/engine_kind.hpp>
 #include <weft/viewer/model/cloth_type.hpp>
 
 namespace weft::viewer {
@@ -26,7 +27,8 @@ LiveSource::LiveSource(LiveSettings settings)
     : settings_(std::move(settings)), is_playing_(settings_.is_running) {
   written_ = scenes::load_scene(settings_.name);
   if (settings_.engine.empty()) {
-    settings_.engine = written_.engines.empty() ? "reference" : written_.engines.front();
+    settings_.engine = written_.engines.empty() ? std::string(scenes::kReferenceEngine.name)
+                                                : written_.engines.front();
   }
   const std::vector<std::string> known = engines();
   if (std::find(known.begin(), known.end(), settings_.engine) == known.end()) {
@@ -147,7 +149,8 @@ void LiveSource::set_engine(const std::string& name) {
 
 void LiveSource::set_cloth_type(std::size_t type) {
   cloth_type_ = type;
-  const bool is_held = settings_.engine == "bullet_soft" || settings_.engine == "bullet_deformable";
+  const bool is_held = settings_.engine == scenes::kBulletSoft.name ||
+                       settings_.engine == scenes::kBulletDeformable.name;
   const std::string note = apply_cloth_type(scene_, written_, type, is_held);
   message_ = note.empty() ? "cloth: " + std::string(cloth_types()[type].name) : note;
   send_laws();

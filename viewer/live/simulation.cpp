@@ -2,12 +2,13 @@
 
 #include <utility>
 
+#include <weft/scenes/engine_kind.hpp>
 #include <weft/viewer/live/simulation_worker.hpp>
 
 namespace weft::viewer {
 
 bool SimulationSettings::takes_forces() const {
-  return !engine->name.starts_with("bullet_deformable");
+  return !scenes::find_engine_kind(engine->name)->is_deformable;
 }
 
 Simulation::Simulation(SimulationSettings settings)

@@ -7,6 +7,7 @@
 
 #include <weft/custom_forces/registry.hpp>
 #include <weft/custom_forces/spectrum.hpp>
+#include <weft/scenes/engine_kind.hpp>
 
 namespace weft::viewer {
 namespace {
@@ -20,7 +21,11 @@ constexpr int kEstimateInterval = 10;
 constexpr int kFirstIterations = 24;
 constexpr int kLaterIterations = 4;
 
-/// Laws that bullet_weft solves for.
+const scenes::EngineKind& kind_of(std::string_view engine) {
+  return *scenes::find_engine_kind(engine);
+}
+
+/// Laws that an implicit engine solves for.
 bool is_implicit_law(const forces::LawSpecification& law) {
   const forces::LawRole role = forces::role_of(law.law);
   return role == forces::LawRole::kSpring || role == forces::LawRole::kSpringDamper ||
@@ -68,8 +73,8 @@ double largest_eigenvalue(const Product& product, const VectorX<double>& inverse
 }  // namespace
 
 StepParts::StepParts(std::string_view engine)
-    : can_divide_(engine == "reference" || engine == "bullet_forces" || engine == "bullet_weft"),
-      springs_are_implicit_(engine == "bullet_weft") {}
+    : can_divide_(!kind_of(engine).has_links && !kind_of(engine).is_deformable),
+      springs_are_implicit_(kind_of(engine).is_implicit) {}
 
 void StepParts::set_laws(const scenes::Scene& scene) {
   bodies_.clear();

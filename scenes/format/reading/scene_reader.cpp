@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <weft/scenes/engine_kind.hpp>
 #include <weft/scenes/format/quantity.hpp>
 #include <weft/scenes/format/reading/appearance_reader.hpp>
 #include <weft/scenes/format/scene_words.hpp>
@@ -50,6 +51,12 @@ std::string read_name(const TomlTable& root) {
   }
   return name;
 }
+
+constexpr auto kEngineWords = [] {
+  std::array<std::string_view, kEngineKinds.size()> words;
+  for (std::size_t e = 0; e < words.size(); ++e) words[e] = kEngineKinds[e].name;
+  return words;
+}();
 
 std::vector<std::string> read_engines(const TomlValue& value) {
   std::vector<std::string> engines;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <weft/scenes/catalog.hpp>
+#include <weft/scenes/engine_kind.hpp>
 #include <weft/validation/cases/scenes/scene_section.hpp>
 #include <weft/validation/cases/scenes/scene_truth.hpp>
 #include <weft/validation/referee/start_check.hpp>
@@ -19,7 +20,8 @@ namespace {
 constexpr double kFastStep = 1.0 / 100;  // [s]: divides every frame interval
 
 scenes::Scene scene_for(const scenes::Scene& scene, const EngineChoice& engine) {
-  if (engine.engine != "bullet_weft") return scene;
+  const scenes::EngineKind* kind = scenes::find_engine_kind(engine.engine);
+  if (kind == nullptr || !kind->is_implicit) return scene;
   scenes::Scene own = scenes::load_scene(scene.name);
   own.world.time_step = std::max(own.world.time_step, kFastStep);
   return scenes::with_bullets_time_step(std::move(own));
