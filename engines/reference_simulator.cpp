@@ -10,7 +10,7 @@
 #include <weft/reference/contact/distance/mesh_surface.hpp>
 #include <weft/reference/solver.hpp>
 #include <weft/scenes/characters/start_state.hpp>
-#include <weft/scenes/controllers/director.hpp>
+#include <weft/scenes/controllers/controller_manager.hpp>
 #include <weft/scenes/engine_kind.hpp>
 #include <weft/scenes/format/scene_words.hpp>
 #include <weft/scenes/live_laws.hpp>
@@ -32,8 +32,8 @@ class ReferenceSimulator final : public Simulator, public LiveLaws, public Resum
 
  private:
   void serialize(StateArchive& archive);
-  void begin_step(const Steering& steering, double time_step);
-  void end_step(const Steering& steering, double time_step);
+  void begin_step(const StepCommands& commands, double time_step);
+  void end_step(const StepCommands& commands, double time_step);
   void read_state();
 
   LawFilter filter_;
@@ -43,7 +43,7 @@ class ReferenceSimulator final : public Simulator, public LiveLaws, public Resum
   ReferenceTears tears_;
   SceneState state_;
   StepReport report_;
-  Director director_;
+  ControllerManager controller_manager_;
 };
 
 forces::LawSet<double> make_laws(const Cloth& cloth, const ClothMesh& mesh,
@@ -190,7 +190,7 @@ void ReferenceSimulator::load(const Scene& scene) {
   state_ = {};
   report_ = {};
   read_state();
-  director_ = Director(scene, controllers());
+  controller_manager_ = ControllerManager(scene, controllers());
 }
 
 void ReferenceSimulator::replace_laws(std::size_t cloth,
@@ -219,7 +219,7 @@ void ReferenceSimulator::serialize(StateArchive& archive) {
   }
   tears_.serialize(archive, *solver_);
   solver_->serialize(archive);
-  director_.serialize(archive);
+  controller_manager_.serialize(archive);
 }
 
 Snapshot ReferenceSimulator::save() {
@@ -242,9 +242,9 @@ void ReferenceSimulator::restore(const Snapshot& snapshot) {
   read_state();
 }
 
-void ReferenceSimulator::begin_step(const Steering& steering, double time_step) {
-  for (std::size_t c = 0; c < steering.cloths.size(); ++c) {
-    const ClothSteering& cloth = steering.cloths[c];
+void ReferenceSimulator::begin_step(const StepCommands& commands, double time_step) {
+  for (std::size_t c = 0; c < commands.cloths.size(); ++c) {
+    const ClothCommands& cloth = commands.cloths[c];
     if (cloth.placement) {
       throw InvalidArgument(
           "reference: cloth '" + solver_->system().bodies[c].name +
@@ -256,21 +256,21 @@ void ReferenceSimulator::begin_step(const Steering& steering, double time_step) 
     }
     solver_->set_external_forces(c, cloth.node_forces);
   }
-  for (std::size_t k = 0; k < steering.colliders.size(); ++k) {
-    const auto& pose = steering.colliders[k];
+  for (std::size_t k = 0; k < commands.colliders.size(); ++k) {
+    const auto& pose = commands.colliders[k];
     if (pose) solver_->lead_collider(k, pose->position, pose->orientation, time_step);
-    solver_->push_collider(k, steering.pushes[k].force, steering.pushes[k].torque, time_step);
+    solver_->push_collider(k, commands.pushes[k].force, commands.pushes[k].torque, time_step);
   }
 }
 
-void ReferenceSimulator::end_step(const Steering& steering, double time_step) {
-  for (std::size_t c = 0; c < steering.cloths.size(); ++c) {
-    const Matrix3X<double>& targets = steering.cloths[c].pinned_positions;
+void ReferenceSimulator::end_step(const StepCommands& commands, double time_step) {
+  for (std::size_t c = 0; c < commands.cloths.size(); ++c) {
+    const Matrix3X<double>& targets = commands.cloths[c].pinned_positions;
     if (targets.cols() > 0) solver_->place_pins(c, targets);
-    solver_->limit_positions(c, steering.cloths[c].limits, time_step);
+    solver_->limit_positions(c, commands.cloths[c].limits, time_step);
   }
-  for (std::size_t k = 0; k < steering.colliders.size(); ++k) {
-    const auto& pose = steering.colliders[k];
+  for (std::size_t k = 0; k < commands.colliders.size(); ++k) {
+    const auto& pose = commands.colliders[k];
     if (pose) solver_->place_collider(k, pose->position, pose->orientation);
   }
 }
@@ -295,11 +295,13 @@ void ReferenceSimulator::read_state() {
 
 StepReport ReferenceSimulator::step(double time_step) {
   if (report_.blow_up) return report_;
-  const Steering* steering =
-      director_.is_needed() ? &director_.steer(state_, solver_->time() + time_step) : nullptr;
-  if (steering) begin_step(*steering, time_step);
+  const StepCommands* commands =
+      controller_manager_.is_needed()
+          ? &controller_manager_.steer(state_, solver_->time() + time_step)
+          : nullptr;
+  if (commands) begin_step(*commands, time_step);
   const reference::StepOutcome outcome = solver_->step(time_step);
-  if (steering) end_step(*steering, time_step);
+  if (commands) end_step(*commands, time_step);
   report_.step += 1;
   report_.time = solver_->time();
   report_.time_step = time_step;

@@ -84,7 +84,7 @@ class Simulator {
 
   [[nodiscard]] virtual const SceneState& state() const = 0;
 
-  /// Controllers beside those of the scene, asked after them before every step (steering.hpp). Counts
+  /// Controllers beside those of the scene, asked after them before every step (step_commands.hpp). Counts
   /// from the next load().
   void set_controllers(std::vector<std::shared_ptr<Controller>> controllers) {
     controllers_ = std::move(controllers);

@@ -20,7 +20,8 @@ using bridge::to_bullet;
 void lead_collider(const Pose& pose, const Vector3<double>& offset, btRigidBody& body) {
   if (!body.isKinematicObject()) {
     throw InvalidArgument(
-        "steering: a collider that is led has a mass or stands still, expected one with a path");
+        "step commands: a collider that is led has a mass or stands still, expected one with a "
+        "path");
   }
   const Eigen::Quaternion<btScalar> q = pose.orientation.cast<btScalar>();
   const btVector3 place = to_bullet(pose.position + pose.orientation * offset);
@@ -73,10 +74,10 @@ void BulletBodies::set_torn(std::size_t cloth, const ClothMesh& mesh,
   state_.cloths[cloth].topology = std::move(topology);
 }
 
-void BulletBodies::begin_step(const Steering* steering, double time_step) {
+void BulletBodies::begin_step(const StepCommands* commands, double time_step) {
   for (std::size_t c = 0; c < cloths_.size(); ++c) {
     btSoftBody& body = *cloths_[c];
-    const ClothSteering* lead = steering ? &steering->cloths[c] : nullptr;
+    const ClothCommands* lead = commands ? &commands->cloths[c] : nullptr;
     if (lead && lead->placement) continue;
     if (lead && lead->pinned_positions.cols() > 0) {
       bridge::lead_nodes(steered_[c].pinned, lead->pinned_positions, time_step, body);
@@ -86,11 +87,11 @@ void BulletBodies::begin_step(const Steering* steering, double time_step) {
     if (!lead || lead->node_forces.cols() == 0) continue;
     bridge::add_node_forces(lead->node_forces.cast<btScalar>(), body);
   }
-  if (!steering) return;
+  if (!commands) return;
   for (std::size_t r = 0; r < rigids_.size(); ++r) {
-    if (const auto& pose = steering->colliders[r])
+    if (const auto& pose = commands->colliders[r])
       lead_collider(*pose, rigid_offsets_[r], *rigids_[r]);
-    push_collider(steering->pushes[r], rigid_offsets_[r], *rigids_[r]);
+    push_collider(commands->pushes[r], rigid_offsets_[r], *rigids_[r]);
   }
 }
 
@@ -109,14 +110,14 @@ std::optional<BlowUp> BulletBodies::predicted_blow_up(int step, double time,
   return std::nullopt;
 }
 
-void BulletBodies::end_step(const Steering* steering, double time_step) {
-  if (!steering) return;
+void BulletBodies::end_step(const StepCommands* commands, double time_step) {
+  if (!commands) return;
   for (std::size_t c = 0; c < cloths_.size(); ++c) {
-    if (const auto& placement = steering->cloths[c].placement) {
+    if (const auto& placement = commands->cloths[c].placement) {
       bridge::place_body(placement->positions, placement->velocities, *cloths_[c]);
       continue;
     }
-    const Matrix3X<double>& targets = steering->cloths[c].pinned_positions;
+    const Matrix3X<double>& targets = commands->cloths[c].pinned_positions;
     if (targets.cols() == 0) continue;
     bridge::place_nodes(steered_[c].pinned, targets, time_step, *cloths_[c]);
   }

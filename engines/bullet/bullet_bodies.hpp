@@ -10,7 +10,7 @@
 
 #include <weft/scenes/scene.hpp>
 #include <weft/scenes/simulator.hpp>
-#include <weft/scenes/steering.hpp>
+#include <weft/scenes/step_commands.hpp>
 
 namespace weft::scenes {
 
@@ -23,16 +23,16 @@ class BulletBodies {
   /// A cloth that has torn: nodes of its body were split, and with them its pins.
   void set_torn(std::size_t cloth, const ClothMesh& mesh,
                 std::shared_ptr<const ClothTopology> topology);
-  /// Before every step: pins move as the mesh says, or as steering does; so do colliders that are
-  /// led, and the forces of controllers are added. steering may be nullptr. time_step [s] is that
+  /// Before every step: pins move as the mesh says, or as commands does; so do colliders that are
+  /// led, and the forces of controllers are added. commands may be nullptr. time_step [s] is that
   /// which Bullet takes.
-  void begin_step(const Steering* steering, double time_step);
+  void begin_step(const StepCommands* commands, double time_step);
   /// After begin_step(): the first rigid body that its forces are about to make explode, with step and
   /// time [s] of the report. Bullet's contact stage is not for such velocities.
   [[nodiscard]] std::optional<BlowUp> predicted_blow_up(int step, double time,
                                                         double time_step) const;
   /// After the step: puts what was led exactly where it shall be.
-  void end_step(const Steering* steering, double time_step);
+  void end_step(const StepCommands* commands, double time_step);
   /// Reads all positions and velocities from Bullet; time is [s].
   void read_state(double time);
 

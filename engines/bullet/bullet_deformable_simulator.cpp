@@ -8,7 +8,7 @@
 #include <weft/engines/blow_up_check.hpp>
 #include <weft/engines/bullet/bullet_bodies.hpp>
 #include <weft/engines/bullet/bullet_shapes.hpp>
-#include <weft/scenes/controllers/director.hpp>
+#include <weft/scenes/controllers/controller_manager.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -47,7 +47,7 @@ void DeformableSimulator::load(const Scene& scene) {
     bodies_.add(collider, world_->add(std::move(made.body), std::move(made.shape)));
   }
   bodies_.read_state(0.0);
-  if (Director(scene, controllers()).is_needed()) {
+  if (ControllerManager(scene, controllers()).is_needed()) {
     throw InvalidArgument("bullet_deformable: scene '" + scene.name +
                           "' has paths or controllers, expected none, or another engine");
   }

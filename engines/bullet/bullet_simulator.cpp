@@ -14,7 +14,7 @@
 #include <weft/engines/bullet/bullet_tears.hpp>
 #include <weft/engines/engine_state.hpp>
 #include <weft/engines/engine_table.hpp>
-#include <weft/scenes/controllers/director.hpp>
+#include <weft/scenes/controllers/controller_manager.hpp>
 #include <weft/scenes/engine_kind.hpp>
 #include <weft/scenes/live_laws.hpp>
 
@@ -42,7 +42,7 @@ class BulletSimulator final : public Simulator, public LiveLaws, public Resumabl
   void add_cloth(const Cloth& cloth, const Scene& scene);
   [[nodiscard]] bridge::LinkSet link_set(const Cloth& cloth,
                                          const forces::LawSpecification& law) const;
-  void set_freedom(const Steering& steering);
+  void set_freedom(const StepCommands& commands);
   [[nodiscard]] std::optional<BlowUp> find_blow_up() const;
   [[nodiscard]] SolveReport solve_report() const;
   /// Whether the law becomes Bullet's links, in place of forces.
@@ -57,7 +57,7 @@ class BulletSimulator final : public Simulator, public LiveLaws, public Resumabl
   std::unique_ptr<bridge::SoftWorld> world_;
   BulletBodies bodies_;
   BulletTears tears_;
-  Director director_;
+  ControllerManager controller_manager_;
   StepReport report_;
   double reach_ = 0.0;  // [m] from the origin
 };
@@ -79,7 +79,7 @@ void BulletSimulator::load(const Scene& scene) {
   }
   tears_.make_first_cuts(world_->solver(), bodies_);
   bodies_.read_state(0.0);
-  director_ = Director(scene, controllers());
+  controller_manager_ = ControllerManager(scene, controllers());
 }
 
 bridge::LinkSet BulletSimulator::link_set(const Cloth& cloth,
@@ -185,7 +185,7 @@ void BulletSimulator::serialize(StateArchive& archive) {
     if (archive.is_reading() && !are_same(laws, cloths_[c].laws)) replace_laws(c, laws);
   }
   tears_.serialize(archive, world_->solver(), bodies_);
-  director_.serialize(archive);
+  controller_manager_.serialize(archive);
   if (archive.is_reading()) {
     restore_world(archive);
   } else {
@@ -240,10 +240,10 @@ void BulletSimulator::restore(const Snapshot& snapshot) {
   bodies_.read_state(snapshot.time);
 }
 
-void BulletSimulator::set_freedom(const Steering& steering) {
+void BulletSimulator::set_freedom(const StepCommands& commands) {
   for (std::size_t c = 0; c < bodies_.cloths().size(); ++c) {
     btSoftBody& body = *bodies_.cloths()[c];
-    const ClothSteering& lead = steering.cloths[c];
+    const ClothCommands& lead = commands.cloths[c];
     world_->solver().set_suspended(body, lead.placement.has_value());
     if (!lead.placement) world_->solver().set_position_limits(body, lead.limits);
   }
@@ -281,14 +281,14 @@ StepReport BulletSimulator::step(double time_step) {
   if (report_.step == 1) report_.blow_up = first_blow_up(state(), 1, 0.0, reach_);
   if (report_.blow_up) return report_;
   report_.time += report_.time_step;
-  const Steering* steering =
-      director_.is_needed() ? &director_.steer(state(), report_.time) : nullptr;
-  bodies_.begin_step(steering, report_.time_step);
+  const StepCommands* commands =
+      controller_manager_.is_needed() ? &controller_manager_.steer(state(), report_.time) : nullptr;
+  bodies_.begin_step(commands, report_.time_step);
   report_.blow_up = bodies_.predicted_blow_up(report_.step, report_.time, report_.time_step);
   if (report_.blow_up) return report_;
-  if (steering) set_freedom(*steering);
+  if (commands) set_freedom(*commands);
   world_->step(time_step);
-  bodies_.end_step(steering, report_.time_step);
+  bodies_.end_step(commands, report_.time_step);
   report_.num_contacts = 0;
   for (const btSoftBody* cloth : bodies_.cloths())
     report_.num_contacts += world_->solver().num_contacts(*cloth);

@@ -68,17 +68,17 @@ PositionLimits CharacterController::limits_of(const LedCloth& cloth,
   return limits;
 }
 
-void CharacterController::steer(const SceneState&, double end_time, Steering& steering) {
+void CharacterController::steer(const SceneState&, double end_time, StepCommands& commands) {
   const std::vector<Eigen::Affine3d> frames = world_frames(*model_, pose_, end_time);
   for (const LedCloth& cloth : cloths_) {
-    ClothSteering& lead = steering.cloths[cloth.index];
+    ClothCommands& lead = commands.cloths[cloth.index];
     lead.animated_positions = skinned_positions(*cloth.part, frames);
     const Matrix3X<double>& skin = lead.animated_positions;
     lead.pinned_positions = skin(Eigen::all, cloth.pinned);
     lead.limits = limits_of(cloth, skin);
   }
   for (const LedCollider& collider : colliders_) {
-    steering.colliders[collider.index] = led_pose(frames[collider.bone], collider.place);
+    commands.colliders[collider.index] = led_pose(frames[collider.bone], collider.place);
   }
 }
 

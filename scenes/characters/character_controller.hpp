@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <weft/scenes/scene.hpp>
-#include <weft/scenes/steering.hpp>
+#include <weft/scenes/step_commands.hpp>
 
 namespace weft::scenes {
 
@@ -18,7 +18,7 @@ class CharacterController final : public Controller {
   /// does not have.
   CharacterController(const CharacterSettings& settings, const Scene& scene);
 
-  void steer(const SceneState& state, double end_time, Steering& steering) override;
+  void steer(const SceneState& state, double end_time, StepCommands& commands) override;
   void serialize(StateArchive& /*archive*/) override {}
 
  private:

@@ -49,14 +49,14 @@ AttachController::AttachController(const Attach& attach, std::size_t cloth, cons
   }
 }
 
-void AttachController::steer(const SceneState& state, double end_time, Steering& steering) {
+void AttachController::steer(const SceneState& state, double end_time, StepCommands& commands) {
   const ClothState& cloth = state.cloths[cloth_];
   const RigidState& body = state.rigids[collider_];
-  const std::optional<Pose>& led = steering.colliders[collider_];
+  const std::optional<Pose>& led = commands.colliders[collider_];
   const double time_step = end_time - state.time;
-  Matrix3X<double>& forces = steering.cloths[cloth_].node_forces;
+  Matrix3X<double>& forces = commands.cloths[cloth_].node_forces;
   if (forces.cols() == 0) forces.setZero(3, cloth.positions.cols());
-  Push& push = steering.pushes[collider_];
+  Push& push = commands.pushes[collider_];
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const int node = nodes_[i];
     const Vector3<double> arm = body.orientation * arms_[i];

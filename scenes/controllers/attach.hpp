@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <weft/scenes/scene.hpp>
-#include <weft/scenes/steering.hpp>
+#include <weft/scenes/step_commands.hpp>
 
 namespace weft::scenes {
 
@@ -21,7 +21,7 @@ class AttachController final : public Controller {
   /// collider, a cloth that tears and values out of their domain.
   AttachController(const Attach& attach, std::size_t cloth, const Scene& scene);
 
-  void steer(const SceneState& state, double end_time, Steering& steering) override;
+  void steer(const SceneState& state, double end_time, StepCommands& commands) override;
   void serialize(StateArchive& /*archive*/) override {}
 
  private:

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include <weft/scenes/scene.hpp>
-#include <weft/scenes/steering.hpp>
+#include <weft/scenes/step_commands.hpp>
 
 namespace weft::scenes {
 
@@ -29,10 +29,10 @@ class ColliderPathController final : public Controller {
   ColliderPathController(const Collider& collider, std::size_t index)
       : collider_(index), motion_(*collider.path), orientation_(collider.orientation) {}
 
-  void steer(const SceneState&, double end_time, Steering& steering) override {
+  void steer(const SceneState&, double end_time, StepCommands& commands) override {
     Pose pose = motion_.pose(end_time);
     pose.orientation = (pose.orientation * orientation_).normalized();
-    steering.colliders[collider_] = pose;
+    commands.colliders[collider_] = pose;
   }
   void serialize(StateArchive& /*archive*/) override {}
 

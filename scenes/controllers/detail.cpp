@@ -79,7 +79,7 @@ void DetailController::leave_full(const ClothState& cloth) {
 }
 
 Matrix3X<double> DetailController::pins_at_end(const ClothState& cloth, double time_step,
-                                               const ClothSteering& lead) const {
+                                               const ClothCommands& lead) const {
   if (lead.pinned_positions.cols() > 0) return lead.pinned_positions;
   return cloth.positions(Eigen::all, pinned_) + time_step * pinned_velocities_;
 }
@@ -91,7 +91,7 @@ void DetailController::carry(const Matrix3X<double>& pins) {
 }
 
 DetailController::Goal DetailController::goal_of(const ClothState& cloth, double time_step,
-                                                 const ClothSteering& lead) {
+                                                 const ClothCommands& lead) {
   Goal goal;
   if (lead.animated_positions.cols() > 0) {
     goal.end = lead.animated_positions;
@@ -143,7 +143,7 @@ Placement DetailController::blended(const Goal& goal) const {
           goal.velocity + da * offset_ + db * offset_change_};
 }
 
-void DetailController::place(const ClothState& cloth, double time_step, ClothSteering& lead) {
+void DetailController::place(const ClothState& cloth, double time_step, ClothCommands& lead) {
   if (last_level_ == DetailLevel::kFull) leave_full(cloth);
   const Matrix3X<double> pins = pins_at_end(cloth, time_step, lead);
   const Goal goal = goal_of(cloth, time_step, lead);
@@ -164,7 +164,7 @@ void DetailController::place(const ClothState& cloth, double time_step, ClothSte
 }
 
 // A limit around the place to which a node's own velocity brings it bounds its acceleration.
-void DetailController::release(const ClothState& cloth, double time_step, ClothSteering& lead) {
+void DetailController::release(const ClothState& cloth, double time_step, ClothCommands& lead) {
   if (last_level_ != DetailLevel::kFull) blended_ = 0.0;
   blended_ += time_step;
   if (blended_ >= detail_.blend) return;
@@ -175,9 +175,9 @@ void DetailController::release(const ClothState& cloth, double time_step, ClothS
   lead.limits.max_distances = VectorX<double>::Constant(cloth.positions.cols(), radius);
 }
 
-void DetailController::steer(const SceneState& state, double end_time, Steering& steering) {
+void DetailController::steer(const SceneState& state, double end_time, StepCommands& commands) {
   const ClothState& cloth = state.cloths[cloth_];
-  ClothSteering& lead = steering.cloths[cloth_];
+  ClothCommands& lead = commands.cloths[cloth_];
   const double time_step = end_time - state.time;
   follow_list(end_time);
   if (level_ != DetailLevel::kFull) {

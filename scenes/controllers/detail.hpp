@@ -4,7 +4,7 @@
 #include <optional>
 
 #include <weft/scenes/scene.hpp>
-#include <weft/scenes/steering.hpp>
+#include <weft/scenes/step_commands.hpp>
 
 namespace weft::scenes {
 
@@ -30,7 +30,7 @@ class DetailController final : public Controller {
   void set_level(DetailLevel level) { level_ = level; }
   [[nodiscard]] DetailLevel level() const { return level_; }
 
-  void steer(const SceneState& state, double end_time, Steering& steering) override;
+  void steer(const SceneState& state, double end_time, StepCommands& commands) override;
   void serialize(StateArchive& archive) override;
 
  private:
@@ -43,15 +43,15 @@ class DetailController final : public Controller {
   void leave_full(const ClothState& cloth);
   void follow_list(double end_time);
   [[nodiscard]] Matrix3X<double> pins_at_end(const ClothState& cloth, double time_step,
-                                             const ClothSteering& lead) const;
+                                             const ClothCommands& lead) const;
   void carry(const Matrix3X<double>& pins);
-  [[nodiscard]] Goal goal_of(const ClothState& cloth, double time_step, const ClothSteering& lead);
+  [[nodiscard]] Goal goal_of(const ClothState& cloth, double time_step, const ClothCommands& lead);
   [[nodiscard]] Placement simplified(const ClothState& cloth, const Goal& goal,
                                      double time_step) const;
   void begin_blending(const ClothState& cloth, const Goal& goal);
   [[nodiscard]] Placement blended(const Goal& goal) const;
-  void place(const ClothState& cloth, double time_step, ClothSteering& lead);
-  void release(const ClothState& cloth, double time_step, ClothSteering& lead);
+  void place(const ClothState& cloth, double time_step, ClothCommands& lead);
+  void release(const ClothState& cloth, double time_step, ClothCommands& lead);
 
   Detail detail_;
   std::size_t cloth_;

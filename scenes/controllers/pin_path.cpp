@@ -54,14 +54,14 @@ PinPathController::PinPathController(const Scene& scene, std::size_t index) : cl
   }
 }
 
-void PinPathController::steer(const SceneState&, double end_time, Steering& steering) {
+void PinPathController::steer(const SceneState&, double end_time, StepCommands& commands) {
   std::vector<Pose> poses;
   for (const Lead& lead : leads_) {
     // A collider that nothing leads stands where it stood.
     poses.push_back(lead.motion ? lead.motion->pose(end_time)
-                                : steering.colliders[*lead.collider].value_or(lead.start));
+                                : commands.colliders[*lead.collider].value_or(lead.start));
   }
-  Matrix3X<double>& positions = steering.cloths[cloth_].pinned_positions;
+  Matrix3X<double>& positions = commands.cloths[cloth_].pinned_positions;
   positions.resize(3, rest_positions_.cols());
   for (Eigen::Index i = 0; i < positions.cols(); ++i) {
     const auto& lead = leads_of_nodes_[static_cast<std::size_t>(i)];

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <weft/scenes/scene.hpp>
-#include <weft/scenes/steering.hpp>
+#include <weft/scenes/step_commands.hpp>
 
 namespace weft::scenes {
 
@@ -21,7 +21,7 @@ class PinPathController final : public Controller {
   /// the scene or has a mass.
   PinPathController(const Scene& scene, std::size_t cloth);
 
-  void steer(const SceneState& state, double end_time, Steering& steering) override;
+  void steer(const SceneState& state, double end_time, StepCommands& commands) override;
   void serialize(StateArchive& /*archive*/) override {}
 
  private:

@@ -14,7 +14,7 @@ RollController::RollController(const Roll& roll, std::size_t cloth, const ClothM
   }
 }
 
-void RollController::steer(const SceneState& state, double end_time, Steering& steering) {
+void RollController::steer(const SceneState& state, double end_time, StepCommands& commands) {
   const ClothState& cloth = state.cloths[cloth_];
   const double mass = masses_.sum();
   const Vector3<double> center = cloth.positions * masses_ / mass;
@@ -37,7 +37,7 @@ void RollController::steer(const SceneState& state, double end_time, Steering& s
   const double torque =
       roll_.torque * std::clamp((wanted - momentum / inertia) / roll_.turn_rate, -1.0, 1.0);
 
-  Matrix3X<double>& forces = steering.cloths[cloth_].node_forces;
+  Matrix3X<double>& forces = commands.cloths[cloth_].node_forces;
   if (forces.cols() == 0) forces = Matrix3X<double>::Zero(3, cloth.positions.cols());
   for (Eigen::Index i = 0; i < masses_.size(); ++i) {
     const Vector3<double> arm = cloth.positions.col(i) - center;

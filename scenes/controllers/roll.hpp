@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include <weft/scenes/scene.hpp>
-#include <weft/scenes/steering.hpp>
+#include <weft/scenes/step_commands.hpp>
 
 namespace weft::scenes {
 
@@ -20,7 +20,7 @@ class RollController final : public Controller {
   /// domain.
   RollController(const Roll& roll, std::size_t cloth, const ClothMesh& mesh);
 
-  void steer(const SceneState& state, double end_time, Steering& steering) override;
+  void steer(const SceneState& state, double end_time, StepCommands& commands) override;
   void serialize(StateArchive& /*archive*/) override {}
 
  private:

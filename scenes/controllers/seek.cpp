@@ -79,7 +79,7 @@ SeekController::Motion SeekController::motion_of(const ClothState& cloth) const 
   return motion;
 }
 
-void SeekController::steer(const SceneState& state, double end_time, Steering& steering) {
+void SeekController::steer(const SceneState& state, double end_time, StepCommands& commands) {
   const ClothState& cloth = state.cloths[cloth_];
   const Motion motion = motion_of(cloth);
   const Vector3<double> way = horizontal(target_.position(end_time) - motion.center);
@@ -99,7 +99,7 @@ void SeekController::steer(const SceneState& state, double end_time, Steering& s
   const double turn =
       seek_.torque * std::clamp((wanted_rate - motion.rate) / seek_.turn_rate, -1.0, 1.0);
 
-  Matrix3X<double>& forces = steering.cloths[cloth_].node_forces;
+  Matrix3X<double>& forces = commands.cloths[cloth_].node_forces;
   if (forces.cols() == 0) forces = Matrix3X<double>::Zero(3, cloth.positions.cols());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Vector3<double> arm = horizontal(cloth.positions.col(nodes_[i]) - motion.center);

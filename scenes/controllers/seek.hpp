@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <weft/scenes/scene.hpp>
-#include <weft/scenes/steering.hpp>
+#include <weft/scenes/step_commands.hpp>
 
 namespace weft::scenes {
 
@@ -24,7 +24,7 @@ class SeekController final : public Controller {
 
   static constexpr double kEase = 0.3;  ///< [rad] from which on it turns slower
 
-  void steer(const SceneState& state, double end_time, Steering& steering) override;
+  void steer(const SceneState& state, double end_time, StepCommands& commands) override;
   void serialize(StateArchive& /*archive*/) override {}
 
  private:

@@ -9,7 +9,7 @@
 #include <weft/scenes/catalog.hpp>
 #include <weft/scenes/characters/character_controller.hpp>
 #include <weft/scenes/format/scene_file.hpp>
-#include <weft/scenes/steering.hpp>
+#include <weft/scenes/step_commands.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -156,8 +156,8 @@ class Saboteur final : public Controller {
   enum class Deed { kLateNodes, kNoReach, kNoBackstop };
   explicit Saboteur(Deed deed) : deed_(deed) {}
 
-  void steer(const SceneState&, double, Steering& steering) override {
-    for (ClothSteering& cloth : steering.cloths) {
+  void steer(const SceneState&, double, StepCommands& commands) override {
+    for (ClothCommands& cloth : commands.cloths) {
       const Matrix3X<double> now = cloth.pinned_positions;
       switch (deed_) {
         case Deed::kLateNodes:

@@ -13,7 +13,7 @@
 #include <weft/engines/engine_table.hpp>
 #include <weft/scenes/catalog.hpp>
 #include <weft/scenes/live_laws.hpp>
-#include <weft/scenes/steering.hpp>
+#include <weft/scenes/step_commands.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -213,7 +213,7 @@ TEST(Snapshot, OfAnotherSceneOrEngineIsRefused) {
 
 class Silent final : public Controller {
  public:
-  void steer(const SceneState&, double, Steering&) override {}
+  void steer(const SceneState&, double, StepCommands&) override {}
 };
 
 TEST(Snapshot, OfAControllerThatDoesNotSayWhatItKnowsIsRefused) {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <weft/core/error.hpp>
-#include <weft/scenes/controllers/director.hpp>
+#include <weft/scenes/controllers/controller_manager.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -40,10 +40,10 @@ struct Wrench {
 };
 
 Wrench wrench_of(const Scene& scene, const SceneState& state, double end_time = 0.01) {
-  Director director(scene);
-  const Steering& steering = director.steer(state, end_time);
+  ControllerManager manager(scene);
+  const StepCommands& commands = manager.steer(state, end_time);
   Wrench wrench;
-  const Matrix3X<double>& forces = steering.cloths[0].node_forces;
+  const Matrix3X<double>& forces = commands.cloths[0].node_forces;
   for (Eigen::Index i = 0; i < forces.cols(); ++i) {
     wrench.force += forces.col(i);
     wrench.moment += state.cloths[0].positions.col(i).cross(forces.col(i));
@@ -51,18 +51,18 @@ Wrench wrench_of(const Scene& scene, const SceneState& state, double end_time = 
   return wrench;
 }
 
-TEST(Director, HasNothingToDoInASceneWithoutPathsAndControllers) {
-  EXPECT_FALSE(Director(small_scene()).is_needed());
+TEST(ControllerManager, HasNothingToDoInASceneWithoutPathsAndControllers) {
+  EXPECT_FALSE(ControllerManager(small_scene()).is_needed());
 }
 
-TEST(Director, AnEdgeOnAPathKeepsItsShapeAndFollows) {
+TEST(ControllerManager, AnEdgeOnAPathKeepsItsShapeAndFollows) {
   Scene scene = small_scene();
   const Path path{.times = {0, 1, 2}, .points = {{0, 0, 0}, {1, 1, 0}, {2, 0, 0}}};
   scene.cloths[0].moving_pins = {{.nodes = EdgePin{.axis = 0, .side = 0}, .path = path}};
   const ClothMesh mesh = make_mesh(scene.cloths[0]);
-  Director director(scene);
-  const Steering& steering = director.steer(state_of(scene), 0.7);
-  const Matrix3X<double>& led = steering.cloths[0].pinned_positions;
+  ControllerManager manager(scene);
+  const StepCommands& commands = manager.steer(state_of(scene), 0.7);
+  const Matrix3X<double>& led = commands.cloths[0].pinned_positions;
   ASSERT_EQ(led.cols(), 5);
   const Vector3<double> place = PathMotion(path).position(0.7);
   for (Eigen::Index i = 0; i < led.cols(); ++i) {
@@ -71,19 +71,19 @@ TEST(Director, AnEdgeOnAPathKeepsItsShapeAndFollows) {
   }
 }
 
-TEST(Director, PinsWithoutAPathGoOnBesideThoseWithOne) {
+TEST(ControllerManager, PinsWithoutAPathGoOnBesideThoseWithOne) {
   Scene scene = small_scene();
   const Path path{.times = {0, 1}, .points = {{0, 0, 0}, {1, 1, 0}}};
   scene.cloths[0].pins = {CornerPin{-1, -1}};
   scene.cloths[0].moving_pins = {{.nodes = CornerPin{-1, 0}, .velocity = {0, 2, 0}},
                                  {.nodes = EdgePin{.axis = 0, .side = 0}, .path = path}};
   const ClothMesh mesh = make_mesh(scene.cloths[0]);
-  Director director(scene);
-  const Steering& steering = director.steer(state_of(scene), 0.25);
+  ControllerManager manager(scene);
+  const StepCommands& commands = manager.steer(state_of(scene), 0.25);
   for (std::size_t i = 0; i < mesh.pinned.size(); ++i) {
     const Vector3<double> rest = mesh.rest_positions.col(mesh.pinned[i]);
     const Vector3<double> led =
-        steering.cloths[0].pinned_positions.col(static_cast<Eigen::Index>(i));
+        commands.cloths[0].pinned_positions.col(static_cast<Eigen::Index>(i));
     if (mesh.pinned[i] == 19) {
       EXPECT_EQ(led, rest);
     }
@@ -159,14 +159,14 @@ TEST(Roll, RestsAtItsRate) {
   EXPECT_LT(wrench_of(scene, state).moment.norm(), 1e-14);
 }
 
-TEST(Director, RefusesControllersThatDoNotFitTheScene) {
+TEST(ControllerManager, RefusesControllersThatDoNotFitTheScene) {
   Scene scene = small_scene();
   scene.controllers = {Roll{.cloth = "nobody", .target = still({9, 0, 0})}};
-  EXPECT_THROW(Director{scene}, InvalidArgument);
+  EXPECT_THROW(ControllerManager{scene}, InvalidArgument);
   scene.controllers = {Seek{.cloth = "cloth", .region = "none", .target = still({9, 0, 0})}};
-  EXPECT_THROW(Director{scene}, InvalidArgument);
+  EXPECT_THROW(ControllerManager{scene}, InvalidArgument);
   scene.controllers = {Roll{.cloth = "cloth", .target = still({9, 0, 0}), .turn_rate = 0}};
-  EXPECT_THROW(Director{scene}, InvalidArgument);
+  EXPECT_THROW(ControllerManager{scene}, InvalidArgument);
 }
 
 }  // namespace

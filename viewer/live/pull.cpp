@@ -49,18 +49,18 @@ double WindowForces::largest_force(std::size_t cloth) const {
 }
 
 void WindowForces::steer(const scenes::SceneState& state, double /*end_time*/,
-                         scenes::Steering& steering) {
+                         scenes::StepCommands& commands) {
   const std::lock_guard lock(mutex_);
   pull_force_ = 0.0;
-  if (pull_) pull(*pull_, state, steering);
+  if (pull_) pull(*pull_, state, commands);
   if (added_gravity_.isZero(0.0)) return;
-  for (std::size_t k = 0; k < steering.pushes.size(); ++k) {
-    steering.pushes[k].force += rigid_masses_[k] * added_gravity_;
+  for (std::size_t k = 0; k < commands.pushes.size(); ++k) {
+    commands.pushes[k].force += rigid_masses_[k] * added_gravity_;
   }
 }
 
 void WindowForces::pull(const Pull& pull, const scenes::SceneState& state,
-                        scenes::Steering& steering) {
+                        scenes::StepCommands& commands) {
   const ClothMesh& mesh = meshes_.at(pull.id.cloth);
   const scenes::ClothState& cloth = state.cloths.at(pull.id.cloth);
   // The masses of nodes that a tear has made are not known here.
@@ -85,7 +85,7 @@ void WindowForces::pull(const Pull& pull, const scenes::SceneState& state,
   const double largest = largest_force(pull.id.cloth);
   if (!force.allFinite()) return;
   if (force.norm() > largest) force *= largest / force.norm();
-  Matrix3X<double>& forces = steering.cloths[pull.id.cloth].node_forces;
+  Matrix3X<double>& forces = commands.cloths[pull.id.cloth].node_forces;
   if (forces.cols() == 0) forces = Matrix3X<double>::Zero(3, cloth.positions.cols());
   for (const int i : patch) forces.col(i) += mesh.masses[i] / mass * force;
   pull_force_ = force.norm();

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <optional>
 
-#include <weft/scenes/steering.hpp>
+#include <weft/scenes/step_commands.hpp>
 #include <weft/viewer/model/picking.hpp>
 
 namespace weft::viewer {
@@ -31,12 +31,13 @@ class WindowForces final : public scenes::Controller {
   /// [N] that no pull on a cloth exceeds: three times its weight on Earth.
   [[nodiscard]] double largest_force(std::size_t cloth) const;
 
-  void steer(const scenes::SceneState& state, double end_time, scenes::Steering& steering) override;
+  void steer(const scenes::SceneState& state, double end_time,
+             scenes::StepCommands& commands) override;
   /// Nothing: what the window asks for is not part of a run.
   void serialize(StateArchive& /*archive*/) override {}
 
  private:
-  void pull(const Pull& pull, const scenes::SceneState& state, scenes::Steering& steering);
+  void pull(const Pull& pull, const scenes::SceneState& state, scenes::StepCommands& commands);
 
   std::vector<ClothMesh> meshes_;
   std::vector<double> rigid_masses_;  ///< [kg]; 0 for those without

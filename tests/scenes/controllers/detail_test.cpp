@@ -29,18 +29,18 @@ struct Stage {
   /// A step to end_time in which the animation brings every node offset away from its rest. Returns
   /// whether the cloth was placed.
   bool step(double end_time, const Vector3<double>& offset) {
-    Steering steering;
-    steering.cloths.resize(1);
-    steering.cloths[0].animated_positions = rest.colwise() + offset;
-    return take(end_time, steering);
+    StepCommands commands;
+    commands.cloths.resize(1);
+    commands.cloths[0].animated_positions = rest.colwise() + offset;
+    return take(end_time, commands);
   }
 
-  bool take(double end_time, Steering& steering) {
-    controller.steer(state, end_time, steering);
+  bool take(double end_time, StepCommands& commands) {
+    controller.steer(state, end_time, commands);
     state.time = end_time;
-    if (!steering.cloths[0].placement) return false;
-    state.cloths[0].positions = steering.cloths[0].placement->positions;
-    state.cloths[0].velocities = steering.cloths[0].placement->velocities;
+    if (!commands.cloths[0].placement) return false;
+    state.cloths[0].positions = commands.cloths[0].placement->positions;
+    state.cloths[0].velocities = commands.cloths[0].placement->velocities;
     return true;
   }
 
@@ -113,13 +113,13 @@ TEST(Detail, SkinBlendsPlaceAndVelocityWithinItsTime) {
 TEST(Detail, SimplifiedKeepsTheLimitsOfTheCloth) {
   Stage stage({.cloth = "cloth", .levels = {{0.0, DetailLevel::kSimplified}}, .follow = 0.5});
   for (int i = 1; i <= 30; ++i) {
-    Steering steering;
-    steering.cloths.resize(1);
-    ClothSteering& lead = steering.cloths[0];
+    StepCommands commands;
+    commands.cloths.resize(1);
+    ClothCommands& lead = commands.cloths[0];
     lead.animated_positions = stage.rest.colwise() + Vector3<double>(0.1 * i, 0, 0);
     lead.limits.centers = lead.animated_positions;
     lead.limits.max_distances = VectorX<double>::Constant(stage.rest.cols(), 0.05);
-    ASSERT_TRUE(stage.take(0.01 * i, steering));
+    ASSERT_TRUE(stage.take(0.01 * i, commands));
     const Matrix3X<double> gap = stage.state.cloths[0].positions - lead.animated_positions;
     EXPECT_LE(gap.colwise().norm().maxCoeff(), 0.05 + 1e-12);
   }
@@ -134,10 +134,10 @@ TEST(Detail, WithoutAnAnimationThePinsCarryTheShape) {
   // about itself is open, and must stay.
   for (int i = 1; i <= 20; ++i) {
     const Eigen::Matrix3d turn(Eigen::AngleAxisd(0.05 * i, Vector3<double>::UnitY()));
-    Steering steering;
-    steering.cloths.resize(1);
-    steering.cloths[0].pinned_positions = turn * stage.rest(Eigen::all, pinned);
-    ASSERT_TRUE(stage.take(0.01 * i, steering));
+    StepCommands commands;
+    commands.cloths.resize(1);
+    commands.cloths[0].pinned_positions = turn * stage.rest(Eigen::all, pinned);
+    ASSERT_TRUE(stage.take(0.01 * i, commands));
     EXPECT_LT((stage.state.cloths[0].positions - turn * stage.rest).norm(), 1e-4) << i;
   }
 }

@@ -29,13 +29,13 @@ struct Steered {
         {"sheet", mesh.rest_positions, Matrix3X<double>::Zero(3, mesh.num_nodes())});
     state.rigids.push_back({"ball"});
   }
-  scenes::Steering steer() {
-    scenes::Steering steering;
-    steering.cloths.resize(1);
-    steering.colliders.resize(1);
-    steering.pushes.resize(1);
-    forces.steer(state, kStep, steering);
-    return steering;
+  scenes::StepCommands steer() {
+    scenes::StepCommands commands;
+    commands.cloths.resize(1);
+    commands.colliders.resize(1);
+    commands.pushes.resize(1);
+    forces.steer(state, kStep, commands);
+    return commands;
   }
   scenes::Scene scene = sheet_and_ball();
   scenes::SceneState state;
@@ -44,9 +44,9 @@ struct Steered {
 
 TEST(WindowForce, AsksForNothingByItself) {
   Steered steered;
-  const scenes::Steering steering = steered.steer();
-  EXPECT_EQ(steering.cloths[0].node_forces.cols(), 0);
-  EXPECT_EQ(steering.pushes[0].force, Vector3<double>(0, 0, 0));
+  const scenes::StepCommands commands = steered.steer();
+  EXPECT_EQ(commands.cloths[0].node_forces.cols(), 0);
+  EXPECT_EQ(commands.pushes[0].force, Vector3<double>(0, 0, 0));
   EXPECT_EQ(steered.forces.pull_force(), 0.0);
 }
 
@@ -54,12 +54,12 @@ TEST(WindowForce, PullsTowardsTheTargetAndSaysHowStrongly) {
   Steered steered;
   const Vector3<double> place = steered.state.cloths[0].positions.col(60);
   steered.forces.set_pull(Pull{{0, 60}, place + Vector3<double>(0, 1e-4, 0)});
-  const scenes::Steering steering = steered.steer();
-  const Vector3<double> sum = steering.cloths[0].node_forces.rowwise().sum();
+  const scenes::StepCommands commands = steered.steer();
+  const Vector3<double> sum = commands.cloths[0].node_forces.rowwise().sum();
   EXPECT_GT(sum.y(), 0.0);
   EXPECT_NEAR(sum.x(), 0.0, 1e-15);
   EXPECT_NEAR(sum.norm(), steered.forces.pull_force(), 1e-12);
-  EXPECT_GT(steering.cloths[0].node_forces.col(60).y(), 0.0);
+  EXPECT_GT(commands.cloths[0].node_forces.col(60).y(), 0.0);
   steered.forces.set_pull(std::nullopt);
   EXPECT_EQ(steered.steer().cloths[0].node_forces.cols(), 0);
   EXPECT_EQ(steered.forces.pull_force(), 0.0);

@@ -7,24 +7,25 @@
 #include <vector>
 
 #include <weft/scenes/scene.hpp>
-#include <weft/scenes/steering.hpp>
+#include <weft/scenes/step_commands.hpp>
 
 namespace weft::scenes {
 
 /// Leads a scene: its paths and controllers, and those that a program adds. An engine asks it
 /// before every step.
-class Director {
+class ControllerManager {
  public:
-  Director() = default;
+  ControllerManager() = default;
   /// Throws InvalidArgument for a path or a controller that does not fit the scene.
   /// added: come after those of the scene.
-  explicit Director(const Scene& scene, std::vector<std::shared_ptr<Controller>> added = {});
+  explicit ControllerManager(const Scene& scene,
+                             std::vector<std::shared_ptr<Controller>> added = {});
 
   /// Whether anything of the scene is led: if not, engines need not ask.
   [[nodiscard]] bool is_needed() const { return !controllers_.empty(); }
 
   /// What controllers do in a step from state to end_time [s]. The result lives until the next call.
-  [[nodiscard]] const Steering& steer(const SceneState& state, double end_time);
+  [[nodiscard]] const StepCommands& steer(const SceneState& state, double end_time);
   /// What the controllers know from the steps before. Throws InvalidArgument for one that does not say.
   void serialize(StateArchive& archive);
 
@@ -33,7 +34,7 @@ class Director {
 
   std::vector<std::shared_ptr<Controller>> controllers_;
   std::vector<std::vector<int>> pinned_;  ///< of each cloth's mesh, before it tears
-  Steering steering_;
+  StepCommands commands_;
 };
 
 }  // namespace weft::scenes

@@ -1,4 +1,4 @@
-#include <weft/scenes/controllers/director.hpp>
+#include <weft/scenes/controllers/controller_manager.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -53,7 +53,8 @@ struct MakeController {
 
 }  // namespace
 
-Director::Director(const Scene& scene, std::vector<std::shared_ptr<Controller>> added) {
+ControllerManager::ControllerManager(const Scene& scene,
+                                     std::vector<std::shared_ptr<Controller>> added) {
   for (std::size_t k = 0; k < scene.colliders.size(); ++k) {
     if (!scene.colliders[k].path) continue;
     controllers_.push_back(std::make_shared<ColliderPathController>(scene.colliders[k], k));
@@ -77,9 +78,9 @@ Director::Director(const Scene& scene, std::vector<std::shared_ptr<Controller>> 
 
 /// A pinned node that was split is led alike in both its places: its copies follow in the order in
 /// which they were made, as in the torn mesh.
-void Director::lead_copies(const SceneState& state) {
+void ControllerManager::lead_copies(const SceneState& state) {
   for (std::size_t c = 0; c < state.cloths.size(); ++c) {
-    Matrix3X<double>& positions = steering_.cloths[c].pinned_positions;
+    Matrix3X<double>& positions = commands_.cloths[c].pinned_positions;
     if (!state.cloths[c].topology || positions.cols() != std::ssize(pinned_[c])) continue;
     for (const int origin : state.cloths[c].topology->origins) {
       const auto found = std::lower_bound(pinned_[c].begin(), pinned_[c].end(), origin);
@@ -90,16 +91,16 @@ void Director::lead_copies(const SceneState& state) {
   }
 }
 
-const Steering& Director::steer(const SceneState& state, double end_time) {
-  steering_.cloths.assign(state.cloths.size(), {});
-  steering_.colliders.assign(state.rigids.size(), {});
-  steering_.pushes.assign(state.rigids.size(), {});
-  for (const auto& controller : controllers_) controller->steer(state, end_time, steering_);
+const StepCommands& ControllerManager::steer(const SceneState& state, double end_time) {
+  commands_.cloths.assign(state.cloths.size(), {});
+  commands_.colliders.assign(state.rigids.size(), {});
+  commands_.pushes.assign(state.rigids.size(), {});
+  for (const auto& controller : controllers_) controller->steer(state, end_time, commands_);
   lead_copies(state);
-  return steering_;
+  return commands_;
 }
 
-void Director::serialize(StateArchive& archive) {
+void ControllerManager::serialize(StateArchive& archive) {
   archive.part("controllers");
   archive.expect(controllers_.size(), "number of controllers");
   for (const auto& controller : controllers_) controller->serialize(archive);

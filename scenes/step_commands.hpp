@@ -22,7 +22,7 @@ struct Placement {
 };
 
 /// What shall happen to one cloth in the step that begins.
-struct ClothSteering {
+struct ClothCommands {
   /// Where the pinned nodes are at the end of the step, 3 x mesh.pinned.size() [m], in the order of
   /// mesh.pinned. Empty: the pins move as the mesh says.
   Matrix3X<double> pinned_positions;
@@ -45,8 +45,8 @@ struct Push {
 };
 
 /// What shall happen in the step that begins, in the order of the scene's cloths and colliders.
-struct Steering {
-  std::vector<ClothSteering> cloths;
+struct StepCommands {
+  std::vector<ClothCommands> cloths;
   /// Where the colliders that are led are at the end of the step. The others: none.
   std::vector<std::optional<Pose>> colliders;
   /// The push on every collider; those without a mass feel nothing.
@@ -59,7 +59,7 @@ class Controller {
   virtual ~Controller() = default;
 
   /// Adds to what the others ask for. state is that at the start of the step; end_time [s].
-  virtual void steer(const SceneState& state, double end_time, Steering& steering) = 0;
+  virtual void steer(const SceneState& state, double end_time, StepCommands& commands) = 0;
 
   /// What it knows from the steps before, for snapshots. One that knows nothing writes nothing. A controller that does not
   /// say refuses the snapshot, because its memory would be lost in silence.
