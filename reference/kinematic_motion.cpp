@@ -1,4 +1,4 @@
-// What leads a system from outside: everything else of the solver is in solver.cpp.
+// What moves nodes and colliders of a system from outside: everything else of the solver is in solver.cpp.
 // Tested by tests/reference/self_contact_test.cpp, tests/engines/attach_test.cpp.
 #include <string>
 
@@ -16,7 +16,7 @@ void check_size(const char* what, Eigen::Index given, Eigen::Index expected) {
                         std::to_string(expected));
 }
 
-void check_led(const Collider& collider) {
+void check_kinematic(const Collider& collider) {
   if (!collider.mass) return;
   throw InvalidArgument("reference solver: collider '" + collider.name +
                         "' has a mass and moves freely, expected one without");
@@ -25,60 +25,60 @@ void check_led(const Collider& collider) {
 }  // namespace
 
 void SpringSolver::lead_pins(std::size_t body, ConstMatrix3XRef<double> targets, double time_step) {
-  Body& led = system_->bodies.at(body);
-  const std::vector<int>& pinned = led.mesh.pinned;
+  Body& moved = system_->bodies.at(body);
+  const std::vector<int>& pinned = moved.mesh.pinned;
   check_size("targets of pinned nodes", targets.cols(), static_cast<Eigen::Index>(pinned.size()));
-  led.mesh.pinned_velocities = (targets - led.positions(Eigen::all, pinned)) / time_step;
-  set_pinned_velocities(led.mesh, led.velocities);
+  moved.mesh.pinned_velocities = (targets - moved.positions(Eigen::all, pinned)) / time_step;
+  set_pinned_velocities(moved.mesh, moved.velocities);
 }
 
 void SpringSolver::place_pins(std::size_t body, ConstMatrix3XRef<double> targets) {
-  Body& led = system_->bodies.at(body);
+  Body& moved = system_->bodies.at(body);
   check_size("targets of pinned nodes", targets.cols(),
-             static_cast<Eigen::Index>(led.mesh.pinned.size()));
-  for (std::size_t i = 0; i < led.mesh.pinned.size(); ++i) {
-    led.positions.col(led.mesh.pinned[i]) = targets.col(static_cast<Eigen::Index>(i));
+             static_cast<Eigen::Index>(moved.mesh.pinned.size()));
+  for (std::size_t i = 0; i < moved.mesh.pinned.size(); ++i) {
+    moved.positions.col(moved.mesh.pinned[i]) = targets.col(static_cast<Eigen::Index>(i));
   }
 }
 
 void SpringSolver::limit_positions(std::size_t body, const PositionLimits& limits,
                                    double time_step) {
-  Body& led = system_->bodies.at(body);
-  check_position_limits(limits, led.mesh.num_nodes());
+  Body& moved = system_->bodies.at(body);
+  check_position_limits(limits, moved.mesh.num_nodes());
   if (limits.is_empty()) return;
   const VectorX<double>& inverse = dynamics_[body].inverse_masses();
-  for (int i = 0; i < led.mesh.num_nodes(); ++i) {
+  for (int i = 0; i < moved.mesh.num_nodes(); ++i) {
     if (inverse[i] == 0.0) continue;
-    const Vector3<double> position = led.positions.col(i);
+    const Vector3<double> position = moved.positions.col(i);
     const Vector3<double> allowed = limited_position(limits, i, position);
-    led.positions.col(i) = allowed;
-    led.velocities.col(i) += (allowed - position) / time_step;
+    moved.positions.col(i) = allowed;
+    moved.velocities.col(i) += (allowed - position) / time_step;
   }
 }
 
 void SpringSolver::set_external_forces(std::size_t body, const Matrix3X<double>& forces) {
-  Body& led = system_->bodies.at(body);
-  if (forces.cols() > 0) check_size("external forces", forces.cols(), led.mesh.num_nodes());
-  led.external_forces = forces;
+  Body& moved = system_->bodies.at(body);
+  if (forces.cols() > 0) check_size("external forces", forces.cols(), moved.mesh.num_nodes());
+  moved.external_forces = forces;
 }
 
 void SpringSolver::lead_collider(std::size_t collider, const Vector3<double>& position,
                                  const Eigen::Quaterniond& orientation, double time_step) {
-  Collider& led = system_->colliders.at(collider);
-  check_led(led);
-  led.velocity = (position - led.position) / time_step;
-  Eigen::Quaterniond turn = orientation * led.orientation.conjugate();
+  Collider& moved = system_->colliders.at(collider);
+  check_kinematic(moved);
+  moved.velocity = (position - moved.position) / time_step;
+  Eigen::Quaterniond turn = orientation * moved.orientation.conjugate();
   if (turn.w() < 0) turn.coeffs() = -turn.coeffs();  // the shorter way round
   const Eigen::AngleAxisd angle_axis(turn);
-  led.angular_velocity = angle_axis.angle() / time_step * angle_axis.axis();
+  moved.angular_velocity = angle_axis.angle() / time_step * angle_axis.axis();
 }
 
 void SpringSolver::place_collider(std::size_t collider, const Vector3<double>& position,
                                   const Eigen::Quaterniond& orientation) {
-  Collider& led = system_->colliders.at(collider);
-  check_led(led);
-  led.position = position;
-  led.orientation = orientation;
+  Collider& moved = system_->colliders.at(collider);
+  check_kinematic(moved);
+  moved.position = position;
+  moved.orientation = orientation;
 }
 
 void SpringSolver::push_collider(std::size_t collider, const Vector3<double>& force,

@@ -30,8 +30,8 @@ void check(const std::vector<int>& nodes, ConstMatrix3XRef<double> targets,
 
 }  // namespace
 
-void lead_nodes(const std::vector<int>& nodes, ConstMatrix3XRef<double> targets, double time_step,
-                btSoftBody& body) {
+void move_kinematic_nodes(const std::vector<int>& nodes, ConstMatrix3XRef<double> targets,
+                          double time_step, btSoftBody& body) {
   check(nodes, targets, body);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     btSoftBody::Node& node = body.m_nodes[nodes[i]];

@@ -12,13 +12,13 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// Moves pinned nodes (mass 0 in Bullet) to given positions without a lag: lead_nodes() before the
+/// Moves pinned nodes (mass 0 in Bullet) to given positions without a lag: move_kinematic_nodes() before the
 /// step, place_nodes() after it. The contacts and springs of the step see them arrive.
 
 /// Gives the nodes the velocities that bring them to targets, 3 x nodes.size() [m], within
 /// time_step [s].
-void lead_nodes(const std::vector<int>& nodes, ConstMatrix3XRef<double> targets, double time_step,
-                btSoftBody& body);
+void move_kinematic_nodes(const std::vector<int>& nodes, ConstMatrix3XRef<double> targets,
+                          double time_step, btSoftBody& body);
 
 /// Puts the nodes where they were led: Bullet got there up to rounding, this is exact. They keep
 /// the velocity that led them.

@@ -14,13 +14,13 @@ constexpr btScalar kOpposite = btScalar(-0.8);
 /// [N] Of surfaces that the program leads: more than any cloth pulls with.
 constexpr btScalar kUnyielding = btScalar(1e6);
 
-bool is_led(const btCollisionObject& object) {
+bool is_kinematic(const btCollisionObject& object) {
   return object.isKinematicObject() || (link_of(&object) != nullptr && !MovableObject(&object));
 }
 
 bool may_pinch(const btCollisionObject& one, const btCollisionObject& other) {
   const bool has_link = link_of(&one) != nullptr || link_of(&other) != nullptr;
-  return &one != &other && (has_link || (is_led(one) && is_led(other)));
+  return &one != &other && (has_link || (is_kinematic(one) && is_kinematic(other)));
 }
 
 /// The part of the force that all nodes share alike: what has borne nothing so far must be able to begin [-].
@@ -64,7 +64,7 @@ void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& bod
   nodes_.clear();
   pairs_.clear();
   const bool is_any = std::any_of(contacts.begin(), contacts.end(), [](const RigidContact& one) {
-    return link_of(one.object) != nullptr || is_led(*one.object);
+    return link_of(one.object) != nullptr || is_kinematic(*one.object);
   });
   if (!is_any) return;
   first_of_.assign(static_cast<std::size_t>(body.m_nodes.size()), -1);

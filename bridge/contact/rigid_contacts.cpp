@@ -329,7 +329,7 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collide
   // Bullet has the pose of a dynamic body at the start of the step, and that of a kinematic one at its end.
   const MovableObject dynamic{collider.object};
   const RigidVelocity& velocity = collider.led;
-  const bool is_led = !velocity.is_zero();
+  const bool is_kinematic = !velocity.is_zero();
   const btTransform back = collider.motion.inverse();
   const btScalar margin = body.getCollisionShape()->getMargin();
   btVector3 low;
@@ -340,7 +340,7 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collide
   const MotionBox box = box_of(low, high).grown(2 * margin + own);
   btScalar farthest = 0;  // that an object moves with respect to a node [m]
   if (dynamic) farthest = largest_motion(back, swept.all());
-  if (is_led) farthest = largest_motion(velocity, swept.all(), time_step);
+  if (is_kinematic) farthest = largest_motion(velocity, swept.all(), time_step);
   const MotionBox reached = box.grown(farthest);
   if (!meet(reached, swept.all())) return;
   const bool looks_at_pinned =
@@ -350,7 +350,7 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collide
     const btSoftBody::Node& node = body.m_nodes[i];
     if ((node.m_im <= 0 && !looks_at_pinned) || node.m_battach != 0) return;
     btVector3 motion(0, 0, 0);
-    if (is_led) motion = time_step * velocity.at(node.m_x);
+    if (is_kinematic) motion = time_step * velocity.at(node.m_x);
     const btVector3 from = node.m_q + motion;
     const btVector3 to = dynamic ? back * node.m_x : node.m_x;
     btVector3 least = from;

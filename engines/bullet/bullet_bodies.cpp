@@ -80,7 +80,7 @@ void BulletBodies::begin_step(const StepCommands* commands, double time_step) {
     const ClothCommands* lead = commands ? &commands->cloths[c] : nullptr;
     if (lead && lead->placement) continue;
     if (lead && lead->pinned_positions.cols() > 0) {
-      bridge::lead_nodes(steered_[c].pinned, lead->pinned_positions, time_step, body);
+      bridge::move_kinematic_nodes(steered_[c].pinned, lead->pinned_positions, time_step, body);
     } else {
       bridge::set_pinned_velocities(steered_[c], body);
     }

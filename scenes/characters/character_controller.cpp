@@ -37,7 +37,7 @@ CharacterController::CharacterController(const CharacterSettings& settings, cons
 
 void CharacterController::add_cloth(const std::string& name, const ReachSettings& reach,
                                     const Scene& scene) {
-  LedCloth led;
+  AnimatedCloth led;
   led.index = index_of(scene.cloths, name, "cloth");
   const Cloth& cloth = scene.cloths[led.index];
   const auto* source = std::get_if<SkinSource>(&cloth.source);
@@ -54,7 +54,7 @@ void CharacterController::add_cloth(const std::string& name, const ReachSettings
   cloths_.push_back(std::move(led));
 }
 
-PositionLimits CharacterController::limits_of(const LedCloth& cloth,
+PositionLimits CharacterController::limits_of(const AnimatedCloth& cloth,
                                               const Matrix3X<double>& skin) const {
   PositionLimits limits;
   if (cloth.max_distances.size() == 0) return limits;
@@ -70,7 +70,7 @@ PositionLimits CharacterController::limits_of(const LedCloth& cloth,
 
 void CharacterController::steer(const SceneState&, double end_time, StepCommands& commands) {
   const std::vector<Eigen::Affine3d> frames = world_frames(*model_, pose_, end_time);
-  for (const LedCloth& cloth : cloths_) {
+  for (const AnimatedCloth& cloth : cloths_) {
     ClothCommands& lead = commands.cloths[cloth.index];
     lead.animated_positions = skinned_positions(*cloth.part, frames);
     const Matrix3X<double>& skin = lead.animated_positions;

@@ -22,7 +22,7 @@ class CharacterController final : public Controller {
   void serialize(StateArchive& /*archive*/) override {}
 
  private:
-  struct LedCloth {
+  struct AnimatedCloth {
     std::size_t index;  ///< in the scene
     std::shared_ptr<const characters::Part> part;
     std::vector<int> pinned;
@@ -36,11 +36,12 @@ class CharacterController final : public Controller {
     Pose place;
   };
   void add_cloth(const std::string& name, const ReachSettings& reach, const Scene& scene);
-  [[nodiscard]] PositionLimits limits_of(const LedCloth& cloth, const Matrix3X<double>& skin) const;
+  [[nodiscard]] PositionLimits limits_of(const AnimatedCloth& cloth,
+                                         const Matrix3X<double>& skin) const;
 
   std::shared_ptr<const CharacterModel> model_;
   CharacterPose pose_;
-  std::vector<LedCloth> cloths_;
+  std::vector<AnimatedCloth> cloths_;
   std::vector<LedCollider> colliders_;
 };
 

@@ -44,12 +44,12 @@ PinPathController::PinPathController(const Scene& scene, std::size_t index) : cl
     velocities_.col(static_cast<Eigen::Index>(i)) = mesh.pinned_velocity(i);
   }
   for (const MovingPin& pin : cloth.moving_pins) {
-    const bool is_led = is_lead(pin);
-    if (is_led) leads_.push_back(lead_of(pin, scene));
+    const bool is_kinematic = is_lead(pin);
+    if (is_kinematic) leads_.push_back(lead_of(pin, scene));
     for (const int node : nodes_of(pin.nodes, cloth, mesh)) {
       const auto place = std::lower_bound(mesh.pinned.begin(), mesh.pinned.end(), node);
       auto& lead = leads_of_nodes_[static_cast<std::size_t>(place - mesh.pinned.begin())];
-      lead = is_led ? std::optional(leads_.size() - 1) : std::nullopt;
+      lead = is_kinematic ? std::optional(leads_.size() - 1) : std::nullopt;
     }
   }
 }

@@ -125,7 +125,7 @@ TEST(OutsideChanges, PinsThatAreLedToWhereTheyAreChangeNoBit) {
   const Matrix3X<double> targets = led.positions()(Eigen::all, mesh.pinned);
   for (int step = 0; step < 60; ++step) {
     plain.step();
-    lead_nodes(mesh.pinned, targets, kTimeStep, led.body());
+    move_kinematic_nodes(mesh.pinned, targets, kTimeStep, led.body());
     led.solver().set_position_limits(led.body(), {});
     led.solver().wake(led.body());
     led.step();

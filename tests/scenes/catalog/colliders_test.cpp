@@ -37,15 +37,15 @@ TEST_P(CollidersScene, NoNodeGoesDeeperThanTheMargin) {
 TEST(CollidersSceneFile, HasEveryKindOfObstacle) {
   const Scene scene = load_scene("colliders");
   std::vector<bool> seen(std::variant_size_v<Shape>, false);
-  bool is_led = false;
+  bool is_kinematic = false;
   bool is_free = false;
   for (const Collider& collider : scene.colliders) {
     seen[collider.shape.index()] = true;
-    is_led = is_led || collider.path.has_value();
+    is_kinematic = is_kinematic || collider.path.has_value();
     is_free = is_free || collider.mass.has_value();
   }
   for (std::size_t kind = 0; kind < seen.size(); ++kind) EXPECT_TRUE(seen[kind]) << kind;
-  EXPECT_TRUE(is_led);
+  EXPECT_TRUE(is_kinematic);
   EXPECT_TRUE(is_free);
 }
 
