@@ -22,18 +22,18 @@ Vector3<double> area_vector(const ClothMesh& mesh) {
 
 double rest_area(const ClothMesh& mesh, const Vector3<double>& normal, const DrapeSetup& setup,
                  double cell_size) {
-  // A specimen that lies flat is counted on the very raster of its shadow; one that hangs or leans
+  // A specimen that lies flat is counted on the very raster of its projection; one that hangs or leans
   // on its own.
   constexpr double kFlatCosine = 1.0 - 1e-12;  // 1e-6 rad, the rounding of hand-written axes
   const bool flat = std::abs(normal.normalized().dot(setup.up.normalized())) >= kFlatCosine;
-  const ShadowRaster raster =
-      flat ? ShadowRaster{setup.up, setup.support_center, cell_size}
-           : ShadowRaster{normal, mesh.rest_positions.rowwise().mean(), cell_size};
-  const std::optional<double> area = shadow_area(mesh.rest_positions, mesh.triangles, raster);
+  const ProjectionRaster raster =
+      flat ? ProjectionRaster{setup.up, setup.support_center, cell_size}
+           : ProjectionRaster{normal, mesh.rest_positions.rowwise().mean(), cell_size};
+  const std::optional<double> area = projected_area(mesh.rest_positions, mesh.triangles, raster);
   if (!area || *area <= 0) {
     throw InvalidArgument(
         fmt::format("drape: cell_size = {} [m], expected one that fits the specimen: 1 to {} cells",
-                    cell_size, kMaxShadowCells));
+                    cell_size, kMaxProjectedCells));
   }
   return *area;
 }
@@ -52,19 +52,19 @@ Drape measure_drape(const ClothMesh& mesh, ConstMatrix3XRef<double> positions,
   }
   Drape drape;
   drape.cell_size = setup.cell_size.value_or(cusick_cell_size(normal.norm()));
-  const ShadowRaster raster{setup.up, setup.support_center, drape.cell_size};
+  const ProjectionRaster raster{setup.up, setup.support_center, drape.cell_size};
   drape.support_area = setup.support_radius ? disc_area(*setup.support_radius, raster) : 0.0;
-  drape.shadow_area = shadow_area(positions, mesh.triangles, raster);
+  drape.projected_area = projected_area(positions, mesh.triangles, raster);
   drape.rest_area = rest_area(mesh, normal, setup, drape.cell_size);
   if (drape.support_area >= drape.rest_area) {
     throw InvalidArgument(
         fmt::format("drape: support area = {} [m^2], expected less than the specimen's {} m^2",
                     drape.support_area, drape.rest_area));
   }
-  if (drape.shadow_area) {
-    drape.area_ratio = *drape.shadow_area / drape.rest_area;
+  if (drape.projected_area) {
+    drape.area_ratio = *drape.projected_area / drape.rest_area;
     drape.coefficient =
-        (*drape.shadow_area - drape.support_area) / (drape.rest_area - drape.support_area);
+        (*drape.projected_area - drape.support_area) / (drape.rest_area - drape.support_area);
   }
   return drape;
 }

@@ -4,7 +4,7 @@
 
 #include <weft/core/types.hpp>
 #include <weft/mesh/cloth_mesh.hpp>
-#include <weft/validation/metrics/shadow.hpp>
+#include <weft/validation/metrics/projected_area.hpp>
 
 namespace weft::validation {
 
@@ -22,12 +22,12 @@ struct DrapeSetup {
 /// of any size. All optional values are none if a position is not finite or the cloth is too large
 /// for the raster.
 struct Drape {
-  double rest_area = 0.0;             ///< A_rest, the flat specimen [m^2]
-  double support_area = 0.0;          ///< A_support, 0 without a support [m^2]
-  double cell_size = 0.0;             ///< of the raster that was used [m]
-  std::optional<double> shadow_area;  ///< A_shadow, the cloth seen from above [m^2]
-  std::optional<double> area_ratio;   ///< A_shadow / A_rest [-]
-  /// (A_shadow - A_support) / (A_rest - A_support) [-]: 1 for a stiff board, 0 for a cloth that
+  double rest_area = 0.0;                ///< A_rest, the flat specimen [m^2]
+  double support_area = 0.0;             ///< A_support, 0 without a support [m^2]
+  double cell_size = 0.0;                ///< of the raster that was used [m]
+  std::optional<double> projected_area;  ///< A_projected, the cloth seen from above [m^2]
+  std::optional<double> area_ratio;      ///< A_projected / A_rest [-]
+  /// (A_projected - A_support) / (A_rest - A_support) [-]: 1 for a stiff board, 0 for a cloth that
   /// hangs straight down. Times 100 it is the DC of the standards. Below 0 the cloth does not cover
   /// its support.
   std::optional<double> coefficient;

@@ -2,7 +2,7 @@
 
 #include <weft/core/error.hpp>
 #include <weft/validation/metrics/drape.hpp>
-#include <weft/validation/metrics/shadow.hpp>
+#include <weft/validation/metrics/projected_area.hpp>
 
 #include "tests/validation/metrics/test_shapes.hpp"
 
@@ -14,37 +14,37 @@ double raster_error(double boundary, double cell_size) {
   return boundary * cell_size;
 }
 
-TEST(Shadow, ASquareOnTheRasterIsExact) {
+TEST(ProjectedArea, ASquareOnTheRasterIsExact) {
   const ClothMesh mesh = flat_cloth(5, 2.0);
-  const ShadowRaster raster{.cell_size = 0.0625};  // cell edges on the square's edges
-  EXPECT_EQ(shadow_area(mesh.rest_positions, mesh.triangles, raster), 4.0);
+  const ProjectionRaster raster{.cell_size = 0.0625};  // cell edges on the square's edges
+  EXPECT_EQ(projected_area(mesh.rest_positions, mesh.triangles, raster), 4.0);
 }
 
-TEST(Shadow, OfATiltedSquareShrinksWithTheCosine) {
+TEST(ProjectedArea, OfATiltedSquareShrinksWithTheCosine) {
   const ClothMesh mesh = flat_cloth(5, 2.0);
   constexpr double kCell = 0.005;
   const auto tilt = Eigen::AngleAxisd(std::numbers::pi / 3, Vector3<double>::UnitX());
   const Matrix3X<double> tilted = tilt.toRotationMatrix() * mesh.rest_positions;
-  const auto area = shadow_area(tilted, mesh.triangles, {.cell_size = kCell});
+  const auto area = projected_area(tilted, mesh.triangles, {.cell_size = kCell});
   ASSERT_TRUE(area);
   EXPECT_NEAR(*area, 2.0, raster_error(6.0, kCell));
 }
 
-TEST(Shadow, CountsOverlapsOnce) {
+TEST(ProjectedArea, CountsOverlapsOnce) {
   const ClothMesh mesh = flat_cloth(5, 2.0);
   Matrix3X<double> folded = mesh.rest_positions;  // fold the half x > 0 over the half x < 0
   folded.row(0) = -folded.row(0).cwiseAbs();
-  EXPECT_EQ(shadow_area(folded, mesh.triangles, {.cell_size = 0.0625}), 2.0);
+  EXPECT_EQ(projected_area(folded, mesh.triangles, {.cell_size = 0.0625}), 2.0);
 }
 
-TEST(Shadow, OfADiscConvergesToPiR2AndDiscAreaCountsTheSame) {
+TEST(ProjectedArea, OfADiscConvergesToPiR2AndDiscAreaCountsTheSame) {
   const ClothMesh disc = flat_disc(4, 2000, 1.0);  // the polygon's own error: 2e-6 of the area
   double last = 1.0;
   for (const double cell : {0.02, 0.005, 0.00125}) {
-    const ShadowRaster raster{.cell_size = cell};
+    const ProjectionRaster raster{.cell_size = cell};
     const double bound = raster_error(2 * std::numbers::pi, cell);
     EXPECT_NEAR(disc_area(1.0, raster), std::numbers::pi, bound);
-    const double area = shadow_area(disc.rest_positions, disc.triangles, raster).value();
+    const double area = projected_area(disc.rest_positions, disc.triangles, raster).value();
     EXPECT_NEAR(area, std::numbers::pi, bound);
     EXPECT_NEAR(area, disc_area(1.0, raster),
                 bound / 10);  // the errors are shared, not independent
@@ -53,22 +53,22 @@ TEST(Shadow, OfADiscConvergesToPiR2AndDiscAreaCountsTheSame) {
   }
 }
 
-TEST(Shadow, TheRasterScalesWithTheSpecimen) {
+TEST(ProjectedArea, TheRasterScalesWithTheSpecimen) {
   const double cusick = std::numbers::pi * 0.15 * 0.15;
   EXPECT_NEAR(cusick_cell_size(cusick), 0.25e-3, 0.25e-3 * kRoundoff);
   EXPECT_NEAR(cusick_cell_size(100 * cusick), 2.5e-3, 2.5e-3 * kRoundoff);
   EXPECT_THROW((void)cusick_cell_size(0.0), InvalidArgument);
 }
 
-TEST(Shadow, WhatCannotBeCountedIsNone) {
+TEST(ProjectedArea, WhatCannotBeCountedIsNone) {
   const ClothMesh mesh = flat_cloth(3, 1.0);
-  const ShadowRaster raster{.cell_size = 0.01};
+  const ProjectionRaster raster{.cell_size = 0.01};
   for (const double bad : {kNaN, kInfinity, 1e6, 1e300}) {
     Matrix3X<double> positions = mesh.rest_positions;
     positions(0, 0) = positions(2, 0) = bad;
-    EXPECT_FALSE(shadow_area(positions, mesh.triangles, raster)) << bad;
+    EXPECT_FALSE(projected_area(positions, mesh.triangles, raster)) << bad;
   }
-  EXPECT_THROW((void)shadow_area(mesh.rest_positions, mesh.triangles, {.cell_size = 0.0}),
+  EXPECT_THROW((void)projected_area(mesh.rest_positions, mesh.triangles, {.cell_size = 0.0}),
                InvalidArgument);
   EXPECT_THROW((void)disc_area(-1.0, raster), InvalidArgument);
 }
@@ -99,9 +99,9 @@ TEST(Drape, BoardIsOneAndLimpClothIsZero) {
   EXPECT_NEAR(*hanging.coefficient, 0.0, bound / (board.rest_area - board.support_area));
 }
 
-TEST(Drape, OfASphericalCapIsItsShadow) {
+TEST(Drape, OfASphericalCapIsItsProjectedArea) {
   // A disc of radius R wrapped on a sphere of radius S without stretch along its radii: the
-  // shadow's radius is S sin(R / S).
+  // projection's radius is S sin(R / S).
   constexpr double kRadius = 1.0;
   constexpr double kSphere = 0.8;
   const ClothMesh disc = flat_disc(20, 720, kRadius);
@@ -112,10 +112,10 @@ TEST(Drape, OfASphericalCapIsItsShadow) {
     cap(1, i) = kSphere * (std::cos(r / kSphere) - 1.0);
   }
   const Drape drape = measure_drape(disc, cap, {.support_radius = 0.3});
-  const double shadow = kSphere * std::sin(kRadius / kSphere);
+  const double projection = kSphere * std::sin(kRadius / kSphere);
   const double area_bound = raster_error(2 * std::numbers::pi * kRadius, drape.cell_size);
-  EXPECT_NEAR(*drape.shadow_area, std::numbers::pi * shadow * shadow, area_bound);
-  EXPECT_NEAR(*drape.coefficient, (shadow * shadow - 0.09) / (1.0 - 0.09), area_bound);
+  EXPECT_NEAR(*drape.projected_area, std::numbers::pi * projection * projection, area_bound);
+  EXPECT_NEAR(*drape.coefficient, (projection * projection - 0.09) / (1.0 - 0.09), area_bound);
 }
 
 TEST(Drape, IsTheSameForASpecimenOfAnySizeAndDirection) {
@@ -138,7 +138,7 @@ TEST(Drape, IsTheSameForASpecimenOfAnySizeAndDirection) {
               c, 1e-3);
 }
 
-TEST(Drape, OfAHangingCurtainHasRestAreaButNoShadow) {
+TEST(Drape, OfAHangingCurtainHasRestAreaButNoProjectedArea) {
   ClothGrid grid;
   grid.nodes = {5, 5};
   grid.size = {2.0, 1.0};
@@ -156,7 +156,7 @@ TEST(Drape, NonFinitePositionsHaveNoDrape) {
   Matrix3X<double> positions = mesh.rest_positions;
   positions(1, 1) = kNaN;
   const Drape drape = measure_drape(mesh, positions, {});
-  EXPECT_FALSE(drape.shadow_area);
+  EXPECT_FALSE(drape.projected_area);
   EXPECT_FALSE(drape.area_ratio);
   EXPECT_FALSE(drape.coefficient);
   EXPECT_NEAR(drape.rest_area, 1.0, raster_error(4.0, drape.cell_size));

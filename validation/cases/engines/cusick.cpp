@@ -18,8 +18,8 @@
 #include <weft/mesh/surface_body.hpp>
 #include <weft/validation/cases/support/engine_cases.hpp>
 #include <weft/validation/cases/support/small_systems.hpp>
+#include <weft/validation/metrics/projected_area.hpp>
 #include <weft/validation/metrics/rim_folds.hpp>
-#include <weft/validation/metrics/shadow.hpp>
 
 namespace weft::validation {
 namespace {
@@ -147,13 +147,13 @@ struct Drape {
 /// Share of the overhang that is left of it from above.
 double coefficient_of(const ClothMesh& mesh, const CusickRing& ring,
                       ConstMatrix3XRef<double> positions) {
-  const ShadowRaster raster{.cell_size =
-                                cusick_cell_size(std::numbers::pi * kClothRadius * kClothRadius)};
-  const auto shadow = shadow_area(positions, mesh.triangles, raster);
-  const auto flat = shadow_area(mesh.rest_positions, mesh.triangles, raster);
-  const auto held = shadow_area(mesh.rest_positions, ring_triangles(ring, 0, 1), raster);
-  if (!shadow) return std::numeric_limits<double>::quiet_NaN();
-  return 100 * (*shadow - *held) / (*flat - *held);
+  const ProjectionRaster raster{
+      .cell_size = cusick_cell_size(std::numbers::pi * kClothRadius * kClothRadius)};
+  const auto projection = projected_area(positions, mesh.triangles, raster);
+  const auto flat = projected_area(mesh.rest_positions, mesh.triangles, raster);
+  const auto held = projected_area(mesh.rest_positions, ring_triangles(ring, 0, 1), raster);
+  if (!projection) return std::numeric_limits<double>::quiet_NaN();
+  return 100 * (*projection - *held) / (*flat - *held);
 }
 
 Drape drape_once(const Fabric& fabric, const CusickRing& ring, std::uint32_t seed) {
@@ -235,7 +235,7 @@ CheckResult check_of(const CaseInfo& info, const std::string& claim, const std::
   check.claim = claim;
   check.metric = metric;
   check.unit = "%";
-  check.formula = "100 (A_shadow - A_support) / (A_cloth - A_support)";
+  check.formula = "100 (A_projected - A_support) / (A_cloth - A_support)";
   check.source = "BS 5058, ISO 9073-9: 30 cm of cloth on 18 cm";
   check.measured = measured;
   check.tolerance = tolerance;

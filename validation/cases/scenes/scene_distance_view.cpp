@@ -8,7 +8,7 @@
 #include <variant>
 
 #include <weft/validation/cases/scenes/scene_section.hpp>
-#include <weft/validation/cases/support/thinned_mesh.hpp>
+#include <weft/validation/cases/support/decimated_mesh.hpp>
 #include <weft/validation/metrics/distance/vertex_distance.hpp>
 
 namespace weft::validation {
@@ -27,20 +27,20 @@ std::vector<std::size_t> chosen_frames(std::size_t num_frames) {
   return frames;
 }
 
-std::vector<ThinnedMesh> thinned_cloths(const SceneMetrics& metrics) {
+std::vector<DecimatedMesh> decimated_cloths(const SceneMetrics& metrics) {
   int total = 0;
   for (const ClothMesh& mesh : metrics.meshes()) total += mesh.num_nodes();
-  std::vector<ThinnedMesh> thinned;
+  std::vector<DecimatedMesh> decimated;
   for (const ClothMesh& mesh : metrics.meshes()) {
     const int share =
         total > kMaxNodes ? std::max(1, kMaxNodes * mesh.num_nodes() / total) : mesh.num_nodes();
-    thinned.push_back(thin_mesh(mesh.rest_positions, mesh.triangles, share));
+    decimated.push_back(decimate(mesh.rest_positions, mesh.triangles, share));
   }
-  return thinned;
+  return decimated;
 }
 
 std::vector<double> drawn_coordinates(const scenes::SceneState& state,
-                                      const std::vector<ThinnedMesh>& cloths) {
+                                      const std::vector<DecimatedMesh>& cloths) {
   std::vector<double> values;
   for (std::size_t c = 0; c < cloths.size(); ++c) {
     for (const int node : cloths[c].nodes) {
@@ -58,7 +58,7 @@ void add_missing_frame(DistanceViewEngine& engine) {
 }
 
 void add_frame(DistanceViewEngine& engine, const scenes::SceneState& state,
-               const scenes::SceneState& reference, const std::vector<ThinnedMesh>& cloths) {
+               const scenes::SceneState& reference, const std::vector<DecimatedMesh>& cloths) {
   std::vector<double> drawn;
   double largest = 0.0;
   for (std::size_t c = 0; c < cloths.size(); ++c) {
@@ -128,7 +128,7 @@ bool is_torn(const History& history) {
 
 DistanceViewEngine engine_view(const History& history, const Frames& reference,
                                const std::vector<std::size_t>& frames,
-                               const std::vector<ThinnedMesh>& cloths) {
+                               const std::vector<DecimatedMesh>& cloths) {
   DistanceViewEngine engine;
   engine.name = history.engine.title();
   for (const std::size_t f : frames) {
@@ -147,7 +147,7 @@ std::vector<DistanceView> scene_distance_views(const SceneMetrics& metrics,
                                                const std::vector<History>& histories) {
   const Frames& reference = histories.back().frames;
   if (reference.empty() || histories.size() < 2 || is_torn(histories.back())) return {};
-  const std::vector<ThinnedMesh> cloths = thinned_cloths(metrics);
+  const std::vector<DecimatedMesh> cloths = decimated_cloths(metrics);
   const std::vector<std::size_t> frames = chosen_frames(reference.size());
   DistanceView view;
   int first = 0;

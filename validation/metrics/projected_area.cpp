@@ -1,4 +1,4 @@
-#include <weft/validation/metrics/shadow.hpp>
+#include <weft/validation/metrics/projected_area.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,21 +17,22 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-void check(const ShadowRaster& raster) {
+void check(const ProjectionRaster& raster) {
   if (!std::isfinite(raster.cell_size) || raster.cell_size <= 0) {
-    throw InvalidArgument(
-        fmt::format("shadow: cell_size = {} [m], expected > 0 and finite", raster.cell_size));
+    throw InvalidArgument(fmt::format("projected area: cell_size = {} [m], expected > 0 and finite",
+                                      raster.cell_size));
   }
   const double length = raster.direction.norm();
   if (!std::isfinite(length) || length <= 0 || !raster.center.allFinite()) {
-    throw InvalidArgument("shadow: direction or center, expected finite and a direction not zero");
+    throw InvalidArgument(
+        "projected area: direction or center, expected finite and a direction not zero");
   }
 }
 
 /// Node positions in the plane of the raster, measured in cells from its centre. 2 x n [-].
-/// The axes depend on the direction alone, so that every shadow along one direction has the same
+/// The axes depend on the direction alone, so that every projection along one direction has the same
 /// raster.
-Eigen::Matrix2Xd in_cells(ConstMatrix3XRef<double> positions, const ShadowRaster& raster) {
+Eigen::Matrix2Xd in_cells(ConstMatrix3XRef<double> positions, const ProjectionRaster& raster) {
   const Vector3<double> normal = raster.direction.normalized();
   const Vector3<double> first = normal.unitOrthogonal();
   const Vector3<double> second = normal.cross(first);
@@ -90,20 +91,20 @@ void fill(Bitmap& bitmap, const Point& a, const Point& b, const Point& c) {
 
 double cusick_cell_size(double specimen_area) {
   if (!std::isfinite(specimen_area) || specimen_area <= 0) {
-    throw InvalidArgument(
-        fmt::format("shadow: specimen_area = {} [m^2], expected > 0 and finite", specimen_area));
+    throw InvalidArgument(fmt::format(
+        "projected area: specimen_area = {} [m^2], expected > 0 and finite", specimen_area));
   }
   constexpr double kCellsAcross = 1200.0;  // 0.30 m / 0.25 mm
   return 2.0 * std::sqrt(specimen_area / std::numbers::pi) / kCellsAcross;
 }
 
-std::optional<double> shadow_area(ConstMatrix3XRef<double> positions, const Triangles& triangles,
-                                  const ShadowRaster& raster) {
+std::optional<double> projected_area(ConstMatrix3XRef<double> positions, const Triangles& triangles,
+                                     const ProjectionRaster& raster) {
   check(raster);
   if (triangles.cols() == 0) return 0.0;
   if (triangles.minCoeff() < 0 || triangles.maxCoeff() >= positions.cols()) {
     throw InvalidArgument(
-        fmt::format("shadow: triangle corners = {} to {}, expected node indices 0 to {}",
+        fmt::format("projected area: triangle corners = {} to {}, expected node indices 0 to {}",
                     triangles.minCoeff(), triangles.maxCoeff(), positions.cols() - 1));
   }
   if (!positions.allFinite()) return std::nullopt;
@@ -112,7 +113,7 @@ std::optional<double> shadow_area(ConstMatrix3XRef<double> positions, const Tria
   const Eigen::Array2d size = points.rowwise().maxCoeff().array().floor() - low + 1.0;
   // Beyond 2^52 cells from the centre neighbouring cells are the same number.
   const double farthest = std::max(low.abs().maxCoeff(), (low + size).abs().maxCoeff());
-  if (!(farthest < 0x1p52) || !(size.prod() <= kMaxShadowCells)) return std::nullopt;
+  if (!(farthest < 0x1p52) || !(size.prod() <= kMaxProjectedCells)) return std::nullopt;
   Bitmap bitmap{static_cast<std::int64_t>(low[0]),
                 static_cast<std::int64_t>(low[1]),
                 static_cast<std::int64_t>(size[0]),
@@ -127,13 +128,13 @@ std::optional<double> shadow_area(ConstMatrix3XRef<double> positions, const Tria
   return static_cast<double>(covered) * raster.cell_size * raster.cell_size;
 }
 
-double disc_area(double radius, const ShadowRaster& raster) {
+double disc_area(double radius, const ProjectionRaster& raster) {
   check(raster);
   const double cells = radius / raster.cell_size;
-  if (!(radius >= 0) || !(4.0 * cells * cells <= kMaxShadowCells)) {
-    throw InvalidArgument(
-        fmt::format("shadow: radius = {} [m], expected >= 0 and at most {} cells of {} m across",
-                    radius, std::sqrt(kMaxShadowCells), raster.cell_size));
+  if (!(radius >= 0) || !(4.0 * cells * cells <= kMaxProjectedCells)) {
+    throw InvalidArgument(fmt::format(
+        "projected area: radius = {} [m], expected >= 0 and at most {} cells of {} m across",
+        radius, std::sqrt(kMaxProjectedCells), raster.cell_size));
   }
   double covered = 0.0;
   const auto last_row = static_cast<std::int64_t>(std::floor(cells));

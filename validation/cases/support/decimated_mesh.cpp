@@ -1,4 +1,4 @@
-#include <weft/validation/cases/support/thinned_mesh.hpp>
+#include <weft/validation/cases/support/decimated_mesh.hpp>
 
 #include <algorithm>
 #include <array>
@@ -68,9 +68,9 @@ std::vector<int> remaining_triangles(const Triangles& triangles,
 
 }  // namespace
 
-ThinnedMesh thin_mesh(ConstMatrix3XRef<double> rest_positions, const Triangles& triangles,
-                      int max_nodes) {
-  if (max_nodes < 1) throw InvalidArgument("thin_mesh: max_nodes must be at least 1");
+DecimatedMesh decimate(ConstMatrix3XRef<double> rest_positions, const Triangles& triangles,
+                       int max_nodes) {
+  if (max_nodes < 1) throw InvalidArgument("decimate: max_nodes must be at least 1");
   std::vector<int> representative(static_cast<std::size_t>(rest_positions.cols()));
   std::iota(representative.begin(), representative.end(), 0);
   std::vector<int> nodes = representative;
@@ -85,7 +85,7 @@ ThinnedMesh thin_mesh(ConstMatrix3XRef<double> rest_positions, const Triangles& 
       nodes = distinct(representative);
     }
   }
-  ThinnedMesh result;
+  DecimatedMesh result;
   result.triangles = remaining_triangles(triangles, representative, nodes);
   result.nodes = std::move(nodes);
   return result;
