@@ -93,7 +93,8 @@ Report run_suite(const SuiteOptions& options,
   report.limits = {
       "Cloth does not meet itself or other cloth in any engine of this report.",
       "Contact is between nodes and surfaces; edges and faces of the cloth may cut corners.",
-      "The reference's own error is that of its time step; what a finer mesh would change is not "
+      "The reference's discretization error is that of its time step; what a finer mesh would "
+      "change is not "
       "in it.",
       "Sabotages are put into the reference's side of a pair; Bullet's side is not broken on "
       "purpose.",

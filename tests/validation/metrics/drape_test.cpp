@@ -38,7 +38,8 @@ TEST(ProjectedArea, CountsOverlapsOnce) {
 }
 
 TEST(ProjectedArea, OfADiscConvergesToPiR2AndDiscAreaCountsTheSame) {
-  const ClothMesh disc = flat_disc(4, 2000, 1.0);  // the polygon's own error: 2e-6 of the area
+  const ClothMesh disc =
+      flat_disc(4, 2000, 1.0);  // the polygon's discretization error: 2e-6 of the area
   double last = 1.0;
   for (const double cell : {0.02, 0.005, 0.00125}) {
     const ProjectionRaster raster{.cell_size = cell};

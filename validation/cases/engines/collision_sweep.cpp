@@ -224,8 +224,9 @@ void evaluate_collision_sweep(const CaseInfo& info, const CaseOptions& options,
   Table distances{"RMS distance to the reference [% of cloth size], 0 to 0.5 s / at rest",
                   {"scene", "nodes"},
                   {}};
-  Table own{
-      "The reference's own error, RMS over the cloth's size [1]", {"scene", "nodes", "time"}, {}};
+  Table own{"The reference's discretization error, RMS over the cloth's size [1]",
+            {"scene", "nodes", "time"},
+            {}};
   for (const SweepEngine& engine : sweep_engines(collision_scenes()[0], options)) {
     distances.columns.push_back(engine.title());
   }

@@ -70,7 +70,7 @@ CheckResult own_error_check(const CaseInfo& info, const std::array<double, 3>& l
   CheckResult check;
   check.case_id = info.id;
   check.engine = "reference float64";
-  check.claim = "the reference's own error is a tenth of the gate";
+  check.claim = "the reference's discretization error is a tenth of the gate";
   check.metric = "grid convergence index of H / W, finest of three steps";
   check.unit = "1";
   check.formula = "Fs |H/W(2h) - H/W(h)| / (2^p - 1) / (H/W)";

@@ -89,11 +89,11 @@ double SeedRuns::mean(const Window& window) const {
   return mean_of(values_.at(index_of(window)));
 }
 
-SeedRuns::OwnError SeedRuns::own_error(const Window& window) const {
+SeedRuns::OwnError SeedRuns::discretization_error(const Window& window) const {
   return error_of(values_.at(index_of(window)));
 }
 
-SeedRuns::OwnError SeedRuns::own_error(const Window& window, double first) const {
+SeedRuns::OwnError SeedRuns::discretization_error(const Window& window, double first) const {
   std::vector<double> values = values_.at(index_of(window));
   values.front() = first;
   return error_of(values);
@@ -101,10 +101,10 @@ SeedRuns::OwnError SeedRuns::own_error(const Window& window, double first) const
 
 CheckResult seeds_check(const SeedRuns& seeds, const SceneMetrics& metrics, const Window& window,
                         double gate) {
-  const SeedRuns::OwnError own = seeds.own_error(window);
+  const SeedRuns::OwnError own = seeds.discretization_error(window);
   CheckResult check;
   check.engine = kReference.title();
-  check.claim = "the reference's own error is a tenth of the gate";
+  check.claim = "the reference's discretization error is a tenth of the gate";
   check.metric = fmt::format("of the mean {} over {} runs, {:g} to {:g} s",
                              window.quantity == Quantity::kMeanHeight ? "height" : "radius",
                              2 * kNumSeeds, window.begin, window.end);
@@ -123,7 +123,7 @@ CheckResult seeds_check(const SeedRuns& seeds, const SceneMetrics& metrics, cons
   const double wrong = metrics.mean_shape_number(
       window.quantity, run_sabotaged(metrics.scene(), sabotage, window.end), window.begin,
       window.end);
-  const double measured = seeds.own_error(window, wrong).total();
+  const double measured = seeds.discretization_error(window, wrong).total();
   check.sabotages.push_back(
       {sabotage.name + " in one run", measured,
        std::isfinite(measured) && judge(measured, *check.tolerance) == Verdict::kFail});

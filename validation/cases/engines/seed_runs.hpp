@@ -38,9 +38,9 @@ class SeedRuns {
     double step_effect;     ///< mean with one step from that with half of it
     [[nodiscard]] double total() const { return 2 * standard_error + step_effect / 2; }
   };
-  [[nodiscard]] OwnError own_error(const Window& window) const;
+  [[nodiscard]] OwnError discretization_error(const Window& window) const;
   /// The same with another value for the first run.
-  [[nodiscard]] OwnError own_error(const Window& window, double first) const;
+  [[nodiscard]] OwnError discretization_error(const Window& window, double first) const;
 
  private:
   [[nodiscard]] std::size_t index_of(const Window& window) const;
@@ -50,7 +50,7 @@ class SeedRuns {
       values_;  ///< by window: kNumSeeds with the long step, then the short one
 };
 
-/// "The mean's own error is a tenth of the gate", with a collider half a metre off in one of the runs as what must fail.
+/// "The mean's discretization error is a tenth of the gate", with a collider half a metre off in one of the runs as what must fail.
 [[nodiscard]] CheckResult seeds_check(const SeedRuns& seeds, const SceneMetrics& metrics,
                                       const Window& window, double gate);
 

@@ -32,9 +32,9 @@ Tolerance tolerance_of(const MotionFigure& figure) {
     return {figure.allowed, Basis::kRoundoff,
             "zero by Newton's laws; rounding of places, and a contact that is a little inside"};
   }
-  return {
-      figure.allowed, Basis::kModelGap,
-      "what a step of 1/60 s may change of it; the explicit run's own error is a tenth of that"};
+  return {figure.allowed, Basis::kModelGap,
+          "what a step of 1/60 s may change of it; the explicit run's discretization error is a "
+          "tenth of that"};
 }
 
 CheckResult check_of(const CaseInfo& info, const MotionScene& motion, const MotionFigure& figure,

@@ -8,7 +8,7 @@
 
 namespace weft::validation {
 
-/// Known errors of the fast solver in motion, in contact and at rest (swing, impacts, rest), each with its figure. A row that
+/// Kndiscretization errors of the fast solver in motion, in contact and at rest (swing, impacts, rest), each with its figure. A row that
 /// no longer holds fails its check and must be taken out.
 [[nodiscard]] std::span<const MotionDeparture> motion_departures();
 

@@ -8,8 +8,8 @@
 
 #include <weft/scenes/catalog.hpp>
 #include <weft/scenes/engine_kind.hpp>
+#include <weft/validation/cases/scenes/reference_solution.hpp>
 #include <weft/validation/cases/scenes/scene_section.hpp>
-#include <weft/validation/cases/scenes/scene_truth.hpp>
 #include <weft/validation/referee/start_check.hpp>
 
 namespace weft::validation {
@@ -86,7 +86,7 @@ SabotageResult try_sabotage(const SceneGate& gate, const Sabotage& sabotage,
   return {sabotage.name, measured, noticed};
 }
 
-CheckResult check_gate(const CaseInfo& info, const SceneGate& gate, const SceneTruth& truth,
+CheckResult check_gate(const CaseInfo& info, const SceneGate& gate, const ReferenceSolution& truth,
                        const SceneMetrics& metrics, const History& history,
                        const Frames& reference) {
   CheckResult check;
@@ -164,7 +164,7 @@ void plan_scene(const CaseInfo& info, const CaseOptions& options, EngineRuns& ru
   for (const EngineChoice& engine : judged_engines(options)) {
     plan_run(options, id, engine, scene_for(scene, engine), runs);
   }
-  SceneTruth(id, scene, judged_gates(id, options)).plan(runs);
+  ReferenceSolution(id, scene, judged_gates(id, options)).plan(runs);
 }
 
 void evaluate_scene(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
@@ -175,7 +175,7 @@ void evaluate_scene(const CaseInfo& info, const CaseOptions& options, const Engi
   for (const EngineChoice& engine : judged_engines(options)) {
     histories.push_back(load_history(runs, id, engine));
   }
-  SceneTruth truth(id, metrics.scene(), judged_gates(id, options));
+  ReferenceSolution truth(id, metrics.scene(), judged_gates(id, options));
   truth.load(metrics, runs);
   if (options.recorded) {
     report.checks.push_back(

@@ -58,9 +58,9 @@ ReferenceLevels::ReferenceLevels(const LevelPlan& plan, const EngineRuns& runs)
   }
 }
 
-ReferenceLevels::OwnError ReferenceLevels::own_error(const SceneMetrics& metrics,
-                                                     const Window& window,
-                                                     const Frames& finest) const {
+ReferenceLevels::OwnError ReferenceLevels::discretization_error(const SceneMetrics& metrics,
+                                                                const Window& window,
+                                                                const Frames& finest) const {
   const auto apart = [&](const Frames& a, const Frames& b) {
     return metrics.largest(window.quantity, a, b, window.begin, window.end);
   };
@@ -69,16 +69,16 @@ ReferenceLevels::OwnError ReferenceLevels::own_error(const SceneMetrics& metrics
   return error;
 }
 
-ReferenceLevels::OwnError ReferenceLevels::own_error(const SceneMetrics& metrics,
-                                                     const Window& window) const {
-  return own_error(metrics, window, finest());
+ReferenceLevels::OwnError ReferenceLevels::discretization_error(const SceneMetrics& metrics,
+                                                                const Window& window) const {
+  return discretization_error(metrics, window, finest());
 }
 
 CheckResult own_error_check(const ReferenceLevels& levels, const SceneMetrics& metrics,
                             const std::vector<Window>& windows, double gate, bool is_sabotaged) {
   CheckResult check;
   check.engine = kReference.title();
-  check.claim = "the reference's own error is a tenth of the gate";
+  check.claim = "the reference's discretization error is a tenth of the gate";
   check.metric = "grid convergence index of the finest of three steps";
   check.unit = unit_of(windows.front().quantity);
   check.formula = fmt::format(
@@ -94,7 +94,8 @@ CheckResult own_error_check(const ReferenceLevels& levels, const SceneMetrics& m
   const auto worst = [&](const Frames& finest) {
     double value = 0.0;
     for (const Window& window : windows) {
-      value = larger_change(value, levels.own_error(metrics, window, finest).study.uncertainty);
+      value = larger_change(value,
+                            levels.discretization_error(metrics, window, finest).study.uncertainty);
     }
     return value;
   };
@@ -110,7 +111,8 @@ CheckResult own_error_check(const ReferenceLevels& levels, const SceneMetrics& m
   double measured = 0.0;
   for (const Window& window : windows) {
     if (window.end > end) continue;
-    measured = larger_change(measured, levels.own_error(metrics, window, coarse).study.uncertainty);
+    measured = larger_change(
+        measured, levels.discretization_error(metrics, window, coarse).study.uncertainty);
   }
   check.sabotages.push_back(
       {sabotage.name, measured,
@@ -125,7 +127,7 @@ std::vector<std::string> own_error_columns() {
 
 std::vector<std::string> own_error_cells(const ReferenceLevels& levels, const SceneMetrics& metrics,
                                          const Window& window, double gate) {
-  const ReferenceLevels::OwnError error = levels.own_error(metrics, window);
+  const ReferenceLevels::OwnError error = levels.discretization_error(metrics, window);
   const std::string order = error.study.order ? fmt::format("{:.2f}", *error.study.order) : "-";
   return {fmt::format("{:.3g}", levels.finest_step()),
           fmt::format("{:.2g}", error.coarse),

@@ -45,10 +45,11 @@ class ReferenceLevels {
     double fine;    ///< levels 2h and h apart
     NormStudy study;
   };
-  [[nodiscard]] OwnError own_error(const SceneMetrics& metrics, const Window& window) const;
+  [[nodiscard]] OwnError discretization_error(const SceneMetrics& metrics,
+                                              const Window& window) const;
   /// The same with another run in place of the finest one.
-  [[nodiscard]] OwnError own_error(const SceneMetrics& metrics, const Window& window,
-                                   const Frames& finest) const;
+  [[nodiscard]] OwnError discretization_error(const SceneMetrics& metrics, const Window& window,
+                                              const Frames& finest) const;
 
  private:
   std::vector<Frames> levels_;  ///< 4h, 2h, h
@@ -56,10 +57,10 @@ class ReferenceLevels {
   MethodOrder order_;
 };
 
-/// A share of a gate that the reference's own error may take [-].
+/// A share of a gate that the reference's discretization error may take [-].
 inline constexpr double kOwnShare = 0.1;
 
-/// "The reference's own error is a tenth of the gate", with steps of 1/100 s in place of the finest ones as what must fail.
+/// "The reference's discretization error is a tenth of the gate", with steps of 1/100 s in place of the finest ones as what must fail.
 /// gate: in the quantity's unit. is_sabotaged: no for rows that would only repeat it.
 [[nodiscard]] CheckResult own_error_check(const ReferenceLevels& levels,
                                           const SceneMetrics& metrics,

@@ -49,14 +49,15 @@ struct Study {
 };
 
 Study study(const Ladder& ladder, bool unset_velocity) {
-  // RK4 with a step at which its own error is far below every error measured here.
-  static const Vector3<double> kTruth = end_position(IntegratorKind::kRungeKutta4, 20000, false);
+  // RK4 with a step at which its discretization error is far below every error measured here.
+  static const Vector3<double> kReferenceEnd =
+      end_position(IntegratorKind::kRungeKutta4, 20000, false);
   Study result;
   for (std::size_t level = 0; level < kNumLevels; ++level) {
     const int num_steps = ladder.first_num_steps << level;
     result.steps[level] = kObservedOrdersEndTime / num_steps;
     result.errors[level] =
-        (end_position(ladder.integrator, num_steps, unset_velocity) - kTruth).norm();
+        (end_position(ladder.integrator, num_steps, unset_velocity) - kReferenceEnd).norm();
   }
   result.order = std::log2(result.errors[kNumLevels - 2] / result.errors[kNumLevels - 1]);
   return result;
@@ -82,7 +83,8 @@ void evaluate_observed_orders(const CaseInfo& info, const CaseOptions&, const En
     check.unit = "1";
     check.formula = "p = log2(e(h) / e(h/2))";
     check.source =
-        "spring pendulum m = 1 kg, k = 100 N/m, l0 = 1 m; truth: Runge-Kutta 4, 20000 steps";
+        "spring pendulum m = 1 kg, k = 100 N/m, l0 = 1 m; reference solution: Runge-Kutta 4, 20000 "
+        "steps";
     check.measured = std::abs(right.order - ladder.order);
     check.tolerance = tolerance;
     check.verdict = judge(check.measured, tolerance);

@@ -1,4 +1,4 @@
-#include <weft/validation/cases/scenes/scene_truth.hpp>
+#include <weft/validation/cases/scenes/reference_solution.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -34,10 +34,11 @@ std::string metric_text(Quantity quantity) {
   return "deepest node below a surface";
 }
 
-SceneTruth::SceneTruth(std::string id, const scenes::Scene& scene, std::vector<SceneGate> gates)
+ReferenceSolution::ReferenceSolution(std::string id, const scenes::Scene& scene,
+                                     std::vector<SceneGate> gates)
     : id_(std::move(id)), scene_(scene), gates_(std::move(gates)) {}
 
-std::vector<SceneTruth::Served> SceneTruth::served(Against against) const {
+std::vector<ReferenceSolution::Served> ReferenceSolution::served(Against against) const {
   std::vector<Served> list;
   for (const SceneGate& gate : gates_) {
     if (gate.against != against) continue;
@@ -54,13 +55,13 @@ std::vector<SceneTruth::Served> SceneTruth::served(Against against) const {
   return list;
 }
 
-std::vector<Window> SceneTruth::windows(Against against) const {
+std::vector<Window> ReferenceSolution::windows(Against against) const {
   std::vector<Window> list;
   for (const Served& one : served(against)) list.push_back(one.window);
   return list;
 }
 
-LevelPlan SceneTruth::level_plan() const {
+LevelPlan ReferenceSolution::level_plan() const {
   LevelPlan plan{id_, scene_};
   double end = 0.0;
   for (const Window& window : windows(Against::kSolution)) end = std::max(end, window.end);
@@ -70,19 +71,19 @@ LevelPlan SceneTruth::level_plan() const {
   return plan;
 }
 
-void SceneTruth::plan(EngineRuns& runs) const {
+void ReferenceSolution::plan(EngineRuns& runs) const {
   if (!windows(Against::kSolution).empty()) plan_levels(level_plan(), runs);
   if (!windows(Against::kSeeds).empty()) plan_seeds({id_, scene_}, runs);
 }
 
-void SceneTruth::load(const SceneMetrics& metrics, const EngineRuns& runs) {
+void ReferenceSolution::load(const SceneMetrics& metrics, const EngineRuns& runs) {
   if (!windows(Against::kSolution).empty()) levels_.emplace(level_plan(), runs);
   const std::vector<Window> seeded = windows(Against::kSeeds);
   if (!seeded.empty()) seeds_.emplace(SeedPlan{id_, scene_}, metrics, seeded, runs);
 }
 
-double SceneTruth::measured(const SceneGate& gate, const SceneMetrics& metrics,
-                            const Frames& frames, const Frames& same_step) const {
+double ReferenceSolution::measured(const SceneGate& gate, const SceneMetrics& metrics,
+                                   const Frames& frames, const Frames& same_step) const {
   if (gate.against == Against::kSeeds) {
     const Window window{gate.quantity, gate.begin, gate.end};
     return std::abs(metrics.mean_shape_number(gate.quantity, frames, gate.begin, gate.end) -
@@ -92,11 +93,12 @@ double SceneTruth::measured(const SceneGate& gate, const SceneMetrics& metrics,
   return metrics.largest(gate.quantity, frames, other, gate.begin, gate.end);
 }
 
-std::string SceneTruth::source(const SceneGate& gate) const {
+std::string ReferenceSolution::source(const SceneGate& gate) const {
   switch (gate.against) {
     case Against::kSolution:
-      return fmt::format("reference solver, velocity Verlet, {:.3g} s, its own error checked",
-                         levels_->finest_step());
+      return fmt::format(
+          "reference solver, velocity Verlet, {:.3g} s, its discretization error checked",
+          levels_->finest_step());
     case Against::kSeeds:
       return fmt::format("reference solver, mean over {} runs", 2 * kNumSeeds);
     case Against::kScheme:
@@ -107,8 +109,8 @@ std::string SceneTruth::source(const SceneGate& gate) const {
                                              "same recurrence, whatever its error";
 }
 
-std::vector<CheckResult> SceneTruth::own_checks(const CaseInfo& info,
-                                                const SceneMetrics& metrics) const {
+std::vector<CheckResult> ReferenceSolution::own_checks(const CaseInfo& info,
+                                                       const SceneMetrics& metrics) const {
   std::vector<CheckResult> checks;
   for (const Served& one : served(Against::kSolution)) {
     checks.push_back(own_error_check(*levels_, metrics, {one.window}, one.gate));
@@ -122,8 +124,8 @@ std::vector<CheckResult> SceneTruth::own_checks(const CaseInfo& info,
   return checks;
 }
 
-Table SceneTruth::own_table(const SceneMetrics& metrics) const {
-  Table table{"The reference's own error, in the unit of the gate that it serves",
+Table ReferenceSolution::own_table(const SceneMetrics& metrics) const {
+  Table table{"The reference's discretization error, in the unit of the gate that it serves",
               {"quantity", "time"},
               {}};
   for (std::string& column : own_error_columns()) table.columns.push_back(std::move(column));

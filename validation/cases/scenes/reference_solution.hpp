@@ -13,10 +13,10 @@
 namespace weft::validation {
 
 /// What the gates of a catalog scene are held against, and how exact that is.
-class SceneTruth {
+class ReferenceSolution {
  public:
   /// scene: as the engines run it. gates: those of the engines that are judged.
-  SceneTruth(std::string id, const scenes::Scene& scene, std::vector<SceneGate> gates);
+  ReferenceSolution(std::string id, const scenes::Scene& scene, std::vector<SceneGate> gates);
 
   [[nodiscard]] const std::vector<SceneGate>& gates() const { return gates_; }
   void plan(EngineRuns& runs) const;
@@ -28,7 +28,7 @@ class SceneTruth {
   /// What the gate is compared with, in words.
   [[nodiscard]] std::string source(const SceneGate& gate) const;
 
-  /// One check for each window of time that a gate looks at: the reference's own error is a tenth of the gate.
+  /// One check for each window of time that a gate looks at: the reference's discretization error is a tenth of the gate.
   [[nodiscard]] std::vector<CheckResult> own_checks(const CaseInfo& info,
                                                     const SceneMetrics& metrics) const;
   /// The numbers of those checks. No rows: no gate is held against a solution.
