@@ -6,7 +6,7 @@
 #include <weft/scenes/engine_kind.hpp>
 #include <weft/validation/cases.hpp>
 #include <weft/validation/cases/support/parameters.hpp>
-#include <weft/validation/departures/stated_departures.hpp>
+#include <weft/validation/deviations/known_deviations.hpp>
 #include <weft/validation/referee/judged_cases.hpp>
 #include <weft/validation/theory/theory_runs.hpp>
 
@@ -89,7 +89,7 @@ Report run_suite(const SuiteOptions& options,
   for (const CaseInfo* info : cases) {
     if (is_whole) judged.push_back(info->id);
   }
-  apply_departures(stated_departures(), judged, report);
+  apply_deviations(known_deviations(), judged, report);
   report.limits = {
       "Cloth does not meet itself or other cloth in any engine of this report.",
       "Contact is between nodes and surfaces; edges and faces of the cloth may cut corners.",

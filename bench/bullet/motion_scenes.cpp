@@ -60,7 +60,7 @@ void add_rows(const MotionScene& motion, const std::map<std::string, double>& tr
     }
     const double truth = figure.is_bound ? 0.0 : right->second;
     const double value = figure.of(motion.scene, frames);
-    const bool is_right = figure.departure(value, truth) <= figure.allowed;
+    const bool is_right = figure.deviation(value, truth) <= figure.allowed;
     file.add({motion.scene.name, figure.name, figure.unit, three_digits(value), three_digits(truth),
               three_digits(figure.allowed), is_right ? "yes" : "NO",
               three_digits(figure.of(motion.scene, still)),

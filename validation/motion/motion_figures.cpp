@@ -204,7 +204,7 @@ std::string to_string(WrongMotion wrong) {
   return {};
 }
 
-double MotionFigure::departure(double value, double right) const {
+double MotionFigure::deviation(double value, double right) const {
   const double apart = std::abs(value - (is_bound ? 0.0 : right));
   return is_relative && !is_bound ? apart / std::abs(right) : apart;
 }

@@ -34,7 +34,7 @@ struct MotionFigure {
   bool is_relative = false;
 
   /// How far a value is from what is right, to be compared with allowed. right: not looked at if is_bound.
-  [[nodiscard]] double departure(double value, double right) const;
+  [[nodiscard]] double deviation(double value, double right) const;
 };
 
 /// A scene, how short explicit steps must be to tell what happens in it, and what is looked at.

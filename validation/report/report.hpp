@@ -41,7 +41,7 @@ struct CheckResult {
   /// What measured was computed from; where it is the largest of many, those of the largest. Empty where it is itself the
   /// number of interest.
   std::vector<ComparedValue> values = {};
-  std::string cause = {};  ///< of a known departure (kKnown, kStale): why it is expected to fail
+  std::string cause = {};  ///< of a known deviation (kKnown, kStale): why it is expected to fail
 };
 
 struct Series {
@@ -89,7 +89,7 @@ struct Section {
 };
 
 /// A place where an engine is known to differ, with its measured size and its reason.
-struct Departure {
+struct Deviation {
   std::string engine;
   std::string what;      ///< "stiffness depends on iterations and time step"
   std::string measured;  ///< "RMS 4.1 % of cloth size, drape_sphere at rest"
@@ -100,7 +100,7 @@ struct Report {
   std::string title;
   std::vector<CheckResult> checks;
   std::vector<Section> sections;
-  std::vector<Departure> departures;
+  std::vector<Deviation> deviations;
   std::vector<std::string> limits;  ///< what was not tested
   /// machine, compiler, versions, hashes
   std::vector<std::pair<std::string, std::string>> provenance;
@@ -110,7 +110,7 @@ struct Report {
 /// report.json, pretty-printed, with a schema version; pictures as base64. Numbers read back to the
 /// same bits (up to 17 digits); a non-finite one is the string "NaN", "Infinity" or "-Infinity".
 [[nodiscard]] std::string to_json(const Report& report);
-/// junit.xml: one test case per check (skipped if not gated or a known departure), one per sabotage.
+/// junit.xml: one test case per check (skipped if not gated or a known deviation), one per sabotage.
 [[nodiscard]] std::string to_junit(const Report& report);
 /// The table for a terminal: one line per check and one for each of its compared values, and the verdict.
 [[nodiscard]] std::string to_text(const Report& report);

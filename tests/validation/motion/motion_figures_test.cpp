@@ -23,7 +23,7 @@ TEST(MotionFigures, BoundsHoldWhereNothingMoves) {
       // Momentum of bodies that stand still is none: a share of it is no number.
       if (figure.unit == "1") continue;
       const double value = figure.of(motion.scene, standing_still(motion.scene));
-      EXPECT_LE(figure.departure(value, 0.0), figure.allowed)
+      EXPECT_LE(figure.deviation(value, 0.0), figure.allowed)
           << motion.scene.name << ": " << figure.name;
     }
   }
@@ -34,7 +34,7 @@ TEST(MotionFigures, BoundsNoticeTheirWrongMotion) {
     for (const MotionFigure& figure : motion.figures) {
       if (!figure.is_bound) continue;
       const double value = figure.of(motion.scene, wrong_motion(motion.scene, figure.wrong));
-      EXPECT_FALSE(figure.departure(value, 0.0) <= figure.allowed)
+      EXPECT_FALSE(figure.deviation(value, 0.0) <= figure.allowed)
           << motion.scene.name << ": " << figure.name << " " << value;
     }
   }

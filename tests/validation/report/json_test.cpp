@@ -94,7 +94,7 @@ TEST(Json, CountsWhatTheVerdictLineSays) {
       1);
 }
 
-TEST(Json, HoldsSectionsDeparturesLimitsAndProvenance) {
+TEST(Json, HoldsSectionsDeviationsLimitsAndProvenance) {
   const Report report = tests::sample_report();
   const json read = json::parse(to_json(report));
   const json& drape = read["sections"][2];
@@ -104,7 +104,7 @@ TEST(Json, HoldsSectionsDeparturesLimitsAndProvenance) {
   EXPECT_EQ(picture["base64"], to_base64(report.sections[2].picture_rows[1].pictures[2].image));
   EXPECT_EQ(picture["mime"], "image/png");
   EXPECT_EQ(picture["file"], "pictures/3-drape_sphere/2-3-bullet_forces_float32.png");
-  EXPECT_EQ(read["departures"][0]["reason"], report.departures[0].reason);
+  EXPECT_EQ(read["departures"][0]["reason"], report.deviations[0].reason);
   EXPECT_EQ(read["limits"], json(report.limits));
   EXPECT_EQ(read["provenance"][1]["name"], report.provenance[1].first);
   EXPECT_EQ(read["provenance"][1]["value"], report.provenance[1].second);

@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
     const std::filesystem::path folder = argv[1];
     weft::validation::write_report(weft::tests::sample_report(), folder / "failing");
     weft::validation::write_report(weft::tests::passing_report(), folder / "passing");
-    weft::validation::write_report(weft::tests::departing_report(), folder / "departures");
+    weft::validation::write_report(weft::tests::deviating_report(), folder / "deviations");
     weft::validation::Report empty;
     empty.title = "Empty";
     weft::validation::write_report(empty, folder / "empty");

@@ -128,7 +128,7 @@ const tests = {
   },
 
   async "known departures are failures that are told apart, grouped by cause"() {
-    const { page, complaints } = await open("departures");
+    const { page, complaints } = await open("deviations");
     assert.equal(await page.textContent("#verdict"), "PASS");
     assert.match(await page.textContent(".sentence"), /1 checks? holds?, 2 of 3 checks fail as known departures/);
     assert.equal(await page.locator(".failures").count(), 0);
@@ -143,7 +143,7 @@ const tests = {
   },
 
   async "the first screen has a row of pictures and a line for each engine, the fast solver first"() {
-    const { page } = await open("departures");
+    const { page } = await open("deviations");
     const lines = await page.locator(".engines li").allTextContents();
     assert.equal(lines.length, 2);
     assert.match(lines[0], /✗ fail.*bullet_weft.*0 of 2 checks pass; 2 fail as known departures of 1 cause/);
@@ -157,7 +157,7 @@ const tests = {
   },
 
   async "an error stands beside its value and the expected one"() {
-    const { page } = await open("departures");
+    const { page } = await open("deviations");
     assert.match(await page.textContent(".checks tbody tr >> nth=0"), /H \/ W 0\.585, expected 0\.5862/);
   },
 

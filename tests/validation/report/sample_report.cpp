@@ -84,7 +84,7 @@ void add_drape_checks(Report& report) {
             Tolerance{1e-2, Basis::kModelGap, "collision margin of the engine"}));
   CheckResult gap = check("drape_sphere", kEngines[0], "Shape against the reference",
                           "RMS node distance / cloth size", "1", 0.041, std::nullopt);
-  gap.note = "Two models that differ on purpose; see Known departures.";
+  gap.note = "Two models that differ on purpose; see Known deviations.";
   report.checks.push_back(gap);
   report.checks.push_back(check("drape_sphere", kEngines[1], "Step time", "median over 600 steps",
                                 "ms", 2.31, std::nullopt));
@@ -202,7 +202,7 @@ Report make_report() {
        ""},
       {"hang", "A chain of 40 nodes hangs from both ends.", {}, {energy_plot()}, {}, ""},
       drape_section()};
-  report.departures = {{kEngines[0], "Stiffness depends on iterations and time step",
+  report.deviations = {{kEngines[0], "Stiffness depends on iterations and time step",
                         "RMS 4.1 % of cloth size, drape_sphere at rest",
                         "Position-based links: each iteration removes a share of the stretch, so "
                         "fewer iterations mean softer cloth."},
@@ -235,7 +235,7 @@ Report passing_report() {
   return report;
 }
 
-Report departing_report() {
+Report deviating_report() {
   const std::string cause = "The bending force forgets its step.";
   Report report;
   report.title = "Weft validation report";
@@ -251,12 +251,12 @@ Report departing_report() {
       row.values = {{"H / W", 0.41, 0.5862, "1"}};
       row.verdict = Verdict::kKnown;
       row.cause = cause;
-      report.departures.push_back(
+      report.deviations.push_back(
           {row.engine, "cantilever: a strip hangs", "0.3, allowed 0.01", cause});
     }
     report.checks.push_back(std::move(row));
   }
-  report.departures.push_back(
+  report.deviations.push_back(
       {"bullet_soft float32", "Stiffness", "4.1 %", "Links are projected."});
   Section section{"cantilever", "A heavy strip bends.", {}, {}, {}, ""};
   section.picture_rows = {{"On the way", {{"reference", "t = 1 s", sample_png(0.2)}}},

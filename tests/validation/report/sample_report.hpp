@@ -20,6 +20,6 @@ inline const std::string kHostileText =
 
 /// One that passes because what fails is stated: two checks of bullet_weft with one cause, beside the reference's, and a row of
 /// pictures with both engines.
-[[nodiscard]] validation::Report departing_report();
+[[nodiscard]] validation::Report deviating_report();
 
 }  // namespace weft::tests

@@ -46,13 +46,13 @@ TEST(Text, ARelativeErrorStandsBesideItsValueAndTheExpectedOne) {
   EXPECT_EQ(pair["unit"], "m");
 }
 
-TEST(Text, AKnownDepartureIsShownAsAFailureAndKeepsNoReportFromPassing) {
+TEST(Text, AKnownDeviationIsShownAsAFailureAndKeepsNoReportFromPassing) {
   const Report report = report_of(Verdict::kKnown);
   EXPECT_TRUE(report.passed());
   EXPECT_THAT(to_text(report), HasSubstr("FAIL/known"));
-  EXPECT_THAT(to_text(report), HasSubstr("1 of the checks fail as known departures"));
+  EXPECT_THAT(to_text(report), HasSubstr("1 of the checks fail as known deviations"));
   EXPECT_THAT(to_junit(report),
-              HasSubstr("<skipped message=\"known departure (the solver forgets it)"));
+              HasSubstr("<skipped message=\"known deviation (the solver forgets it)"));
   EXPECT_THAT(to_junit(report), HasSubstr("failures=\"0\" errors=\"0\" skipped=\"1\""));
   const auto json = nlohmann::json::parse(to_json(report));
   EXPECT_EQ(json["checks"][0]["verdict"], "known");
@@ -61,7 +61,7 @@ TEST(Text, AKnownDepartureIsShownAsAFailureAndKeepsNoReportFromPassing) {
   EXPECT_EQ(json["summary"]["checks_failed"], 0);
 }
 
-TEST(Text, AStaleDepartureFailsTheReport) {
+TEST(Text, AStaleDeviationFailsTheReport) {
   const Report report = report_of(Verdict::kStale);
   EXPECT_FALSE(report.passed());
   EXPECT_THAT(to_text(report), HasSubstr("FAIL/stale"));
@@ -69,10 +69,10 @@ TEST(Text, AStaleDepartureFailsTheReport) {
   EXPECT_EQ(nlohmann::json::parse(to_json(report))["summary"]["checks_stale"], 1);
 }
 
-TEST(Text, APassingReportSaysNothingOfDepartures) {
+TEST(Text, APassingReportSaysNothingOfDeviations) {
   const Report report = report_of(Verdict::kPass);
   EXPECT_TRUE(report.passed());
-  EXPECT_THAT(to_text(report), Not(HasSubstr("departure")));
+  EXPECT_THAT(to_text(report), Not(HasSubstr("deviation")));
   EXPECT_THAT(to_text(report), HasSubstr("PASS: 1 checks"));
 }
 

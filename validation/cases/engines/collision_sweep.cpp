@@ -125,11 +125,11 @@ std::string both(const Comparison& of, const History& history) {
          percent(of.distance(history.frames, of.reference(), true));
 }
 
-void add_friction_departures(const Comparison& of, Report& report) {
+void add_friction_deviations(const Comparison& of, Report& report) {
   for (std::size_t e = 0; e < of.engines().size(); ++e) {
     if (!of.row().slides || of.engines()[e].has_coulomb_friction()) continue;
     const Frames& frames = of.histories()[e].frames;
-    report.departures.push_back(
+    report.deviations.push_back(
         {of.engines()[e].title(), fmt::format("collision_sweep: {}", of.row().id),
          fmt::format("RMS {} % of cloth size within 0.5 s, {} % at {:g} s",
                      percent(of.distance(frames, of.reference(), false)),
@@ -138,11 +138,11 @@ void add_friction_departures(const Comparison& of, Report& report) {
   }
 }
 
-/// The largest departure of each engine that takes long steps, over all rows.
-void add_step_departures(const std::map<std::string, std::pair<double, std::string>>& largest,
+/// The largest deviation of each engine that takes long steps, over all rows.
+void add_step_deviations(const std::map<std::string, std::pair<double, std::string>>& largest,
                          Report& report) {
   for (const auto& [engine, found] : largest) {
-    report.departures.push_back({engine, "collision_sweep: in motion, with long steps",
+    report.deviations.push_back({engine, "collision_sweep: in motion, with long steps",
                                  fmt::format("RMS up to {} % of cloth size within 0.5 s ({})",
                                              percent(found.first), found.second),
                                  kLongStepReason});
@@ -251,14 +251,14 @@ void evaluate_collision_sweep(const CaseInfo& info, const CaseOptions& options,
         auto& largest = long_steps[of.engines()[e].title()];
         largest = std::max(largest, {moving, row.id});
       }
-      add_friction_departures(of, report);
+      add_friction_deviations(of, report);
       add_rows(of, distances, own);
       const bool is_one_of_many = nodes != sweep_resolutions(row).back() || row.slides;
       const bool is_shown = options.pictures && (options.recorded || !is_one_of_many);
       if (is_shown) add_pictures(of, pictures);
     }
   }
-  add_step_departures(long_steps, report);
+  add_step_deviations(long_steps, report);
   section.tables.push_back(std::move(distances));
   section.tables.push_back(std::move(own));
   if (!pictures.pictures.empty()) section.picture_rows.push_back(std::move(pictures));

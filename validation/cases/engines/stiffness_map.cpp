@@ -200,7 +200,7 @@ CheckResult independence_check(const CaseInfo& info, const EngineChoice& engine,
   return check;
 }
 
-void add_departure(const std::vector<std::vector<double>>& ratios, Report& report) {
+void add_deviation(const std::vector<std::vector<double>>& ratios, Report& report) {
   double softest = 1e300;
   double stiffest = 0.0;
   for (std::size_t s = 1; s < ratios.size(); ++s) {
@@ -209,7 +209,7 @@ void add_departure(const std::vector<std::vector<double>>& ratios, Report& repor
       stiffest = std::max(stiffest, ratio);
     }
   }
-  report.departures.push_back(
+  report.deviations.push_back(
       {kLinks.title(), "stiffness_map: a spring in a rope of 2, 10 and 30",
        fmt::format("{:.3g} to {:.3g} of the stiffness that was asked for", softest, stiffest),
        "links are projected one after the other: what a chain of them gives depends on iterations "
@@ -250,7 +250,7 @@ void evaluate_stiffness_map(const CaseInfo& info, const CaseOptions& options,
     const bool is_links = engine.engine == kLinks.engine;
     report.checks.push_back(is_links ? single_link_check(info, ratios.front())
                                      : independence_check(info, engine, ratios));
-    if (is_links) add_departure(ratios, report);
+    if (is_links) add_deviation(ratios, report);
   }
   section.tables.push_back(std::move(matrix));
   report.sections.push_back(std::move(section));

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <weft/validation/cases/motion/motion_cases.hpp>
-#include <weft/validation/cases/motion/motion_departures.hpp>
+#include <weft/validation/cases/motion/motion_deviations.hpp>
 #include <weft/validation/cases/scenes/scene_history.hpp>
 #include <weft/validation/motion/motion_figures.hpp>
 #include <weft/validation/motion/motion_scenes.hpp>
@@ -49,10 +49,10 @@ CheckResult check_of(const CaseInfo& info, const MotionScene& motion, const Moti
   check.source = figure.is_bound
                      ? "conservation; drag and contact only take"
                      : fmt::format("bullet_forces float64 in steps of {:.3g} s", motion.exact_step);
-  check.measured = figure.departure(value, right);
+  check.measured = figure.deviation(value, right);
   check.tolerance = tolerance_of(figure);
   const double wrong =
-      figure.departure(figure.of(motion.scene, wrong_motion(motion.scene, figure.wrong)), right);
+      figure.deviation(figure.of(motion.scene, wrong_motion(motion.scene, figure.wrong)), right);
   check.sabotages.push_back(
       {to_string(figure.wrong), wrong, judge(wrong, *check.tolerance) == Verdict::kFail});
   check.note = "motion that the solver loses or makes, or an impulse that only one side gets";
@@ -92,13 +92,13 @@ void evaluate_impacts(const CaseInfo& info, const CaseOptions& options, const En
                                       fmt::format("{:.4g}", right)};
       if (figure.is_bound) {
         CheckResult check = check_of(info, motion, figure, kExact, right, 0.0);
-        judge_departing(check, {}, {}, report);
+        judge_deviating(check, {}, {}, report);
         report.checks.push_back(std::move(check));
       }
       for (const History& history : histories) {
         const double value = figure.of(motion.scene, history.frames);
         CheckResult check = check_of(info, motion, figure, history.engine, value, right);
-        judge_departing(check, motion_departures(), kMotionReason, report);
+        judge_deviating(check, motion_deviations(), kMotionReason, report);
         report.checks.push_back(std::move(check));
         row.push_back(fmt::format("{:.4g}", value));
       }

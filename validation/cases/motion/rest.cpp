@@ -7,7 +7,7 @@
 
 #include <weft/validation/cases/analytic/bending/elastica.hpp>
 #include <weft/validation/cases/motion/motion_cases.hpp>
-#include <weft/validation/cases/motion/motion_departures.hpp>
+#include <weft/validation/cases/motion/motion_deviations.hpp>
 #include <weft/validation/cases/scenes/scene_history.hpp>
 #include <weft/validation/metrics/rest_forces.hpp>
 #include <weft/validation/motion/motion_scenes.hpp>
@@ -92,7 +92,7 @@ void add_check(CheckResult check, Report& report) {
   for (SabotageResult& sabotage : check.sabotages) {
     sabotage.detected = judge(sabotage.measured, *check.tolerance) == Verdict::kFail;
   }
-  judge_departing(check, motion_departures(), kMotionReason, report);
+  judge_deviating(check, motion_deviations(), kMotionReason, report);
   report.checks.push_back(std::move(check));
 }
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include <weft/validation/cases/motion/motion_cases.hpp>
-#include <weft/validation/cases/motion/motion_departures.hpp>
+#include <weft/validation/cases/motion/motion_deviations.hpp>
 #include <weft/validation/cases/scenes/scene_history.hpp>
 #include <weft/validation/motion/motion_scenes.hpp>
 #include <weft/validation/motion/swing.hpp>
@@ -64,7 +64,7 @@ std::array<Figure, 3> figures_of(const Right& right) {
 
 CheckResult check_of(const CaseInfo& info, const Right& right, const Figure& figure,
                      const EngineChoice& engine, const SwingTrack* track, const SwingTrack& still) {
-  const auto departure = [&](double value) {
+  const auto deviation = [&](double value) {
     return std::abs(value / figure.right - figure.middle);
   };
   CheckResult check;
@@ -77,10 +77,10 @@ CheckResult check_of(const CaseInfo& info, const Right& right, const Figure& fig
   check.formula = fmt::format("{:.4g}", figure.right);
   check.source = right.stiffness <= 1e5 ? "the same step with its equations solved"
                                         : "velocity Verlet in short steps";
-  check.measured = track != nullptr ? departure(figure.of(*track)) : std::nan("");
+  check.measured = track != nullptr ? deviation(figure.of(*track)) : std::nan("");
   check.tolerance = Tolerance{figure.gate, Basis::kModelGap,
                               "energy 0.9 to 1.05 of a converged step, time within 10 %"};
-  const double frozen_value = departure(figure.of(still));
+  const double frozen_value = deviation(figure.of(still));
   check.sabotages.push_back({"all stays where it starts", frozen_value,
                              judge(frozen_value, *check.tolerance) == Verdict::kFail});
   check.note = "steps that end before their equations hold";
@@ -128,7 +128,7 @@ void evaluate_swing(const CaseInfo& info, const CaseOptions& options, const Engi
       for (std::size_t e = 0; e < std::size(kSwingJudged); ++e) {
         const SwingTrack* track = tracks[e] ? &*tracks[e] : nullptr;
         CheckResult check = check_of(info, right, figure, kSwingJudged[e], track, still);
-        judge_departing(check, motion_departures(), kMotionReason, report);
+        judge_deviating(check, motion_deviations(), kMotionReason, report);
         report.checks.push_back(std::move(check));
         row.push_back(track != nullptr ? fmt::format("{:.3f}", figure.of(*track) / figure.right)
                                        : "blew up");

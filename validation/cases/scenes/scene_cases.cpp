@@ -115,14 +115,14 @@ CheckResult check_gate(const CaseInfo& info, const SceneGate& gate, const Refere
   return check;
 }
 
-struct KnownDeparture {
+struct KnownDeviation {
   const char* scene;  ///< empty: every scene
   const char* engine;
   const char* what;
   const char* reason;
 };
 
-constexpr KnownDeparture kDepartures[] = {
+constexpr KnownDeviation kDeviations[] = {
     {"", "bullet_soft", "final shape",
      "Bullet's links are projected one after the other: their stiffness follows the map of N/m "
      "exactly for a link on its own, and depends on order, iterations and time step in a mesh"},
@@ -133,21 +133,21 @@ constexpr KnownDeparture kDepartures[] = {
      "on by v^2 / (2 mu g)"},
 };
 
-void add_departures(const CaseInfo& info, const SceneMetrics& metrics,
+void add_deviations(const CaseInfo& info, const SceneMetrics& metrics,
                     const std::vector<History>& histories, Report& report) {
   const Frames& reference = histories.back().frames;
   if (reference.empty()) return;  // the reference itself failed: its checks say so
-  for (const KnownDeparture& departure : kDepartures) {
-    if (*departure.scene != '\0' && info.id != departure.scene) continue;
+  for (const KnownDeviation& deviation : kDeviations) {
+    if (*deviation.scene != '\0' && info.id != deviation.scene) continue;
     for (const History& history : histories) {
-      if (history.engine.engine != departure.engine || history.frames.empty()) continue;
+      if (history.engine.engine != deviation.engine || history.frames.empty()) continue;
       const double end = reference.back().time;
       const double rms =
           metrics.largest(Quantity::kRmsDistance, history.frames, reference, end, end);
-      report.departures.push_back(
-          {history.engine.title(), fmt::format("{}: {}", info.id, departure.what),
+      report.deviations.push_back(
+          {history.engine.title(), fmt::format("{}: {}", info.id, deviation.what),
            fmt::format("RMS {:.2g} % of cloth size at {:.3g} s", 100 * rms, end),
-           departure.reason});
+           deviation.reason});
     }
   }
 }
@@ -194,7 +194,7 @@ void evaluate_scene(const CaseInfo& info, const CaseOptions& options, const Engi
   Table own = truth.own_table(metrics);
   if (!own.rows.empty()) section.tables.push_back(std::move(own));
   report.sections.push_back(std::move(section));
-  add_departures(info, metrics, histories, report);
+  add_deviations(info, metrics, histories, report);
 }
 
 }  // namespace weft::validation

@@ -27,8 +27,8 @@ enum class Verdict {
   kPass,
   kFail,
   kInfo,  ///< measured and shown, not gated
-  kKnown,  ///< fails, and is stated as a known departure: shown as a failure, keeps no report from passing
-  kStale,  ///< stated as a known departure that does not occur any more, or is another one: fails
+  kKnown,  ///< fails, and is stated as a known deviation: shown as a failure, keeps no report from passing
+  kStale,  ///< stated as a known deviation that does not occur any more, or is another one: fails
 };
 
 /// measured <= tolerance; a measured value that is not a number fails.

@@ -156,11 +156,11 @@ std::string to_json(const Report& report) {
   for (std::size_t i = 0; i < report.sections.size(); ++i) {
     json["sections"].push_back(section_json(report, i));
   }
-  json["departures"] = list(report.departures, [](const Departure& departure) -> Json {
-    return {{"engine", departure.engine},
-            {"what", departure.what},
-            {"measured", departure.measured},
-            {"reason", departure.reason}};
+  json["departures"] = list(report.deviations, [](const Deviation& deviation) -> Json {
+    return {{"engine", deviation.engine},
+            {"what", deviation.what},
+            {"measured", deviation.measured},
+            {"reason", deviation.reason}};
   });
   json["limits"] = report.limits;
   json["provenance"] = list(report.provenance, [](const auto& entry) -> Json {

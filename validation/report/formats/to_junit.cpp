@@ -72,8 +72,8 @@ std::string check_xml(const CheckResult& check) {
   const std::string name = fmt::format("{} [{}]", check.claim, check.metric);
   std::string text = comparison(check, check.measured);
   for (const ComparedValue& pair : check.values) text += "; " + to_text(pair);
-  if (check.verdict == Verdict::kKnown) text = "known departure (" + check.cause + "): " + text;
-  if (check.verdict == Verdict::kStale) text = "stale departure (" + check.cause + "): " + text;
+  if (check.verdict == Verdict::kKnown) text = "known deviation (" + check.cause + "): " + text;
+  if (check.verdict == Verdict::kStale) text = "stale deviation (" + check.cause + "): " + text;
   const std::string result = xml_text(text);
   std::string xml = open_test(check, name);
   if (check.verdict == Verdict::kFail || check.verdict == Verdict::kStale) {

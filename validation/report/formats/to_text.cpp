@@ -55,8 +55,8 @@ std::string closing(const Report& report) {
   std::string text = fmt::format("\n{}: {} checks, {} more measured without a bound, {} sabotages",
                                  report.passed() ? "PASS" : "FAIL", num_gated,
                                  report.checks.size() - num_gated, num_sabotages);
-  if (num_known > 0) text += fmt::format("; {} of the checks fail as known departures", num_known);
-  if (num_stale > 0) text += fmt::format("; {} stated departures are stale", num_stale);
+  if (num_known > 0) text += fmt::format("; {} of the checks fail as known deviations", num_known);
+  if (num_stale > 0) text += fmt::format("; {} stated deviations are stale", num_stale);
   return text + "\n";
 }
 

@@ -292,7 +292,7 @@ void evaluate_incline(const CaseInfo& info, const CaseOptions& options, const En
         report);
     section.tables.push_back(table_of(engine, grid));
     if (is_gated(engine)) continue;
-    report.departures.push_back(
+    report.deviations.push_back(
         {engine.title(), "incline: sticking, sliding and creep over 20 x 20 (mu, angle)",
          fmt::format(
              "{} of 400 cells in the wrong class; way of a sliding cloth off by {:.0f} % in the "

@@ -86,7 +86,7 @@ void evaluate_sliding_cloth(const CaseInfo& info, const CaseOptions& options,
             {sabotage.name, measured, judge(measured, tolerance) == Verdict::kFail});
       }
     } else {
-      report.departures.push_back(
+      report.deviations.push_back(
           {engine.title(), "sliding_cloth: stopping distance",
            fmt::format("{:.3g} m off {:.3g} m", check.measured, stopping_distance(scene)),
            "each visit of a sliding contact takes away a fixed share of the sideways motion, not "

@@ -1,11 +1,11 @@
-// What is known to fail, by cause. tools/state_departures.py prints the rows of a report; causes are written by hand.
-// Tested by tests/validation/stated_departures_test.cpp.
-#include <weft/validation/departures/stated_departures.hpp>
+// What is known to fail, by cause. tools/state_deviations.py prints the rows of a report; causes are written by hand.
+// Tested by tests/validation/known_deviations_test.cpp.
+#include <weft/validation/deviations/known_deviations.hpp>
 
 namespace weft::validation {
 namespace {
 
-const StatedDeparture kTurningSprings{
+const KnownDeviation kTurningSprings{
     "bullet_weft",
     "A stiff spring that turns far in a step: period and energy of BDF2 are off by 1.3 to 3 times "
     "what is allowed a second-order method",
@@ -42,7 +42,7 @@ const StatedDeparture kTurningSprings{
          "relative error of the energy left after one period, from 5 of them", 0.0073},
     }};
 
-const StatedDeparture kSinglePrecision{
+const KnownDeviation kSinglePrecision{
     "bullet_forces",
     "In single precision a node cannot move by less than the rounding of its place in a step: a "
     "chain that comes to rest, and a slow swing, stall",
@@ -60,8 +60,8 @@ const StatedDeparture kSinglePrecision{
 
 }  // namespace
 
-std::span<const StatedDeparture> stated_departures() {
-  static const std::vector<StatedDeparture> kTable = {kTurningSprings, kSinglePrecision};
+std::span<const KnownDeviation> known_deviations() {
+  static const std::vector<KnownDeviation> kTable = {kTurningSprings, kSinglePrecision};
   return kTable;
 }
 

@@ -4,13 +4,13 @@
 
 #include <span>
 
-#include <weft/validation/cases/support/stated_departure.hpp>
+#include <weft/validation/cases/support/known_deviation.hpp>
 
 namespace weft::validation {
 
 /// Kndiscretization errors of the fast solver in motion, in contact and at rest (swing, impacts, rest), each with its figure. A row that
 /// no longer holds fails its check and must be taken out.
-[[nodiscard]] std::span<const MotionDeparture> motion_departures();
+[[nodiscard]] std::span<const MotionDeviation> motion_deviations();
 
 inline constexpr const char* kMotionReason =
     "waves that an impact sends into the cloth are shorter than a substep, and the energy of a "

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Prints the failed checks of a report.json as rows of validation/departures/departure_table.cpp.
+"""Prints the failed checks of a report.json as rows of validation/deviations/deviation_table.cpp.
 
 A row belongs under the cause that explains it, which only a person can tell: the rows come by engine and case.
 
-    tools/state_departures.py weft-report/report.json
+    tools/state_deviations.py weft-report/report.json
 """
 
 import json

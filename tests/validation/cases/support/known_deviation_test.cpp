@@ -1,4 +1,4 @@
-#include <weft/validation/cases/support/stated_departure.hpp>
+#include <weft/validation/cases/support/known_deviation.hpp>
 
 #include <limits>
 
@@ -10,7 +10,7 @@ namespace weft::validation {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr MotionDeparture kRows[] = {{"swing", "bullet_weft float32", "energy", 0.5},
+constexpr MotionDeviation kRows[] = {{"swing", "bullet_weft float32", "energy", 0.5},
                                      {"swing", "bullet_weft float32", "turn", kNaN}};
 
 CheckResult check_of(const std::string& metric, double measured) {
@@ -23,57 +23,57 @@ CheckResult check_of(const std::string& metric, double measured) {
   return check;
 }
 
-TEST(MotionDeparture, ChecksWithoutARowAreJudgedAsAlways) {
+TEST(MotionDeviation, ChecksWithoutARowAreJudgedAsAlways) {
   Report report;
   CheckResult good = check_of("other", 0.05);
-  judge_departing(good, kRows, "why", report);
+  judge_deviating(good, kRows, "why", report);
   EXPECT_EQ(good.verdict, Verdict::kPass);
   CheckResult bad = check_of("other", 0.5);
-  judge_departing(bad, kRows, "why", report);
+  judge_deviating(bad, kRows, "why", report);
   EXPECT_EQ(bad.verdict, Verdict::kFail);
-  EXPECT_TRUE(report.departures.empty());
+  EXPECT_TRUE(report.deviations.empty());
 }
 
-TEST(MotionDeparture, AKnownOneIsShownAndDoesNotFail) {
+TEST(MotionDeviation, AKnownOneIsShownAndDoesNotFail) {
   Report report;
   CheckResult check = check_of("energy", 0.6);
-  judge_departing(check, kRows, "why", report);
+  judge_deviating(check, kRows, "why", report);
   EXPECT_EQ(check.verdict, Verdict::kInfo);
-  ASSERT_EQ(report.departures.size(), 1U);
-  EXPECT_EQ(report.departures[0].reason, "why");
-  EXPECT_NE(report.departures[0].measured.find("0.6"), std::string::npos);
+  ASSERT_EQ(report.deviations.size(), 1U);
+  EXPECT_EQ(report.deviations[0].reason, "why");
+  EXPECT_NE(report.deviations[0].measured.find("0.6"), std::string::npos);
 }
 
-TEST(MotionDeparture, OneThatNoLongerOccursIsStaleAndFails) {
+TEST(MotionDeviation, OneThatNoLongerOccursIsStaleAndFails) {
   Report report;
   CheckResult check = check_of("energy", 0.05);
-  judge_departing(check, kRows, "why", report);
+  judge_deviating(check, kRows, "why", report);
   EXPECT_EQ(check.verdict, Verdict::kFail);
   EXPECT_NE(check.note.find("stale"), std::string::npos);
 }
 
-TEST(MotionDeparture, OneThatHasGrownFails) {
+TEST(MotionDeviation, OneThatHasGrownFails) {
   Report report;
   for (const double measured : {5.1, kNaN}) {
     CheckResult check = check_of("energy", measured);
-    judge_departing(check, kRows, "why", report);
+    judge_deviating(check, kRows, "why", report);
     EXPECT_EQ(check.verdict, Verdict::kFail) << measured;
   }
-  EXPECT_TRUE(report.departures.empty());
+  EXPECT_TRUE(report.deviations.empty());
 }
 
-TEST(MotionDeparture, ABlowUpMayBeStated) {
+TEST(MotionDeviation, ABlowUpMayBeStated) {
   Report report;
   CheckResult check = check_of("turn", kNaN);
-  judge_departing(check, kRows, "why", report);
+  judge_deviating(check, kRows, "why", report);
   EXPECT_EQ(check.verdict, Verdict::kInfo);
 }
 
-TEST(MotionDeparture, NeedsATolerance) {
+TEST(MotionDeviation, NeedsATolerance) {
   Report report;
   CheckResult check = check_of("energy", 0.6);
   check.tolerance.reset();
-  EXPECT_THROW(judge_departing(check, kRows, "why", report), InvalidArgument);
+  EXPECT_THROW(judge_deviating(check, kRows, "why", report), InvalidArgument);
 }
 
 }  // namespace

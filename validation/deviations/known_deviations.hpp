@@ -1,6 +1,6 @@
 #pragma once
 
-// Tested by tests/validation/stated_departures_test.cpp.
+// Tested by tests/validation/known_deviations_test.cpp.
 
 #include <span>
 #include <string_view>
@@ -21,7 +21,7 @@ struct StatedFailure {
 };
 
 /// Failures that have one cause.
-struct StatedDeparture {
+struct KnownDeviation {
   std::string_view engine;  ///< the program: "bullet_weft"
   std::string_view cause;   ///< one sentence, what is wrong and where
   std::vector<StatedFailure> failures;
@@ -30,13 +30,13 @@ struct StatedDeparture {
 /// A check that fails by more than so many times what was stated is another failure.
 inline constexpr double kStatedGrowth = 1.5;
 
-/// The table (departure_table.cpp). A row goes when its check passes, not before.
-[[nodiscard]] std::span<const StatedDeparture> stated_departures();
+/// The table (deviation_table.cpp). A row goes when its check passes, not before.
+[[nodiscard]] std::span<const KnownDeviation> known_deviations();
 
-/// Marks the checks of a report that fail as stated (kKnown) and lists them among its departures; those that are stated and pass
+/// Marks the checks of a report that fail as stated (kKnown) and lists them among its deviations; those that are stated and pass
 /// become kStale, and so does a row for every stated check of the cases that were judged whole, if there is no such check.
 /// One that fails by more than kStatedGrowth times what was stated still fails (kFail).
-void apply_departures(std::span<const StatedDeparture> stated,
+void apply_deviations(std::span<const KnownDeviation> stated,
                       const std::vector<std::string_view>& whole_cases, Report& report);
 
 }  // namespace weft::validation

@@ -1,4 +1,4 @@
-#include <weft/validation/departures/stated_departures.hpp>
+#include <weft/validation/deviations/known_deviations.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -29,23 +29,23 @@ std::string size_of(const CheckResult& check) {
   return text;
 }
 
-void apply(const StatedDeparture& departure, const StatedFailure& failure, CheckResult& check,
+void apply(const KnownDeviation& deviation, const StatedFailure& failure, CheckResult& check,
            Report& report) {
-  check.cause = departure.cause;
+  check.cause = deviation.cause;
   if (check.verdict == Verdict::kPass) {
     check.verdict = Verdict::kStale;
-    check.note = "holds, and is stated to fail: take its row out of departure_table.cpp";
+    check.note = "holds, and is stated to fail: take its row out of deviation_table.cpp";
   } else if (check.verdict == Verdict::kFail && is_as_stated(failure, check)) {
     check.verdict = Verdict::kKnown;
-    report.departures.push_back({check.engine, fmt::format("{}: {}", check.case_id, check.claim),
-                                 size_of(check), std::string(departure.cause)});
+    report.deviations.push_back({check.engine, fmt::format("{}: {}", check.case_id, check.claim),
+                                 size_of(check), std::string(deviation.cause)});
   } else if (check.verdict == Verdict::kFail) {
     check.note = fmt::format("stated to fail by {:.3g}, which it exceeds by more than {} times; {}",
                              failure.measured, kStatedGrowth, check.note);
   }
 }
 
-CheckResult missing(const StatedDeparture& departure, const StatedFailure& failure) {
+CheckResult missing(const KnownDeviation& deviation, const StatedFailure& failure) {
   CheckResult check;
   check.case_id = failure.case_id;
   check.engine = failure.engine;
@@ -54,25 +54,25 @@ CheckResult missing(const StatedDeparture& departure, const StatedFailure& failu
   check.unit = "1";
   check.measured = failure.measured;
   check.verdict = Verdict::kStale;
-  check.cause = departure.cause;
-  check.note = "is stated to fail, and there is no such check: mend its row in departure_table.cpp";
+  check.cause = deviation.cause;
+  check.note = "is stated to fail, and there is no such check: mend its row in deviation_table.cpp";
   return check;
 }
 
 }  // namespace
 
-void apply_departures(std::span<const StatedDeparture> stated,
+void apply_deviations(std::span<const KnownDeviation> stated,
                       const std::vector<std::string_view>& whole_cases, Report& report) {
-  for (const StatedDeparture& departure : stated) {
-    for (const StatedFailure& failure : departure.failures) {
+  for (const KnownDeviation& deviation : stated) {
+    for (const StatedFailure& failure : deviation.failures) {
       const auto found =
           std::find_if(report.checks.begin(), report.checks.end(),
                        [&](const CheckResult& check) { return is_check(failure, check); });
       if (found != report.checks.end()) {
-        apply(departure, failure, *found, report);
+        apply(deviation, failure, *found, report);
       } else if (std::find(whole_cases.begin(), whole_cases.end(), failure.case_id) !=
                  whole_cases.end()) {
-        report.checks.push_back(missing(departure, failure));
+        report.checks.push_back(missing(deviation, failure));
       }
     }
   }
