@@ -13,7 +13,7 @@ enum class IntegratorKind {
   kYoshida4,          ///< order 4, symplectic: long undamped runs without drift
   kDormandPrince5,    ///< order 5 with error control: as many steps within a step as it needs
   kImplicitEuler,     ///< order 1, damps all that it does not resolve
-  kTrBdf2,            ///< order 2, L-stable: the implicit truth with damping
+  kTrBdf2,            ///< order 2, L-stable: the implicit reference solution with damping
   kImplicitMidpoint,  ///< order 2, symplectic, keeps the energy of a linear system
   kGeneralizedAlpha,  ///< order 2, damps high frequencies as chosen (Chung and Hulbert 1993)
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-// Tested by tests/validation/cases/scenes/scene_gates_test.cpp, tests/validation/cases/support/parameters_test.cpp.
+// Tested by tests/validation/cases/scenes/scene_bounds_test.cpp, tests/validation/cases/support/parameters_test.cpp.
 
 #include <span>
 

@@ -102,10 +102,10 @@ TEST(TheoryScenes, HaveUniqueClaimsFramesForEveryStepAndSabotages) {
       for (const int steps : kTheoryStepsPerSecond) {
         EXPECT_NEAR(world.duration * steps, std::round(world.duration * steps), 1e-6);
       }
-      EXPECT_FALSE(theory.gates.empty());
-      for (const TheoryGate& gate : theory.gates) {
-        EXPECT_TRUE(claims.insert(gate.claim).second) << gate.claim;
-        EXPECT_FALSE(gate.sabotages.empty()) << gate.claim;
+      EXPECT_FALSE(theory.bounds.empty());
+      for (const TheoryBound& bound : theory.bounds) {
+        EXPECT_TRUE(claims.insert(bound.claim).second) << bound.claim;
+        EXPECT_FALSE(bound.sabotages.empty()) << bound.claim;
       }
       // The scene is one that its own reader takes.
       EXPECT_NO_THROW(
@@ -129,15 +129,15 @@ TEST(TheoryRuns, JudgeTheFastSolverInBothPrecisionsAtEveryStep) {
   EXPECT_EQ(theory_engines(true, "bullet_forces").size(), 2U);
 }
 
-TheoryGate gate_of_half() {
-  TheoryGate gate;
-  gate.claim = "it ends at 2";
-  gate.values = [](const Frames& frames) -> std::vector<ComparedValue> {
+TheoryBound gate_of_half() {
+  TheoryBound bound;
+  bound.claim = "it ends at 2";
+  bound.values = [](const Frames& frames) -> std::vector<ComparedValue> {
     return {{"end", frames.back().time, 2.0, "s"}};
   };
-  gate.tolerance = [](double h) { return Tolerance{h, Basis::kTruncation, "a step"}; };
-  gate.sabotages = {Sabotage{"something"}};
-  return gate;
+  bound.tolerance = [](double h) { return Tolerance{h, Basis::kTruncation, "a step"}; };
+  bound.sabotages = {Sabotage{"something"}};
+  return bound;
 }
 
 Frames frames_until(double time) {
@@ -147,23 +147,23 @@ Frames frames_until(double time) {
 }
 
 TEST(TheoryRuns, ANumberIsHeldAgainstTheTheoryWithTheBoundOfTheStep) {
-  const TheoryGate gate = gate_of_half();
-  const CheckResult good = judge_gate(gate, 0.1, true, frames_until(2.1), {frames_until(3)});
+  const TheoryBound bound = gate_of_half();
+  const CheckResult good = judge_bound(bound, 0.1, true, frames_until(2.1), {frames_until(3)});
   EXPECT_EQ(good.verdict, Verdict::kPass);
   EXPECT_NEAR(good.measured, 0.05, 1e-12);
   EXPECT_EQ(good.values[0].expected, 2.0);
   EXPECT_TRUE(good.sabotages[0].detected);
-  EXPECT_EQ(judge_gate(gate, 0.01, true, frames_until(2.1), {frames_until(3)}).verdict,
+  EXPECT_EQ(judge_bound(bound, 0.01, true, frames_until(2.1), {frames_until(3)}).verdict,
             Verdict::kFail);
 }
 
 TEST(TheoryRuns, ARunThatBlewUpFailsAndASabotageThatDidIsNoProof) {
-  const TheoryGate gate = gate_of_half();
-  EXPECT_EQ(judge_gate(gate, 0.1, false, frames_until(2.0), {frames_until(3)}).verdict,
+  const TheoryBound bound = gate_of_half();
+  EXPECT_EQ(judge_bound(bound, 0.1, false, frames_until(2.0), {frames_until(3)}).verdict,
             Verdict::kFail);
   const double none = std::nan("");
   EXPECT_FALSE(
-      judge_gate(gate, 0.1, true, frames_until(2.0), {frames_until(none)}).sabotages[0].detected);
+      judge_bound(bound, 0.1, true, frames_until(2.0), {frames_until(none)}).sabotages[0].detected);
 }
 
 std::string refusal(const std::string& id, const CaseValues& values, const std::string& engine) {

@@ -30,27 +30,27 @@ std::array<double, 2> tip_of(const Frames& frames, const ClothGrid& grid) {
   return {drop / grid.nodes[1], reach / grid.nodes[1]};
 }
 
-TheoryGate elastica_gate(const std::string& what, double gamma, double length,
-                         const ClothGrid& grid, int cells) {
+TheoryBound elastica_bound(const std::string& what, double gamma, double length,
+                           const ClothGrid& grid, int cells) {
   const HeavyElastica exact = solve_heavy_elastica(gamma);
-  TheoryGate gate;
-  gate.claim = fmt::format("in the engine: {} hangs as the elastica", what);
-  gate.metric = fmt::format("relative error of H / W, Gamma = {:.4g}, N = {}", gamma, cells);
-  gate.formula = "theta'' + Gamma (1 - s) cos(theta) = 0, theta(0) = 0, theta'(1) = 0";
-  gate.source = "heavy elastica, solved on the spot";
-  gate.values = [=](const Frames& frames) -> std::vector<ComparedValue> {
+  TheoryBound bound;
+  bound.claim = fmt::format("in the engine: {} hangs as the elastica", what);
+  bound.metric = fmt::format("relative error of H / W, Gamma = {:.4g}, N = {}", gamma, cells);
+  bound.formula = "theta'' + Gamma (1 - s) cos(theta) = 0, theta(0) = 0, theta'(1) = 0";
+  bound.source = "heavy elastica, solved on the spot";
+  bound.values = [=](const Frames& frames) -> std::vector<ComparedValue> {
     const auto [drop, reach] = tip_of(frames, grid);
     return {{"H / W", drop / reach, exact.drop / exact.reach, "1"},
             {"drop of the tip", drop, exact.drop * length, "m"}};
   };
-  gate.tolerance = [gamma, cells](double) {
+  bound.tolerance = [gamma, cells](double) {
     const double enough = std::max(40.0, std::ceil(4 * std::sqrt(gamma)));
     return Tolerance{0.01 * std::max(1.0, std::pow(enough / cells, 2)), Basis::kTruncation,
                      "1 % with cells enough for the layer of bending at the clamp, second order in "
                      "the cells; no step has a say in an equilibrium"};
   };
-  gate.sabotages = {law_scaled("rigidity +50 %", "hinge_torsion", "rigidity", 1.5)};
-  return gate;
+  bound.sabotages = {law_scaled("rigidity +50 %", "hinge_torsion", "rigidity", 1.5)};
+  return bound;
 }
 
 }  // namespace
@@ -108,7 +108,7 @@ TheoryScene strip_scene(const std::string& id, const std::string& what, StripSce
   const scenes::World world = theory_world(30 / strip.rate + 0.5, strip_step(strip), 3);
   return {id,
           theory_scene("strip", world, strip_cloth(strip), true),
-          {elastica_gate(what, gamma, strip.length, strip_grid(strip), strip.cells)}};
+          {elastica_bound(what, gamma, strip.length, strip_grid(strip), strip.cells)}};
 }
 
 }  // namespace
@@ -135,7 +135,7 @@ std::vector<TheoryScene> cantilever_scenes(const CaseInfo& info, const CaseOptio
   std::vector<TheoryScene> list{
       {"heavy_strip",
        heavy,
-       {elastica_gate("the catalog's heavy_strip", 5.0, 0.2, grid, grid.nodes[0] - 2)}}};
+       {elastica_bound("the catalog's heavy_strip", 5.0, 0.2, grid, grid.nodes[0] - 2)}}};
   // 16 cells as in the catalog: 2.5 of the tolerance that 40 have is what second order leaves.
   list.push_back(of(1.0, 20));
   list.push_back(of(30.0, 20));

@@ -57,23 +57,23 @@ std::vector<TheoryScene> incline_scenes(const CaseInfo&, const CaseOptions&) {
     const double angle = degrees * std::numbers::pi / 180;
     const double acceleration = kTheoryGravity * (std::sin(angle) - kFriction * std::cos(angle));
     const double exact = acceleration * kTime * kTime / 2;
-    TheoryGate gate;
-    gate.claim =
+    TheoryBound bound;
+    bound.claim =
         fmt::format("in the engine: a cloth slides down {} degrees, mu = {}", degrees, kFriction);
-    gate.metric = "relative error of its way in 0.5 s";
-    gate.formula = "g (sin(angle) - mu cos(angle)) t^2 / 2";
-    gate.source = "Coulomb friction of a body that moves as a whole";
-    gate.values = [exact](const Frames& frames) -> std::vector<ComparedValue> {
+    bound.metric = "relative error of its way in 0.5 s";
+    bound.formula = "g (sin(angle) - mu cos(angle)) t^2 / 2";
+    bound.source = "Coulomb friction of a body that moves as a whole";
+    bound.values = [exact](const Frames& frames) -> std::vector<ComparedValue> {
       return {{"way", way_of(frames), exact, "m"}};
     };
-    gate.tolerance = [](double h) {
+    bound.tolerance = [](double h) {
       return Tolerance{h / kTime + 0.01, Basis::kTruncation,
                        "a sum over steps misses the integral by h / t; 1 % for what single "
                        "precision rounds and the first contact takes"};
     };
-    gate.sabotages = {friction_scaled(2.0)};
+    bound.sabotages = {friction_scaled(2.0)};
     list.push_back(
-        {fmt::format("slope_{:.0f}", degrees), flat_scene(angle, kFriction, kTime), {gate}});
+        {fmt::format("slope_{:.0f}", degrees), flat_scene(angle, kFriction, kTime), {bound}});
   }
   return list;
 }
@@ -82,22 +82,22 @@ std::vector<TheoryScene> stopping_scenes(const CaseInfo&, const CaseOptions&) {
   constexpr double kSpeed = 2.0;     // [m/s]
   constexpr double kFriction = 0.3;  // [-]
   const double exact = kSpeed * kSpeed / (2 * kFriction * kTheoryGravity);
-  TheoryGate gate;
-  gate.claim = "in the engine: a cloth thrown along the ground at 2 m/s stops";
-  gate.metric = "relative error of its way, at 1.5 s";
-  gate.formula = "v^2 / (2 mu g)";
-  gate.source = "Coulomb friction of a body that moves as a whole";
-  gate.values = [exact](const Frames& frames) -> std::vector<ComparedValue> {
+  TheoryBound bound;
+  bound.claim = "in the engine: a cloth thrown along the ground at 2 m/s stops";
+  bound.metric = "relative error of its way, at 1.5 s";
+  bound.formula = "v^2 / (2 mu g)";
+  bound.source = "Coulomb friction of a body that moves as a whole";
+  bound.values = [exact](const Frames& frames) -> std::vector<ComparedValue> {
     return {{"way", way_of(frames), exact, "m"}};
   };
-  gate.tolerance = [exact](double h) {
+  bound.tolerance = [exact](double h) {
     return Tolerance{kSpeed * h / exact + 0.005, Basis::kTruncation,
                      "v h: a sum over steps misses the integral by half of that"};
   };
-  gate.sabotages = {friction_scaled(1.3), friction_removed()};
+  bound.sabotages = {friction_scaled(1.3), friction_removed()};
   scenes::Scene scene = flat_scene(0.0, kFriction, 1.5);
   scene.cloths[0].velocity = {kSpeed, 0, 0};
-  return {{"thrown", scene, {gate}}};
+  return {{"thrown", scene, {bound}}};
 }
 
 }  // namespace weft::validation

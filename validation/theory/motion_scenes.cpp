@@ -64,7 +64,7 @@ struct Swing {
 };
 
 /// Frequency, and energy left after a period.
-std::vector<TheoryGate> swing_gates(const Swing& swing) {
+std::vector<TheoryBound> swing_bounds(const Swing& swing) {
   const auto fit = [swing](const Frames& frames) {
     const std::vector<double> values = samples(frames, swing.begin, swing.amplitude);
     const double interval = frames.size() > 1 ? frames[1].time - frames[0].time : 1.0;
@@ -72,7 +72,7 @@ std::vector<TheoryGate> swing_gates(const Swing& swing) {
   };
   const double period = 2 * std::numbers::pi / swing.omega;
   const double left = std::exp(-2 * swing.decay * period);
-  TheoryGate frequency;
+  TheoryBound frequency;
   frequency.claim = fmt::format("in the engine: {} has its frequency", swing.what);
   frequency.metric = "relative error of its frequency";
   frequency.formula = swing.formula;
@@ -82,7 +82,7 @@ std::vector<TheoryGate> swing_gates(const Swing& swing) {
   };
   frequency.tolerance = [=](double h) { return period_tolerance(swing.omega, h, swing.rest); };
   frequency.sabotages = {swing.other_frequency};
-  TheoryGate energy;
+  TheoryBound energy;
   energy.claim = fmt::format("in the engine: {} keeps its energy", swing.what);
   energy.metric = "relative error of the energy left after one period";
   energy.formula = swing.decay > 0 ? "e^(-2 delta T)" : "1";
@@ -126,7 +126,7 @@ TheoryScene oscillator_scene(double mass, double stiffness, double damping, doub
   const scenes::World world =
       theory_world(8 * 2 * std::numbers::pi / swing.omega, 0.05 / natural, 1);
   return {decay > 0 ? "damped" : "free", theory_scene("oscillator", world, cloth, false),
-          swing_gates(swing)};
+          swing_bounds(swing)};
 }
 
 /// Period over that of a small swing, by the arithmetic-geometric mean.
@@ -162,7 +162,7 @@ TheoryScene pendulum_scene(double degrees) {
   constexpr int kPeriods = 5;
   const scenes::World world = theory_world((kPeriods + 0.9) * period, 1.0 / 2000, 1);
   const std::string what = fmt::format("a stiff pendulum, amplitude {:.4g} degrees,", degrees);
-  TheoryGate time;
+  TheoryBound time;
   time.claim = fmt::format("in the engine: {} has its period", what);
   time.metric = "relative error of its period";
   time.formula = "T = 2 pi sqrt(l / g) / agm(1, cos(amplitude / 2))";
@@ -175,7 +175,7 @@ TheoryScene pendulum_scene(double degrees) {
   };
   time.tolerance = [=](double h) { return period_tolerance(omega, h, rest); };
   time.sabotages = {law_scaled("gravity +20 %", "gravity", "acceleration", 1.2)};
-  TheoryGate energy;
+  TheoryBound energy;
   energy.claim = fmt::format("in the engine: {} keeps its energy", what);
   energy.metric =
       fmt::format("relative error of the energy left after one period, from {} of them", kPeriods);
@@ -256,7 +256,7 @@ TheoryScene hanging_string_scene(int beads) {
   swing.other_frequency = law_scaled("gravity +20 %", "gravity", "acceleration", 1.2);
   const scenes::World world = theory_world(5 * 2 * std::numbers::pi / swing.omega, 1.0 / 3000, 1);
   return {fmt::format("beads_{}", beads), theory_scene("beads", world, rope_cloth(parts), true),
-          swing_gates(swing)};
+          swing_bounds(swing)};
 }
 
 constexpr double kMotionScenesStrain =
@@ -298,7 +298,7 @@ TheoryScene string_scene(int masses) {
   const scenes::World world = theory_world(swing.begin + 5 * 2 * std::numbers::pi / swing.omega,
                                            0.25 / std::sqrt(kStiffness / kMass), 1);
   return {fmt::format("string_{}", masses), theory_scene("string", world, cloth, false),
-          swing_gates(swing)};
+          swing_bounds(swing)};
 }
 
 /// A square net whose rim is drawn apart at the start, and that then vibrates across itself.
@@ -354,7 +354,7 @@ TheoryScene membrane_scene(int cells) {
   const scenes::World world =
       theory_world(swing.begin + 5 * 2 * std::numbers::pi / swing.omega, 1.0 / 600, 1);
   return {fmt::format("membrane_{}", cells), theory_scene("membrane", world, cloth, false),
-          swing_gates(swing)};
+          swing_bounds(swing)};
 }
 
 /// A clamped strip that nothing pulls, in its first mode.
@@ -389,7 +389,7 @@ TheoryScene beam_scene(int cells) {
   const scenes::World world =
       theory_world(6 * 2 * std::numbers::pi / swing.omega, strip_step(strip), 1);
   return {fmt::format("beam_{}", cells), theory_scene("beam", world, cloth, false),
-          swing_gates(swing)};
+          swing_bounds(swing)};
 }
 
 /// A cloth thrown upwards: with gravity its mean height, without its mean velocity.
@@ -410,7 +410,7 @@ TheoryScene flight_scene(bool has_gravity) {
   const double height = kSpeed * kTime - 0.5 * pull * kTime * kTime;
   const double speed = kSpeed - pull * kTime;
   const VectorX<double> masses = make_cloth_grid(grid).masses;
-  TheoryGate way;
+  TheoryBound way;
   way.claim = has_gravity ? "in the engine: a cloth thrown up at 5 m/s rises as a stone does"
                           : "in the engine: a cloth thrown at 5 m/s flies on at 5 m/s";
   way.metric = "relative error of the way of its centre of mass in 0.5 s";

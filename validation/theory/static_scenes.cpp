@@ -32,24 +32,24 @@ TheoryScene chain_scene(int masses, double mass, double stiffness) {
   // At the end the slowest mode has decayed by exp(-25).
   const scenes::World world = theory_world(25 / slowest, 0.1 / rate, 3);
   const double exact = mass * kTheoryGravity * masses * (masses + 1) / (2 * stiffness);
-  TheoryGate gate;
-  gate.claim = fmt::format("in the engine: a chain of {} masses hangs as theory says", masses);
-  gate.metric = "relative error of the tip's drop";
-  gate.formula = "m g N (N + 1) / (2 k)";
-  gate.source = "statics of a hanging chain of springs";
-  gate.values = [=](const Frames& frames) -> std::vector<ComparedValue> {
+  TheoryBound bound;
+  bound.claim = fmt::format("in the engine: a chain of {} masses hangs as theory says", masses);
+  bound.metric = "relative error of the tip's drop";
+  bound.formula = "m g N (N + 1) / (2 k)";
+  bound.source = "statics of a hanging chain of springs";
+  bound.values = [=](const Frames& frames) -> std::vector<ComparedValue> {
     const double drop = -kSpacing * masses - frames.back().cloths[0].positions(1, masses);
     return {{"drop of the tip", drop, exact, "m"}};
   };
-  gate.tolerance = [](double) {
+  bound.tolerance = [](double) {
     return Tolerance{1e-3, Basis::kRoundoff,
                      "no step has a say in an equilibrium; single precision rounds a place as far "
                      "down as the tip to 1e-5 of its drop, and iterations leave a rest"};
   };
-  gate.sabotages = {stiffness_scaled(1.01)};
+  bound.sabotages = {stiffness_scaled(1.01)};
   return {fmt::format("chain_{}", masses),
           theory_scene("chain", world, rope_cloth(parts), true),
-          {gate}};
+          {bound}};
 }
 
 /// A cable of length times the span of 1 m, led to it from the straight line.
@@ -77,25 +77,25 @@ TheoryScene catenary_scene(const Cable& cable) {
   }
   const double fastest = 2 * std::sqrt(parts.stiffness / parts.node_mass);
   const scenes::World world = theory_world(kLeadTime + 25 / slowest, 0.8 / fastest, 3);
-  TheoryGate gate;
-  gate.claim = fmt::format("in the engine: a chain of {} d, EA = {} w d, hangs as the catenary",
-                           cable.length, cable.stiffness);
-  gate.metric = fmt::format("relative error of the sag, N = {}", n);
-  gate.formula = "d = H L0 / EA + (2 H / w) asinh(w L0 / (2 H))";
-  gate.source = "elastic catenary, solved on the spot";
-  gate.values = [=](const Frames& frames) -> std::vector<ComparedValue> {
+  TheoryBound bound;
+  bound.claim = fmt::format("in the engine: a chain of {} d, EA = {} w d, hangs as the catenary",
+                            cable.length, cable.stiffness);
+  bound.metric = fmt::format("relative error of the sag, N = {}", n);
+  bound.formula = "d = H L0 / EA + (2 H / w) asinh(w L0 / (2 H))";
+  bound.source = "elastic catenary, solved on the spot";
+  bound.values = [=](const Frames& frames) -> std::vector<ComparedValue> {
     return {{"sag", -frames.back().cloths[0].positions.row(1).minCoeff(), exact.sag, "m"}};
   };
-  gate.tolerance = [n](double) {
+  bound.tolerance = [n](double) {
     return Tolerance{1e-3 * std::max(1.0, std::pow(100.0 / n, 2)), Basis::kTruncation,
                      "second order in the springs: 1e-3 for 100; no step has a say"};
   };
-  gate.sabotages = {
+  bound.sabotages = {
       law_scaled("gravity +5 % and springs 10 % softer", "tension", "stiffness", 0.8)};
-  gate.sabotages[0].name = "springs 20 % softer";
+  bound.sabotages[0].name = "springs 20 % softer";
   return {fmt::format("cable_{:.0f}_{:.0f}", 100 * cable.length, cable.stiffness),
           theory_scene("cable", world, std::move(cloth), true),
-          {gate}};
+          {bound}};
 }
 
 /// dp R0 / k of a triangular lattice of springs, stretched by 1 + e.
@@ -133,25 +133,25 @@ TheoryScene balloon_scene(double target) {
   cloth.laws = {tension, {"pressure", {}, {{"pressure", {pressure}}}}, velocity_damping_law(kRate)};
   const ClothMesh mesh = make_mesh(cloth);
   const double rest = volume_of(mesh.rest_positions, mesh.triangles);
-  TheoryGate gate;
-  gate.claim = fmt::format("in the engine: a balloon of springs is blown up to e = {}", target);
-  gate.metric = "relative error of its stretch";
-  gate.formula = "p0 R0 / (k (1 + e)^3) = 2 sqrt(3) e / (1 + e)^2, e = (V / V0)^(1/3) - 1";
-  gate.source = "Laplace's law with the tension of a triangular lattice; Boyle's law";
-  gate.values = [=, triangles = Triangles(mesh.triangles)](
-                    const Frames& frames) -> std::vector<ComparedValue> {
+  TheoryBound bound;
+  bound.claim = fmt::format("in the engine: a balloon of springs is blown up to e = {}", target);
+  bound.metric = "relative error of its stretch";
+  bound.formula = "p0 R0 / (k (1 + e)^3) = 2 sqrt(3) e / (1 + e)^2, e = (V / V0)^(1/3) - 1";
+  bound.source = "Laplace's law with the tension of a triangular lattice; Boyle's law";
+  bound.values = [=, triangles = Triangles(mesh.triangles)](
+                     const Frames& frames) -> std::vector<ComparedValue> {
     const double volume = volume_of(frames.back().cloths[0].positions, triangles);
     return {{"stretch e", std::cbrt(volume / rest) - 1, target, "1"}};
   };
-  gate.tolerance = [](double) {
+  bound.tolerance = [](double) {
     return Tolerance{0.01, Basis::kTruncation,
                      "the icosphere of 642 nodes is no lattice of equal triangles: the sum of its "
                      "squared edges is 0.7 % larger; no step has a say"};
   };
-  gate.sabotages = {stiffness_scaled(1.1)};
+  bound.sabotages = {stiffness_scaled(1.1)};
   return {fmt::format("balloon_{:.0f}", 100 * target),
           theory_scene("balloon", theory_world(8.0, 0.01, 6), std::move(cloth), false),
-          {gate}};
+          {bound}};
 }
 
 }  // namespace

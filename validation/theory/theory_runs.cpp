@@ -26,9 +26,9 @@ std::string run_id(const CaseInfo& info, const TheoryScene& theory, const Theory
              : fmt::format("{}_{}", info.id, theory.id);
 }
 
-std::string wrong_id(const CaseInfo& info, const TheoryScene& theory, std::size_t gate,
+std::string wrong_id(const CaseInfo& info, const TheoryScene& theory, std::size_t bound,
                      std::size_t sabotage) {
-  return fmt::format("{}_{}_wrong_{}_{}", info.id, theory.id, gate, sabotage);
+  return fmt::format("{}_{}_wrong_{}_{}", info.id, theory.id, bound, sabotage);
 }
 
 bool is_complete(const History& history, const scenes::Scene& scene) {
@@ -52,9 +52,9 @@ void judge_engine(const CaseInfo& info, const TheoryScene& theory, const TheoryE
   const scenes::Scene scene = scene_for(theory, engine);
   const History history = load_history(runs, run_id(info, theory, engine), engine.choice);
   const bool complete = is_complete(history, scene);
-  for (std::size_t g = 0; g < theory.gates.size(); ++g) {
-    CheckResult check =
-        judge_gate(theory.gates[g], scene.world.time_step, complete, history.frames, sabotaged[g]);
+  for (std::size_t g = 0; g < theory.bounds.size(); ++g) {
+    CheckResult check = judge_bound(theory.bounds[g], scene.world.time_step, complete,
+                                    history.frames, sabotaged[g]);
     check.case_id = info.id;
     check.engine = engine.title();
     if (!complete) check.note = failure_of(history);
@@ -62,7 +62,7 @@ void judge_engine(const CaseInfo& info, const TheoryScene& theory, const TheoryE
   }
 }
 
-/// What the engines say beside the theory: one row per gate, one column per engine.
+/// What the engines say beside the theory: one row per bound, one column per engine.
 Table table_of(const CaseInfo& info, const std::vector<TheoryEngine>& engines,
                const std::vector<CheckResult>& checks) {
   Table table{"In every engine: value (relative error in % / allowed)", {"what", "expected"}, {}};
@@ -129,8 +129,8 @@ void plan_theory(const CaseInfo& info, const CaseOptions& options, EngineRuns& r
       runs.add({engine.choice.label(run_id(info, theory, engine)), scene_for(theory, engine),
                 engine.choice.engine, engine.choice.precision});
     }
-    for (std::size_t g = 0; g < theory.gates.size(); ++g) {
-      const std::vector<Sabotage>& sabotages = theory.gates[g].sabotages;
+    for (std::size_t g = 0; g < theory.bounds.size(); ++g) {
+      const std::vector<Sabotage>& sabotages = theory.bounds[g].sabotages;
       for (std::size_t s = 0; s < sabotages.size(); ++s) {
         scenes::Scene wrong = scene_for(theory, {kReference});
         sabotages[s].edit_scene(wrong);
@@ -141,27 +141,27 @@ void plan_theory(const CaseInfo& info, const CaseOptions& options, EngineRuns& r
   }
 }
 
-CheckResult judge_gate(const TheoryGate& gate, double time_step, bool is_complete,
-                       const Frames& frames, const std::vector<Frames>& sabotaged) {
-  const Tolerance tolerance = gate.tolerance(time_step);
+CheckResult judge_bound(const TheoryBound& bound, double time_step, bool is_complete,
+                        const Frames& frames, const std::vector<Frames>& sabotaged) {
+  const Tolerance tolerance = bound.tolerance(time_step);
   CheckResult check;
-  check.claim = gate.claim;
-  check.metric = gate.metric;
+  check.claim = bound.claim;
+  check.metric = bound.metric;
   check.unit = "1";
-  check.formula = gate.formula;
-  check.source = gate.source;
+  check.formula = bound.formula;
+  check.source = bound.source;
   check.tolerance = tolerance;
-  if (is_complete) check.values = gate.values(frames);
+  if (is_complete) check.values = bound.values(frames);
   check.measured = check.values.empty() ? std::numeric_limits<double>::quiet_NaN()
                                         : relative_error(check.values[0]);
   check.verdict = judge(check.measured, tolerance);
-  for (std::size_t s = 0; s < gate.sabotages.size(); ++s) {
-    const std::vector<ComparedValue> wrong = gate.values(sabotaged[s]);
+  for (std::size_t s = 0; s < bound.sabotages.size(); ++s) {
+    const std::vector<ComparedValue> wrong = bound.values(sabotaged[s]);
     const double measured =
         wrong.empty() ? std::numeric_limits<double>::quiet_NaN() : relative_error(wrong[0]);
     // A mistake must show in the number that the bound holds: a run that blew up has no such number.
     const bool noticed = std::isfinite(measured) && judge(measured, tolerance) == Verdict::kFail;
-    check.sabotages.push_back({gate.sabotages[s].name, measured, noticed});
+    check.sabotages.push_back({bound.sabotages[s].name, measured, noticed});
   }
   check.note = "the engine's solver, its step, or how it takes the law";
   return check;
@@ -173,9 +173,9 @@ void judge_theory(const CaseInfo& info, const CaseOptions& options, const Engine
   Report own;
   for (const TheoryScene& theory : info.theory(info, options)) {
     std::vector<std::vector<Frames>> sabotaged;
-    for (std::size_t g = 0; g < theory.gates.size(); ++g) {
+    for (std::size_t g = 0; g < theory.bounds.size(); ++g) {
       sabotaged.emplace_back();
-      for (std::size_t s = 0; s < theory.gates[g].sabotages.size(); ++s) {
+      for (std::size_t s = 0; s < theory.bounds[g].sabotages.size(); ++s) {
         sabotaged.back().push_back(
             load_history(runs, wrong_id(info, theory, g, s), kReference).frames);
       }

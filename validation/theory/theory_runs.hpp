@@ -24,13 +24,13 @@ struct TheoryEngine {
 
 /// The case's theory scenes with every engine, and each of their sabotages once with the reference.
 void plan_theory(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs);
-/// A check for every gate of every engine: the engine's number against the theory's.
+/// A check for every bound of every engine: the engine's number against the theory's.
 void judge_theory(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
                   Report& report);
 
-/// The check of one gate, from the frames of a run that took steps of time_step [s] and of the gate's sabotages, in their
+/// The check of one bound, from the frames of a run that took steps of time_step [s] and of the bound's sabotages, in their
 /// order. A run without all of its frames (it blew up, or did not run) fails.
-[[nodiscard]] CheckResult judge_gate(const TheoryGate& gate, double time_step, bool is_complete,
-                                     const Frames& frames, const std::vector<Frames>& sabotaged);
+[[nodiscard]] CheckResult judge_bound(const TheoryBound& bound, double time_step, bool is_complete,
+                                      const Frames& frames, const std::vector<Frames>& sabotaged);
 
 }  // namespace weft::validation

@@ -13,7 +13,7 @@
 namespace weft::validation {
 
 /// One number of a scene that a theory knows, whatever the engine and its step.
-struct TheoryGate {
+struct TheoryBound {
   std::string
       claim;  ///< unique within the case, with what the engine is told: "a chain of 10 masses hangs as theory says"
   std::string metric;
@@ -33,7 +33,7 @@ struct TheoryScene {
   /// Its time step is that of engines whose springs act explicitly; frames lie a whole number of 1/30 s apart, so that
   /// every step of kTheoryStepsPerSecond meets them.
   scenes::Scene scene;
-  std::vector<TheoryGate> gates;
+  std::vector<TheoryBound> bounds;
 };
 
 /// Steps of bullet_weft, 1/s.

@@ -30,7 +30,7 @@ struct SweepEngine {
 [[nodiscard]] std::vector<int> sweep_resolutions(const CollisionScene& scene);
 
 inline constexpr double kEarlyEnd = 0.5;   ///< [s]
-inline constexpr double kSweepGap = 0.01;  ///< the tightest gate, of the cloth's size [-]
+inline constexpr double kSweepGap = 0.01;  ///< the tightest bound, of the cloth's size [-]
 
 /// One scene of the sweep in one resolution: what is run, and how far runs are from each other.
 class Comparison {

@@ -98,8 +98,8 @@ void add_pair(const CaseInfo& info, const Comparison& of, std::size_t e, bool at
 
 /// What the reference says of itself: how exact it is, and that it rests.
 void add_own(const CaseInfo& info, const Comparison& of, Report& report) {
-  CheckResult own = own_error_check(of.levels(), of.metrics(), {of.window(false), of.window(true)},
-                                    kSweepGap, of.is_coarsest());
+  CheckResult own = discretization_error_check(
+      of.levels(), of.metrics(), {of.window(false), of.window(true)}, kSweepGap, of.is_coarsest());
   own.case_id = info.id;
   own.claim = fmt::format("{}, {} x {} nodes: {}", of.row().id, of.nodes(), of.nodes(), own.claim);
   own.metric += ", 0 to 0.5 s and at rest";

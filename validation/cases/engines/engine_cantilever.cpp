@@ -17,8 +17,8 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kEngineGate = 0.01;  ///< of H / W between engines [-]
-constexpr double kGamma = 5.0;        ///< of the scene [-]
+constexpr double kEngineBound = 0.01;  ///< of H / W between engines [-]
+constexpr double kGamma = 5.0;         ///< of the scene [-]
 /// The implicit step needs no small one, and each costs a linear solve.
 constexpr double kImplicitTimeStep = 2e-3;  // [s]
 
@@ -58,9 +58,9 @@ double drop_over_reach(const scenes::SceneState& state, const scenes::Scene& sce
   return drop / reach;
 }
 
-/// What H / W of the reference still owes to its step, against a tenth of the gate of the engines.
-CheckResult own_error_check(const CaseInfo& info, const std::array<double, 3>& levels,
-                            double stiffer, double gate) {
+/// What H / W of the reference still owes to its step, against a tenth of the bound of the engines.
+CheckResult discretization_error_check(const CaseInfo& info, const std::array<double, 3>& levels,
+                                       double stiffer, double bound) {
   const auto error = [&](double finest) {
     return study_norms(std::abs(levels[1] - finest), std::abs(levels[0] - levels[1]), 2.0,
                        {2.0, 2.0})
@@ -70,14 +70,14 @@ CheckResult own_error_check(const CaseInfo& info, const std::array<double, 3>& l
   CheckResult check;
   check.case_id = info.id;
   check.engine = "reference float64";
-  check.claim = "the reference's discretization error is a tenth of the gate";
+  check.claim = "the reference's discretization error is a tenth of the bound";
   check.metric = "grid convergence index of H / W, finest of three steps";
   check.unit = "1";
   check.formula = "Fs |H/W(2h) - H/W(h)| / (2^p - 1) / (H/W)";
   check.source = "Roache, J. Fluids Eng. 116 (1994) 405; velocity Verlet with steps 4h, 2h, h";
   check.measured = error(levels[2]);
-  check.tolerance = Tolerance{kOwnShare * gate, Basis::kTruncation,
-                              "a tenth of the gate; at rest the step has no say"};
+  check.tolerance = Tolerance{kOwnShare * bound, Basis::kTruncation,
+                              "a tenth of the bound; at rest the step has no say"};
   check.verdict = judge(check.measured, *check.tolerance);
   check.sabotages.push_back({"rigidity +10 % in the finest level", error(stiffer),
                              judge(error(stiffer), *check.tolerance) == Verdict::kFail});
@@ -152,12 +152,12 @@ void evaluate_engine_cantilever(const CaseInfo& info, const CaseOptions& options
     const Frames& frames = levels.all()[n];
     steps[n] = frames.empty() ? std::nan("") : drop_over_reach(frames.back(), scene);
   }
-  report.checks.push_back(own_error_check(info, steps, stiffer, kEngineGate));
+  report.checks.push_back(discretization_error_check(info, steps, stiffer, kEngineBound));
   for (std::size_t e = 0; e + 1 < list.size(); ++e) {
     add_check(
         list[e], "a heavy strip hangs as in the reference", "relative difference of H / W at rest",
         values[e], steps.back(),
-        {kEngineGate, Basis::kTruncation, "what is left of the motion after 2 s, and rounding"});
+        {kEngineBound, Basis::kTruncation, "what is left of the motion after 2 s, and rounding"});
   }
   add_check(list.back(), "a heavy strip hangs as the elastica", "relative error of H / W at rest",
             values.back(), exact,

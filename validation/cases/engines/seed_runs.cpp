@@ -100,11 +100,11 @@ SeedRuns::OwnError SeedRuns::discretization_error(const Window& window, double f
 }
 
 CheckResult seeds_check(const SeedRuns& seeds, const SceneMetrics& metrics, const Window& window,
-                        double gate) {
+                        double bound) {
   const SeedRuns::OwnError own = seeds.discretization_error(window);
   CheckResult check;
   check.engine = kReference.title();
-  check.claim = "the reference's discretization error is a tenth of the gate";
+  check.claim = "the reference's discretization error is a tenth of the bound";
   check.metric = fmt::format("of the mean {} over {} runs, {:g} to {:g} s",
                              window.quantity == Quantity::kMeanHeight ? "height" : "radius",
                              2 * kNumSeeds, window.begin, window.end);
@@ -114,8 +114,8 @@ CheckResult seeds_check(const SeedRuns& seeds, const SceneMetrics& metrics, cons
       "velocity Verlet, {} starts 0.1 mm apart, steps h/2 and h/4: one run deviates by {:.2g}, the "
       "means with both steps by {:.2g}",
       kNumSeeds, own.deviation, own.step_effect);
-  check.tolerance = Tolerance{kOwnShare * gate, Basis::kStatistical,
-                              "a tenth of the tightest gate that it serves"};
+  check.tolerance = Tolerance{kOwnShare * bound, Basis::kStatistical,
+                              "a tenth of the tightest bound that it serves"};
   check.measured = own.total();
   check.verdict = judge(check.measured, *check.tolerance);
   check.note = "more seeds, a shorter step, or a number that folds change less";

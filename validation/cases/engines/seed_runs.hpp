@@ -50,8 +50,8 @@ class SeedRuns {
       values_;  ///< by window: kNumSeeds with the long step, then the short one
 };
 
-/// "The mean's discretization error is a tenth of the gate", with a collider half a metre off in one of the runs as what must fail.
+/// "The mean's discretization error is a tenth of the bound", with a collider half a metre off in one of the runs as what must fail.
 [[nodiscard]] CheckResult seeds_check(const SeedRuns& seeds, const SceneMetrics& metrics,
-                                      const Window& window, double gate);
+                                      const Window& window, double bound);
 
 }  // namespace weft::validation

@@ -22,8 +22,8 @@ constexpr int kSwingNumSteps = 180;      // 3 s
 constexpr double kMiddle = 1.0;          // [s]
 /// Kinetic energy may be 0.9 to 1.05 times what is right: so far from the middle of both.
 constexpr double kEnergyMiddle = 0.975;
-constexpr double kEnergyGate = 0.075;
-constexpr double kTurnGate = 0.1;  // right ones are as far apart, for the cloth waves
+constexpr double kEnergyBound = 0.075;
+constexpr double kTurnBound = 0.1;  // right ones are as far apart, for the cloth waves
 
 /// What is right: up to 1e5 N/m BDF2 in steps of 1/60 s, solved until its equations lack 0.03 m g (RMS) or less, above that velocity Verlet in steps of
 /// half the longest stable one (`weft-bench-float64 swing_truth`). Exact motion has 2 to 18 % more energy from 1 to 3 s than the converged step.
@@ -48,17 +48,17 @@ std::string label_of(const CaseInfo& info, const Right& right) {
 struct Figure {
   const char* name;
   double right;
-  double gate;
+  double bound;
   double middle;
   double (*of)(const SwingTrack&);
 };
 
 std::array<Figure, 3> figures_of(const Right& right) {
-  return {{{"mean kinetic energy, 0 to 1 s", right.first_energy, kEnergyGate, kEnergyMiddle,
+  return {{{"mean kinetic energy, 0 to 1 s", right.first_energy, kEnergyBound, kEnergyMiddle,
             [](const SwingTrack& track) { return track.kinetic_energy(0, kMiddle); }},
-           {"mean kinetic energy, 1 to 3 s", right.later_energy, kEnergyGate, kEnergyMiddle,
+           {"mean kinetic energy, 1 to 3 s", right.later_energy, kEnergyBound, kEnergyMiddle,
             [](const SwingTrack& track) { return track.kinetic_energy(kMiddle, 3.0); }},
-           {"time of the first turn", right.turning_time, kTurnGate, 1.0,
+           {"time of the first turn", right.turning_time, kTurnBound, 1.0,
             [](const SwingTrack& track) { return track.turning_time(); }}}};
 }
 
@@ -78,7 +78,7 @@ CheckResult check_of(const CaseInfo& info, const Right& right, const Figure& fig
   check.source = right.stiffness <= 1e5 ? "the same step with its equations solved"
                                         : "velocity Verlet in short steps";
   check.measured = track != nullptr ? deviation(figure.of(*track)) : std::nan("");
-  check.tolerance = Tolerance{figure.gate, Basis::kModelGap,
+  check.tolerance = Tolerance{figure.bound, Basis::kModelGap,
                               "energy 0.9 to 1.05 of a converged step, time within 10 %"};
   const double frozen_value = deviation(figure.of(still));
   check.sabotages.push_back({"all stays where it starts", frozen_value,

@@ -35,21 +35,21 @@ std::string metric_text(Quantity quantity) {
 }
 
 ReferenceSolution::ReferenceSolution(std::string id, const scenes::Scene& scene,
-                                     std::vector<SceneGate> gates)
-    : id_(std::move(id)), scene_(scene), gates_(std::move(gates)) {}
+                                     std::vector<SceneBound> bounds)
+    : id_(std::move(id)), scene_(scene), bounds_(std::move(bounds)) {}
 
 std::vector<ReferenceSolution::Served> ReferenceSolution::served(Against against) const {
   std::vector<Served> list;
-  for (const SceneGate& gate : gates_) {
-    if (gate.against != against) continue;
+  for (const SceneBound& bound : bounds_) {
+    if (bound.against != against) continue;
     const auto found = std::find_if(list.begin(), list.end(), [&](const Served& one) {
-      return one.window.quantity == gate.quantity && one.window.begin == gate.begin &&
-             one.window.end == gate.end;
+      return one.window.quantity == bound.quantity && one.window.begin == bound.begin &&
+             one.window.end == bound.end;
     });
     if (found == list.end()) {
-      list.push_back({{gate.quantity, gate.begin, gate.end}, gate.tolerance.value});
+      list.push_back({{bound.quantity, bound.begin, bound.end}, bound.tolerance.value});
     } else {
-      found->gate = std::min(found->gate, gate.tolerance.value);
+      found->bound = std::min(found->bound, bound.tolerance.value);
     }
   }
   return list;
@@ -82,19 +82,19 @@ void ReferenceSolution::load(const SceneMetrics& metrics, const EngineRuns& runs
   if (!seeded.empty()) seeds_.emplace(SeedPlan{id_, scene_}, metrics, seeded, runs);
 }
 
-double ReferenceSolution::measured(const SceneGate& gate, const SceneMetrics& metrics,
+double ReferenceSolution::measured(const SceneBound& bound, const SceneMetrics& metrics,
                                    const Frames& frames, const Frames& same_step) const {
-  if (gate.against == Against::kSeeds) {
-    const Window window{gate.quantity, gate.begin, gate.end};
-    return std::abs(metrics.mean_shape_number(gate.quantity, frames, gate.begin, gate.end) -
+  if (bound.against == Against::kSeeds) {
+    const Window window{bound.quantity, bound.begin, bound.end};
+    return std::abs(metrics.mean_shape_number(bound.quantity, frames, bound.begin, bound.end) -
                     seeds_->mean(window));
   }
-  const Frames& other = gate.against == Against::kSolution ? levels_->finest() : same_step;
-  return metrics.largest(gate.quantity, frames, other, gate.begin, gate.end);
+  const Frames& other = bound.against == Against::kSolution ? levels_->finest() : same_step;
+  return metrics.largest(bound.quantity, frames, other, bound.begin, bound.end);
 }
 
-std::string ReferenceSolution::source(const SceneGate& gate) const {
-  switch (gate.against) {
+std::string ReferenceSolution::source(const SceneBound& bound) const {
+  switch (bound.against) {
     case Against::kSolution:
       return fmt::format(
           "reference solver, velocity Verlet, {:.3g} s, its discretization error checked",
@@ -104,28 +104,28 @@ std::string ReferenceSolution::source(const SceneGate& gate) const {
     case Against::kScheme:
       break;
   }
-  return gate.quantity == Quantity::kDepth ? "signed distance to the collider's surface"
-                                           : "reference solver, modified Euler, same step: the "
-                                             "same recurrence, whatever its error";
+  return bound.quantity == Quantity::kDepth ? "signed distance to the collider's surface"
+                                            : "reference solver, modified Euler, same step: the "
+                                              "same recurrence, whatever its error";
 }
 
 std::vector<CheckResult> ReferenceSolution::own_checks(const CaseInfo& info,
                                                        const SceneMetrics& metrics) const {
   std::vector<CheckResult> checks;
   for (const Served& one : served(Against::kSolution)) {
-    checks.push_back(own_error_check(*levels_, metrics, {one.window}, one.gate));
+    checks.push_back(discretization_error_check(*levels_, metrics, {one.window}, one.bound));
     checks.back().metric +=
         fmt::format(", {}, {}", metric_text(one.window.quantity), time_text(one.window));
   }
   for (const Served& one : served(Against::kSeeds)) {
-    checks.push_back(seeds_check(*seeds_, metrics, one.window, one.gate));
+    checks.push_back(seeds_check(*seeds_, metrics, one.window, one.bound));
   }
   for (CheckResult& check : checks) check.case_id = info.id;
   return checks;
 }
 
 Table ReferenceSolution::own_table(const SceneMetrics& metrics) const {
-  Table table{"The reference's discretization error, in the unit of the gate that it serves",
+  Table table{"The reference's discretization error, in the unit of the bound that it serves",
               {"quantity", "time"},
               {}};
   for (std::string& column : own_error_columns()) table.columns.push_back(std::move(column));
@@ -133,7 +133,7 @@ Table ReferenceSolution::own_table(const SceneMetrics& metrics) const {
     std::vector<std::string> row{
         fmt::format("{} [{}]", metric_text(one.window.quantity), unit_of(one.window.quantity)),
         time_text(one.window)};
-    for (std::string& cell : own_error_cells(*levels_, metrics, one.window, one.gate)) {
+    for (std::string& cell : own_error_cells(*levels_, metrics, one.window, one.bound)) {
       row.push_back(std::move(cell));
     }
     table.rows.push_back(std::move(row));

@@ -7,37 +7,37 @@
 #include <vector>
 
 #include <weft/validation/cases/engines/seed_runs.hpp>
-#include <weft/validation/cases/scenes/scene_gates.hpp>
+#include <weft/validation/cases/scenes/scene_bounds.hpp>
 #include <weft/validation/cases/support/case.hpp>
 
 namespace weft::validation {
 
-/// What the gates of a catalog scene are held against, and how exact that is.
+/// What the bounds of a catalog scene are held against, and how exact that is.
 class ReferenceSolution {
  public:
-  /// scene: as the engines run it. gates: those of the engines that are judged.
-  ReferenceSolution(std::string id, const scenes::Scene& scene, std::vector<SceneGate> gates);
+  /// scene: as the engines run it. bounds: those of the engines that are judged.
+  ReferenceSolution(std::string id, const scenes::Scene& scene, std::vector<SceneBound> bounds);
 
-  [[nodiscard]] const std::vector<SceneGate>& gates() const { return gates_; }
+  [[nodiscard]] const std::vector<SceneBound>& bounds() const { return bounds_; }
   void plan(EngineRuns& runs) const;
   void load(const SceneMetrics& metrics, const EngineRuns& runs);
 
-  /// What a gate bounds. same_step: the reference with the engines' own step.
-  [[nodiscard]] double measured(const SceneGate& gate, const SceneMetrics& metrics,
+  /// What a bound bounds. same_step: the reference with the engines' own step.
+  [[nodiscard]] double measured(const SceneBound& bound, const SceneMetrics& metrics,
                                 const Frames& frames, const Frames& same_step) const;
-  /// What the gate is compared with, in words.
-  [[nodiscard]] std::string source(const SceneGate& gate) const;
+  /// What the bound is compared with, in words.
+  [[nodiscard]] std::string source(const SceneBound& bound) const;
 
-  /// One check for each window of time that a gate looks at: the reference's discretization error is a tenth of the gate.
+  /// One check for each window of time that a bound looks at: the reference's discretization error is a tenth of the bound.
   [[nodiscard]] std::vector<CheckResult> own_checks(const CaseInfo& info,
                                                     const SceneMetrics& metrics) const;
-  /// The numbers of those checks. No rows: no gate is held against a solution.
+  /// The numbers of those checks. No rows: no bound is held against a solution.
   [[nodiscard]] Table own_table(const SceneMetrics& metrics) const;
 
  private:
   struct Served {
     Window window;
-    double gate;  ///< the tightest one
+    double bound;  ///< the tightest one
   };
   [[nodiscard]] std::vector<Served> served(Against against) const;
   [[nodiscard]] std::vector<Window> windows(Against against) const;
@@ -45,7 +45,7 @@ class ReferenceSolution {
 
   std::string id_;
   scenes::Scene scene_;
-  std::vector<SceneGate> gates_;
+  std::vector<SceneBound> bounds_;
   std::optional<ReferenceLevels> levels_;
   std::optional<SeedRuns> seeds_;
 };

@@ -27,20 +27,21 @@ scenes::Scene scene_for(const scenes::Scene& scene, const EngineChoice& engine) 
   return scenes::with_bullets_time_step(std::move(own));
 }
 
-/// The gates of the engines that are judged. Without Bullet the reference has nobody to serve; a recording has the gates of one engine.
-std::vector<SceneGate> judged_gates(const std::string& id, const CaseOptions& options) {
-  std::vector<SceneGate> gates = scene_gates(id);
+/// The bounds of the engines that are judged. Without Bullet the reference has nobody to serve; a recording has the bounds of one engine.
+std::vector<SceneBound> judged_bounds(const std::string& id, const CaseOptions& options) {
+  std::vector<SceneBound> bounds = scene_bounds(id);
   if (options.recorded) {
     const EngineChoice recording = recording_choice(options);
-    std::erase_if(gates, [&](const SceneGate& gate) {
-      return gate.engine.engine != recording.bounds() ||
-             gate.engine.precision != recording.precision;
+    std::erase_if(bounds, [&](const SceneBound& bound) {
+      return bound.engine.engine != recording.bounds() ||
+             bound.engine.precision != recording.precision;
     });
-    for (SceneGate& gate : gates) gate.engine = recording;
+    for (SceneBound& bound : bounds) bound.engine = recording;
   } else if (!options.bullet) {
-    std::erase_if(gates, [](const SceneGate& gate) { return gate.engine.engine != "reference"; });
+    std::erase_if(bounds,
+                  [](const SceneBound& bound) { return bound.engine.engine != "reference"; });
   }
-  return gates;
+  return bounds;
 }
 
 std::string steps_text(const CaseOptions& options, const scenes::Scene& scene,
@@ -63,13 +64,13 @@ const History* find_history(const std::vector<History>& histories, const EngineC
   return nullptr;
 }
 
-SabotageResult try_sabotage(const SceneGate& gate, const Sabotage& sabotage,
+SabotageResult try_sabotage(const SceneBound& bound, const Sabotage& sabotage,
                             const SceneMetrics& metrics, const History& history,
                             const Frames& reference) {
-  Frames wrong = run_sabotaged(metrics.scene(), sabotage, gate.end);
+  Frames wrong = run_sabotaged(metrics.scene(), sabotage, bound.end);
   // A depth belongs to one run, so there the wrong run is judged, against colliders that stand
   // where they should; a distance belongs to the pair.
-  const bool alone = gate.quantity == Quantity::kDepth;
+  const bool alone = bound.quantity == Quantity::kDepth;
   if (alone) {
     for (std::size_t f = 0; f < std::min(wrong.size(), reference.size()); ++f) {
       wrong[f].rigids = reference[f].rigids;
@@ -77,40 +78,41 @@ SabotageResult try_sabotage(const SceneGate& gate, const Sabotage& sabotage,
   }
   const Frames& judged = alone ? wrong : history.frames;
   const double measured =
-      gate.against == Against::kSeeds
-          ? std::abs(metrics.mean_shape_number(gate.quantity, judged, gate.begin, gate.end) -
-                     metrics.mean_shape_number(gate.quantity, wrong, gate.begin, gate.end))
-          : metrics.largest(gate.quantity, judged, wrong, gate.begin, gate.end);
+      bound.against == Against::kSeeds
+          ? std::abs(metrics.mean_shape_number(bound.quantity, judged, bound.begin, bound.end) -
+                     metrics.mean_shape_number(bound.quantity, wrong, bound.begin, bound.end))
+          : metrics.largest(bound.quantity, judged, wrong, bound.begin, bound.end);
   // A mistake must show in the number that the bound holds: a sabotaged run that blows up has no such number.
-  const bool noticed = std::isfinite(measured) && judge(measured, gate.tolerance) == Verdict::kFail;
+  const bool noticed =
+      std::isfinite(measured) && judge(measured, bound.tolerance) == Verdict::kFail;
   return {sabotage.name, measured, noticed};
 }
 
-CheckResult check_gate(const CaseInfo& info, const SceneGate& gate, const ReferenceSolution& truth,
-                       const SceneMetrics& metrics, const History& history,
-                       const Frames& reference) {
+CheckResult check_bound(const CaseInfo& info, const SceneBound& bound,
+                        const ReferenceSolution& solution, const SceneMetrics& metrics,
+                        const History& history, const Frames& reference) {
   CheckResult check;
   check.case_id = info.id;
-  check.engine = gate.engine.title();
-  check.claim = gate.claim;
+  check.engine = bound.engine.title();
+  check.claim = bound.claim;
   check.metric =
-      gate.begin == gate.end
-          ? fmt::format("{} at {:g} s", metric_text(gate.quantity), gate.end)
-          : fmt::format("{}, {:g} to {:g} s", metric_text(gate.quantity), gate.begin, gate.end);
-  check.unit = unit_of(gate.quantity);
-  check.source = truth.source(gate);
-  check.tolerance = gate.tolerance;
-  check.note = gate.note;
+      bound.begin == bound.end
+          ? fmt::format("{} at {:g} s", metric_text(bound.quantity), bound.end)
+          : fmt::format("{}, {:g} to {:g} s", metric_text(bound.quantity), bound.begin, bound.end);
+  check.unit = unit_of(bound.quantity);
+  check.source = solution.source(bound);
+  check.tolerance = bound.tolerance;
+  check.note = bound.note;
   if (!history.failure.empty()) {
     check.measured = std::nan("");
     check.verdict = Verdict::kFail;
     check.note = history.failure;
     return check;
   }
-  check.measured = truth.measured(gate, metrics, history.frames, reference);
-  check.verdict = judge(check.measured, gate.tolerance);
-  for (const Sabotage& sabotage : gate.sabotages) {
-    check.sabotages.push_back(try_sabotage(gate, sabotage, metrics, history, reference));
+  check.measured = solution.measured(bound, metrics, history.frames, reference);
+  check.verdict = judge(check.measured, bound.tolerance);
+  for (const Sabotage& sabotage : bound.sabotages) {
+    check.sabotages.push_back(try_sabotage(bound, sabotage, metrics, history, reference));
   }
   return check;
 }
@@ -164,7 +166,7 @@ void plan_scene(const CaseInfo& info, const CaseOptions& options, EngineRuns& ru
   for (const EngineChoice& engine : judged_engines(options)) {
     plan_run(options, id, engine, scene_for(scene, engine), runs);
   }
-  ReferenceSolution(id, scene, judged_gates(id, options)).plan(runs);
+  ReferenceSolution(id, scene, judged_bounds(id, options)).plan(runs);
 }
 
 void evaluate_scene(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
@@ -175,23 +177,23 @@ void evaluate_scene(const CaseInfo& info, const CaseOptions& options, const Engi
   for (const EngineChoice& engine : judged_engines(options)) {
     histories.push_back(load_history(runs, id, engine));
   }
-  ReferenceSolution truth(id, metrics.scene(), judged_gates(id, options));
-  truth.load(metrics, runs);
+  ReferenceSolution solution(id, metrics.scene(), judged_bounds(id, options));
+  solution.load(metrics, runs);
   if (options.recorded) {
     report.checks.push_back(
         start_check(info, metrics.scene(), histories.front(), histories.back().frames));
   }
-  for (const SceneGate& gate : truth.gates()) {
-    const History* history = find_history(histories, gate.engine);
+  for (const SceneBound& bound : solution.bounds()) {
+    const History* history = find_history(histories, bound.engine);
     if (!history) continue;
     report.checks.push_back(
-        check_gate(info, gate, truth, metrics, *history, histories.back().frames));
+        check_bound(info, bound, solution, metrics, *history, histories.back().frames));
   }
-  for (CheckResult& check : truth.own_checks(info, metrics))
+  for (CheckResult& check : solution.own_checks(info, metrics))
     report.checks.push_back(std::move(check));
   Section section = scene_section(metrics, histories, options.pictures);
   section.summary += steps_text(options, metrics.scene(), histories.front().engine);
-  Table own = truth.own_table(metrics);
+  Table own = solution.own_table(metrics);
   if (!own.rows.empty()) section.tables.push_back(std::move(own));
   report.sections.push_back(std::move(section));
   add_deviations(info, metrics, histories, report);

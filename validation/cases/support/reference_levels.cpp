@@ -74,11 +74,12 @@ ReferenceLevels::OwnError ReferenceLevels::discretization_error(const SceneMetri
   return discretization_error(metrics, window, finest());
 }
 
-CheckResult own_error_check(const ReferenceLevels& levels, const SceneMetrics& metrics,
-                            const std::vector<Window>& windows, double gate, bool is_sabotaged) {
+CheckResult discretization_error_check(const ReferenceLevels& levels, const SceneMetrics& metrics,
+                                       const std::vector<Window>& windows, double bound,
+                                       bool is_sabotaged) {
   CheckResult check;
   check.engine = kReference.title();
-  check.claim = "the reference's discretization error is a tenth of the gate";
+  check.claim = "the reference's discretization error is a tenth of the bound";
   check.metric = "grid convergence index of the finest of three steps";
   check.unit = unit_of(windows.front().quantity);
   check.formula = fmt::format(
@@ -87,8 +88,8 @@ CheckResult own_error_check(const ReferenceLevels& levels, const SceneMetrics& m
       "the method ({}), else 3",
       levels.finest_step(), levels.order().lowest < 2 ? "1 in contact, 2 in smooth motion" : "2");
   check.source = "Roache, J. Fluids Eng. 116 (1994) 405; velocity Verlet with steps 4h, 2h, h";
-  check.tolerance = Tolerance{kOwnShare * gate, Basis::kTruncation,
-                              "a tenth of the tightest gate that it serves"};
+  check.tolerance = Tolerance{kOwnShare * bound, Basis::kTruncation,
+                              "a tenth of the tightest bound that it serves"};
   check.note = "a smaller step for the finest level, or a scene in which folds decide less";
   double end = 0.0;
   const auto worst = [&](const Frames& finest) {
@@ -122,11 +123,11 @@ CheckResult own_error_check(const ReferenceLevels& levels, const SceneMetrics& m
 
 std::vector<std::string> own_error_columns() {
   return {"finest step [s]", "4h and 2h apart",        "2h and h apart",
-          "observed order",  "grid convergence index", "a tenth of the gate"};
+          "observed order",  "grid convergence index", "a tenth of the bound"};
 }
 
 std::vector<std::string> own_error_cells(const ReferenceLevels& levels, const SceneMetrics& metrics,
-                                         const Window& window, double gate) {
+                                         const Window& window, double bound) {
   const ReferenceLevels::OwnError error = levels.discretization_error(metrics, window);
   const std::string order = error.study.order ? fmt::format("{:.2f}", *error.study.order) : "-";
   return {fmt::format("{:.3g}", levels.finest_step()),
@@ -134,7 +135,7 @@ std::vector<std::string> own_error_cells(const ReferenceLevels& levels, const Sc
           fmt::format("{:.2g}", error.fine),
           order + (error.study.is_confirmed ? "" : " (not confirmed)"),
           fmt::format("{:.2g}", error.study.uncertainty),
-          fmt::format("{:.2g}", kOwnShare * gate)};
+          fmt::format("{:.2g}", kOwnShare * bound)};
 }
 
 }  // namespace weft::validation

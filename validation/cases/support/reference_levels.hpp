@@ -57,20 +57,20 @@ class ReferenceLevels {
   MethodOrder order_;
 };
 
-/// A share of a gate that the reference's discretization error may take [-].
+/// A share of a bound that the reference's discretization error may take [-].
 inline constexpr double kOwnShare = 0.1;
 
-/// "The reference's discretization error is a tenth of the gate", with steps of 1/100 s in place of the finest ones as what must fail.
-/// gate: in the quantity's unit. is_sabotaged: no for rows that would only repeat it.
-[[nodiscard]] CheckResult own_error_check(const ReferenceLevels& levels,
-                                          const SceneMetrics& metrics,
-                                          const std::vector<Window>& windows, double gate,
-                                          bool is_sabotaged = true);
+/// "The reference's discretization error is a tenth of the bound", with steps of 1/100 s in place of the finest ones as what must fail.
+/// bound: in the quantity's unit. is_sabotaged: no for rows that would only repeat it.
+[[nodiscard]] CheckResult discretization_error_check(const ReferenceLevels& levels,
+                                                     const SceneMetrics& metrics,
+                                                     const std::vector<Window>& windows,
+                                                     double bound, bool is_sabotaged = true);
 
 /// Columns and cells of what the report says of it.
 [[nodiscard]] std::vector<std::string> own_error_columns();
 [[nodiscard]] std::vector<std::string> own_error_cells(const ReferenceLevels& levels,
                                                        const SceneMetrics& metrics,
-                                                       const Window& window, double gate);
+                                                       const Window& window, double bound);
 
 }  // namespace weft::validation

@@ -17,7 +17,7 @@ enum class Against {
 };
 
 /// One number of one engine in one scene, held against a bound.
-struct SceneGate {
+struct SceneBound {
   EngineChoice engine;
   std::string claim;
   Quantity quantity;
@@ -29,7 +29,7 @@ struct SceneGate {
   Against against = Against::kScheme;
 };
 
-/// The gates of a catalog scene. Every bound was measured; docs/validation.md says how.
-[[nodiscard]] std::vector<SceneGate> scene_gates(const std::string& scene);
+/// The bounds of a catalog scene. Every bound was measured; docs/validation.md says how.
+[[nodiscard]] std::vector<SceneBound> scene_bounds(const std::string& scene);
 
 }  // namespace weft::validation

@@ -1,4 +1,4 @@
-#include <weft/validation/cases/scenes/scene_gates.hpp>
+#include <weft/validation/cases/scenes/scene_bounds.hpp>
 
 #include <cmath>
 #include <limits>
@@ -63,7 +63,7 @@ const char* const kSameEquationsNote =
 const char* const kContactNote = "contact hardness, margin, or friction of the Bullet engine";
 const char* const kLinksNote = "the map from N/m to kLST, and Bullet's link order";
 
-SceneGate step_for_step(Quantity quantity, double end, std::vector<Sabotage> sabotages) {
+SceneBound step_for_step(Quantity quantity, double end, std::vector<Sabotage> sabotages) {
   return {kForces64,
           "follows the reference step for step",
           quantity,
@@ -74,8 +74,8 @@ SceneGate step_for_step(Quantity quantity, double end, std::vector<Sabotage> sab
           kSameEquationsNote};
 }
 
-SceneGate near(const EngineChoice& engine, double begin, double end, Tolerance tolerance,
-               std::vector<Sabotage> sabotages, const char* note) {
+SceneBound near(const EngineChoice& engine, double begin, double end, Tolerance tolerance,
+                std::vector<Sabotage> sabotages, const char* note) {
   return {engine,
           "stays near the reference",
           Quantity::kRmsDistance,
@@ -87,7 +87,7 @@ SceneGate near(const EngineChoice& engine, double begin, double end, Tolerance t
           Against::kSolution};
 }
 
-SceneGate stays_outside(const EngineChoice& engine, double end, double depth, const char* why) {
+SceneBound stays_outside(const EngineChoice& engine, double end, double depth, const char* why) {
   return {engine,
           "no node goes deep into a collider",
           Quantity::kDepth,
@@ -101,211 +101,211 @@ SceneGate stays_outside(const EngineChoice& engine, double end, double depth, co
 const char* const kMarginWhy =
     "the margin is there to keep nodes out; this much remains of it at the fastest approach";
 
-std::vector<SceneGate> drape_sphere() {
+std::vector<SceneBound> drape_sphere() {
   const double free_fall = 0.28;  // [s]: the middle touches at sqrt(2 * 0.48 m / g) = 0.313 s
   const double end = 6.0;
-  std::vector<SceneGate> gates{
+  std::vector<SceneBound> bounds{
       step_for_step(Quantity::kLargestDistance, free_fall, {one_step_dropped(), damping_sign()})};
   for (const EngineChoice& engine : {kForces32, kForces64}) {
-    gates.push_back(near(engine, 0, kFirstHalfSecond, model_gap(0.005, kLongStepWhy),
-                         {no_contact(), one_step_dropped()}, kContactNote));
-    gates.push_back({engine,
-                     "drapes as the reference does",
-                     Quantity::kMeanHeight,
-                     end - 1,
-                     end,
-                     model_gap(0.005, kFoldsWhy),
-                     {no_contact(), colliders_moved({0.5, 0, 0})},
-                     kContactNote,
-                     Against::kSeeds});
-    gates.push_back({engine,
-                     "drapes as the reference does",
-                     Quantity::kMeanRadius,
-                     end - 1,
-                     end,
-                     model_gap(0.01, kFoldsWhy),
-                     {no_contact()},  // a draped cloth is as wide on a ball elsewhere
-                     kContactNote,
-                     Against::kSeeds});
+    bounds.push_back(near(engine, 0, kFirstHalfSecond, model_gap(0.005, kLongStepWhy),
+                          {no_contact(), one_step_dropped()}, kContactNote));
+    bounds.push_back({engine,
+                      "drapes as the reference does",
+                      Quantity::kMeanHeight,
+                      end - 1,
+                      end,
+                      model_gap(0.005, kFoldsWhy),
+                      {no_contact(), colliders_moved({0.5, 0, 0})},
+                      kContactNote,
+                      Against::kSeeds});
+    bounds.push_back({engine,
+                      "drapes as the reference does",
+                      Quantity::kMeanRadius,
+                      end - 1,
+                      end,
+                      model_gap(0.01, kFoldsWhy),
+                      {no_contact()},  // a draped cloth is as wide on a ball elsewhere
+                      kContactNote,
+                      Against::kSeeds});
   }
   for (const EngineChoice& engine : {kSoft32, kSoft64}) {
-    gates.push_back(near(engine, 0, kFirstHalfSecond, model_gap(0.005, kLinksWhy),
-                         {no_contact(), one_step_dropped()}, kLinksNote));
+    bounds.push_back(near(engine, 0, kFirstHalfSecond, model_gap(0.005, kLinksWhy),
+                          {no_contact(), one_step_dropped()}, kLinksNote));
   }
   for (const EngineChoice& engine : {kSoft32, kSoft64, kForces32, kForces64, kReference}) {
-    gates.push_back(stays_outside(engine, end, 0.02, kMarginWhy));
+    bounds.push_back(stays_outside(engine, end, 0.02, kMarginWhy));
   }
-  return gates;
+  return bounds;
 }
 
-std::vector<SceneGate> hang() {
+std::vector<SceneBound> hang() {
   const double size = 1.0;              // [m]
   const double time_step = 1.0 / 2000;  // [s]
-  std::vector<SceneGate> gates{step_for_step(
+  std::vector<SceneBound> bounds{step_for_step(
       Quantity::kLargestDistance, kFirstHalfSecond,
       {stiffness_scaled(1.01), damping_sign(), one_step_dropped(), initial_velocity_unset()})};
-  gates.push_back({kForces32,
-                   "follows the reference within single precision",
-                   Quantity::kLargestDistance,
-                   0.0,
-                   kFirstHalfSecond,
-                   single_precision(size, time_step, kFirstHalfSecond),
-                   {stiffness_scaled(1.2), damping_sign(), initial_velocity_unset()},
-                   kSameEquationsNote});
+  bounds.push_back({kForces32,
+                    "follows the reference within single precision",
+                    Quantity::kLargestDistance,
+                    0.0,
+                    kFirstHalfSecond,
+                    single_precision(size, time_step, kFirstHalfSecond),
+                    {stiffness_scaled(1.2), damping_sign(), initial_velocity_unset()},
+                    kSameEquationsNote});
   for (const EngineChoice& engine : {kSoft32, kSoft64}) {
-    gates.push_back(near(engine, 0, kFirstHalfSecond, model_gap(0.02, kLinksWhy),
-                         {initial_velocity_unset()}, kLinksNote));
+    bounds.push_back(near(engine, 0, kFirstHalfSecond, model_gap(0.02, kLinksWhy),
+                          {initial_velocity_unset()}, kLinksNote));
   }
-  return gates;
+  return bounds;
 }
 
-std::vector<SceneGate> drop_ground() {
-  std::vector<SceneGate> gates{step_for_step(Quantity::kLargestDistance, 0.12,
-                                             {one_step_dropped(), initial_velocity_unset()})};
+std::vector<SceneBound> drop_ground() {
+  std::vector<SceneBound> bounds{step_for_step(Quantity::kLargestDistance, 0.12,
+                                               {one_step_dropped(), initial_velocity_unset()})};
   for (const EngineChoice& engine : {kForces32, kForces64}) {
     for (const double begin : {0.0, 1.5}) {
-      gates.push_back(near(engine, begin, begin + kFirstHalfSecond, model_gap(0.01, kContactWhy),
-                           {no_contact(), initial_velocity_unset()}, kContactNote));
+      bounds.push_back(near(engine, begin, begin + kFirstHalfSecond, model_gap(0.01, kContactWhy),
+                            {no_contact(), initial_velocity_unset()}, kContactNote));
     }
   }
   for (const EngineChoice& engine : {kSoft32, kSoft64, kForces32, kForces64, kReference}) {
-    gates.push_back(stays_outside(engine, 2.0, 0.01, kMarginWhy));
+    bounds.push_back(stays_outside(engine, 2.0, 0.01, kMarginWhy));
   }
-  return gates;
+  return bounds;
 }
 
-std::vector<SceneGate> drop_box() {
-  std::vector<SceneGate> gates{
+std::vector<SceneBound> drop_box() {
+  std::vector<SceneBound> bounds{
       step_for_step(Quantity::kLargestDistance, 0.18, {one_step_dropped(), damping_sign()})};
   for (const EngineChoice& engine : {kForces32, kForces64, kSoft32, kSoft64}) {
     const bool links = engine.engine == "bullet_soft";
-    gates.push_back(near(engine, 0, kFirstHalfSecond,
-                         model_gap(links ? 0.03 : 0.005, links ? kLinksWhy : kContactWhy),
-                         {no_contact(), colliders_moved({0.2, 0, 0})},
-                         links ? kLinksNote : kContactNote));
+    bounds.push_back(near(engine, 0, kFirstHalfSecond,
+                          model_gap(links ? 0.03 : 0.005, links ? kLinksWhy : kContactWhy),
+                          {no_contact(), colliders_moved({0.2, 0, 0})},
+                          links ? kLinksNote : kContactNote));
     if (links) continue;
     for (const Quantity quantity : {Quantity::kMeanHeight, Quantity::kMeanRadius}) {
-      gates.push_back({engine,
-                       "drapes as the reference does",
-                       quantity,
-                       1.5,
-                       2.0,
-                       model_gap(0.01, kFoldsWhy),
-                       {no_contact()},
-                       kContactNote,
-                       Against::kSeeds});
+      bounds.push_back({engine,
+                        "drapes as the reference does",
+                        quantity,
+                        1.5,
+                        2.0,
+                        model_gap(0.01, kFoldsWhy),
+                        {no_contact()},
+                        kContactNote,
+                        Against::kSeeds});
     }
   }
   for (const EngineChoice& engine : {kSoft32, kSoft64, kForces32, kForces64, kReference}) {
-    gates.push_back(stays_outside(engine, 2.0, 0.02, kMarginWhy));
+    bounds.push_back(stays_outside(engine, 2.0, 0.02, kMarginWhy));
   }
-  return gates;
+  return bounds;
 }
 
-std::vector<SceneGate> ball_on_cloth() {
+std::vector<SceneBound> ball_on_cloth() {
   const double before_contact = 0.14;  // [s]: the ball meets the cloth at about 0.17 s
-  std::vector<SceneGate> gates{
+  std::vector<SceneBound> bounds{
       step_for_step(Quantity::kLargestDistance, before_contact,
                     {stiffness_scaled(1.01), damping_sign(), one_step_dropped()}),
       step_for_step(Quantity::kRigidDistance, before_contact,
                     {initial_velocity_unset(), one_step_dropped()})};
   for (const EngineChoice& engine : {kForces32, kForces64, kSoft32, kSoft64}) {
     const bool links = engine.engine == "bullet_soft";
-    gates.push_back(near(engine, 0, kFirstHalfSecond,
-                         model_gap(links ? 0.03 : 0.01, links ? kLinksWhy : kContactWhy),
-                         {no_contact(), initial_velocity_unset()},
-                         links ? kLinksNote : kContactNote));
-    gates.push_back({engine,
-                     "the ball is pushed back as in the reference",
-                     Quantity::kRigidDistance,
-                     0.0,
-                     kFirstHalfSecond,
-                     model_gap(links ? 0.05 : 0.02, links ? kLinksWhy : kContactWhy),
-                     {no_contact(), initial_velocity_unset()},
-                     kContactNote,
-                     Against::kSolution});
+    bounds.push_back(near(engine, 0, kFirstHalfSecond,
+                          model_gap(links ? 0.03 : 0.01, links ? kLinksWhy : kContactWhy),
+                          {no_contact(), initial_velocity_unset()},
+                          links ? kLinksNote : kContactNote));
+    bounds.push_back({engine,
+                      "the ball is pushed back as in the reference",
+                      Quantity::kRigidDistance,
+                      0.0,
+                      kFirstHalfSecond,
+                      model_gap(links ? 0.05 : 0.02, links ? kLinksWhy : kContactWhy),
+                      {no_contact(), initial_velocity_unset()},
+                      kContactNote,
+                      Against::kSolution});
   }
-  return gates;
+  return bounds;
 }
 
-std::vector<SceneGate> wind_hover() {
+std::vector<SceneBound> wind_hover() {
   const double size = 1.0;              // [m]
   const double time_step = 1.0 / 2000;  // [s]
-  std::vector<SceneGate> gates{
+  std::vector<SceneBound> bounds{
       step_for_step(Quantity::kLargestDistance, kFirstHalfSecond,
                     {wind_removed(), one_step_dropped(), initial_velocity_unset()})};
-  gates.push_back({kForces32,
-                   "follows the reference within single precision",
-                   Quantity::kLargestDistance,
-                   0.0,
-                   kFirstHalfSecond,
-                   single_precision(size, time_step, kFirstHalfSecond),
-                   {wind_removed(), initial_velocity_unset()},
-                   kSameEquationsNote});
+  bounds.push_back({kForces32,
+                    "follows the reference within single precision",
+                    Quantity::kLargestDistance,
+                    0.0,
+                    kFirstHalfSecond,
+                    single_precision(size, time_step, kFirstHalfSecond),
+                    {wind_removed(), initial_velocity_unset()},
+                    kSameEquationsNote});
   // Flat and hardly stretched, the cloth shows little of the links: 3.5e-4 of it is the step of modified Euler. Single
   // precision shows more.
   for (const auto& [engine, gap] : {std::pair{kSoft32, 0.004}, std::pair{kSoft64, 0.001}}) {
-    gates.push_back(near(engine, 0, kFirstHalfSecond, model_gap(gap, kLinksWhy),
-                         {wind_removed(), initial_velocity_unset()}, kLinksNote));
+    bounds.push_back(near(engine, 0, kFirstHalfSecond, model_gap(gap, kLinksWhy),
+                          {wind_removed(), initial_velocity_unset()}, kLinksNote));
   }
-  return gates;
+  return bounds;
 }
 
-std::vector<SceneGate> heavy_strip() {
+std::vector<SceneBound> heavy_strip() {
   const double size = 0.2;               // [m]
   const double time_step = 1.0 / 10000;  // [s]
-  std::vector<SceneGate> gates{step_for_step(Quantity::kLargestDistance, kFirstHalfSecond,
-                                             {damping_sign(), one_step_dropped()})};
-  gates.push_back({kForces32,
-                   "follows the reference within single precision",
-                   Quantity::kLargestDistance,
-                   0.0,
-                   kFirstHalfSecond,
-                   single_precision(size, time_step, kFirstHalfSecond),
-                   {damping_sign()},
-                   kSameEquationsNote});
+  std::vector<SceneBound> bounds{step_for_step(Quantity::kLargestDistance, kFirstHalfSecond,
+                                               {damping_sign(), one_step_dropped()})};
+  bounds.push_back({kForces32,
+                    "follows the reference within single precision",
+                    Quantity::kLargestDistance,
+                    0.0,
+                    kFirstHalfSecond,
+                    single_precision(size, time_step, kFirstHalfSecond),
+                    {damping_sign()},
+                    kSameEquationsNote});
   for (const EngineChoice& engine : {kSoft32, kSoft64}) {
-    gates.push_back(near(engine, 0, kFirstHalfSecond, model_gap(0.02, kLinksWhy), {damping_sign()},
-                         kLinksNote));
+    bounds.push_back(near(engine, 0, kFirstHalfSecond, model_gap(0.02, kLinksWhy), {damping_sign()},
+                          kLinksNote));
   }
-  return gates;
+  return bounds;
 }
 
 /// The fast solver in every scene, with the long steps that it is made for.
-std::vector<SceneGate> fast_gates(const std::string& scene) {
+std::vector<SceneBound> fast_bounds(const std::string& scene) {
   const bool drapes = scene == "drape_sphere" || scene == "drop_box";
   const bool has_air = scene == "hang" || scene == "wind_hover" || scene == "heavy_strip";
   const bool is_strip = scene == "heavy_strip";
   const double end = scene == "drape_sphere" ? 6.0 : 2.0;  // [s]
   // A ball changes little of a cloth that has just met it: 0.16 % measured, 1.8 % without it.
-  const double bound = scene == "drape_sphere" ? 0.005 : 0.03;
-  std::vector<SceneGate> gates;
+  const double largest = scene == "drape_sphere" ? 0.005 : 0.03;
+  std::vector<SceneBound> bounds;
   for (const EngineChoice& engine : {kWeft32, kWeft64}) {
     std::vector<Sabotage> mistakes{no_contact()};
     if (is_strip) mistakes = {damping_sign()};
     if (has_air && !is_strip) mistakes = {initial_velocity_unset()};
-    gates.push_back(
-        near(engine, 0, kFirstHalfSecond, model_gap(bound, kFastWhy), mistakes, kFastNote));
+    bounds.push_back(
+        near(engine, 0, kFirstHalfSecond, model_gap(largest, kFastWhy), mistakes, kFastNote));
     if (!has_air && scene != "ball_on_cloth") {
-      gates.push_back(stays_outside(engine, end, 0.02, kMarginWhy));
+      bounds.push_back(stays_outside(engine, end, 0.02, kMarginWhy));
     }
     if (!drapes) continue;
     for (const Quantity quantity : {Quantity::kMeanHeight, Quantity::kMeanRadius}) {
-      gates.push_back({engine,
-                       "drapes as the reference does",
-                       quantity,
-                       scene == "drape_sphere" ? end - 1 : end - 0.5,
-                       end,
-                       model_gap(0.01, kFoldsWhy),
-                       {no_contact()},
-                       kFastNote,
-                       Against::kSeeds});
+      bounds.push_back({engine,
+                        "drapes as the reference does",
+                        quantity,
+                        scene == "drape_sphere" ? end - 1 : end - 0.5,
+                        end,
+                        model_gap(0.01, kFoldsWhy),
+                        {no_contact()},
+                        kFastNote,
+                        Against::kSeeds});
     }
   }
-  return gates;
+  return bounds;
 }
 
-std::vector<SceneGate> other_gates(const std::string& scene) {
+std::vector<SceneBound> other_bounds(const std::string& scene) {
   if (scene == "drape_sphere") return drape_sphere();
   if (scene == "hang") return hang();
   if (scene == "drop_ground") return drop_ground();
@@ -318,11 +318,11 @@ std::vector<SceneGate> other_gates(const std::string& scene) {
 
 }  // namespace
 
-std::vector<SceneGate> scene_gates(const std::string& scene) {
-  std::vector<SceneGate> gates = other_gates(scene);
-  if (gates.empty()) return gates;
-  for (SceneGate& gate : fast_gates(scene)) gates.push_back(std::move(gate));
-  return gates;
+std::vector<SceneBound> scene_bounds(const std::string& scene) {
+  std::vector<SceneBound> bounds = other_bounds(scene);
+  if (bounds.empty()) return bounds;
+  for (SceneBound& bound : fast_bounds(scene)) bounds.push_back(std::move(bound));
+  return bounds;
 }
 
 }  // namespace weft::validation

@@ -1,4 +1,4 @@
-#include <weft/validation/cases/scenes/scene_gates.hpp>
+#include <weft/validation/cases/scenes/scene_bounds.hpp>
 
 #include <set>
 
@@ -12,39 +12,39 @@ namespace {
 
 // A scene for all engines compares them; one that names its engines has invariants under
 // tests/catalog.
-TEST(SceneGates, EveryCatalogSceneForAllEnginesIsACaseWithGates) {
+TEST(SceneBounds, EveryCatalogSceneForAllEnginesIsACaseWithBounds) {
   std::set<std::string> ids;
   for (const CaseInfo& info : all_cases()) ids.insert(std::string(info.id));
   for (const scenes::CatalogEntry& entry : scenes::scene_catalog()) {
     const std::string name(entry.name);
     if (!scenes::load_scene(name).engines.empty()) continue;
     EXPECT_TRUE(ids.contains(name)) << name;
-    EXPECT_FALSE(scene_gates(name).empty()) << name;
+    EXPECT_FALSE(scene_bounds(name).empty()) << name;
   }
 }
 
-TEST(SceneGates, EveryGateHasASabotageABasisAndANote) {
+TEST(SceneBounds, EveryGateHasASabotageABasisAndANote) {
   for (const scenes::CatalogEntry& entry : scenes::scene_catalog()) {
     const scenes::Scene scene = scenes::load_scene(std::string(entry.name));
-    for (const SceneGate& gate : scene_gates(scene.name)) {
-      SCOPED_TRACE(scene.name + " " + gate.engine.title() + " " + gate.claim);
-      EXPECT_FALSE(gate.sabotages.empty());
-      EXPECT_FALSE(gate.tolerance.why.empty());
-      EXPECT_FALSE(gate.note.empty());
-      EXPECT_GT(gate.tolerance.value, 0.0);
-      EXPECT_LE(gate.begin, gate.end);
-      EXPECT_LE(gate.end, scene.world.duration);
+    for (const SceneBound& bound : scene_bounds(scene.name)) {
+      SCOPED_TRACE(scene.name + " " + bound.engine.title() + " " + bound.claim);
+      EXPECT_FALSE(bound.sabotages.empty());
+      EXPECT_FALSE(bound.tolerance.why.empty());
+      EXPECT_FALSE(bound.note.empty());
+      EXPECT_GT(bound.tolerance.value, 0.0);
+      EXPECT_LE(bound.begin, bound.end);
+      EXPECT_LE(bound.end, scene.world.duration);
     }
   }
 }
 
 // A reference with the engine's own step is no solution: only what holds between equal recurrences may be held against it.
-TEST(SceneGates, OnlyRoundOffIsHeldAgainstTheSameRecurrence) {
+TEST(SceneBounds, OnlyRoundOffIsHeldAgainstTheSameRecurrence) {
   for (const scenes::CatalogEntry& entry : scenes::scene_catalog()) {
-    for (const SceneGate& gate : scene_gates(std::string(entry.name))) {
-      if (gate.quantity == Quantity::kDepth) continue;  // needs no reference
-      SCOPED_TRACE(std::string(entry.name) + " " + gate.engine.title() + " " + gate.claim);
-      EXPECT_EQ(gate.against == Against::kScheme, gate.tolerance.basis == Basis::kRoundoff);
+    for (const SceneBound& bound : scene_bounds(std::string(entry.name))) {
+      if (bound.quantity == Quantity::kDepth) continue;  // needs no reference
+      SCOPED_TRACE(std::string(entry.name) + " " + bound.engine.title() + " " + bound.claim);
+      EXPECT_EQ(bound.against == Against::kScheme, bound.tolerance.basis == Basis::kRoundoff);
     }
   }
 }
