@@ -20,7 +20,7 @@ struct Timing {
   double minimum;
 };
 
-/// Times all contenders turn by turn, so that a neighbour on the machine disturbs them alike: in
+/// Times all contenders turn by turn, so that a neighbor on the machine disturbs them alike: in
 /// each of num_rounds rounds each contender is called until about 2 ms have passed.
 [[nodiscard]] std::vector<Timing> race(const std::vector<Contender>& contenders, int num_rounds);
 

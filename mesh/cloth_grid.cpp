@@ -58,7 +58,7 @@ Edges edges_of_steps(const ClothGrid& grid, const std::vector<Step>& steps) {
   return Eigen::Map<const Edges>(flat.data(), 2, static_cast<Eigen::Index>(flat.size() / 2));
 }
 
-/// Three next neighbours along an axis (0: along u, 1: along v), centre in the middle.
+/// Three next neighbors along an axis (0: along u, 1: along v), centre in the middle.
 Triples lines_along(const ClothGrid& grid, int axis) {
   const auto [columns, rows] = grid.nodes;
   const int di = axis == 0 ? 1 : 0;

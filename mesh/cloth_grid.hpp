@@ -43,7 +43,7 @@ struct GridEdgeSet {
 [[nodiscard]] std::vector<GridEdgeSet> grid_edge_sets(GridStencil stencil);
 
 /// Builds the mesh: edge sets "stretch" (distance 1), "shear" (diagonals) and "bend" (ring 2), line
-/// sets "lines_u" and "lines_v" (three next neighbours along an axis), and union-jack triangles (the
+/// sets "lines_u" and "lines_v" (three next neighbors along an axis), and union-jack triangles (the
 /// diagonal alternates, so that no direction is preferred) with their crossed ones. The texture
 /// coordinates of node (i, j) are (i / (nodes[0] - 1), j / (nodes[1] - 1)). Throws InvalidArgument for
 /// sizes out of their domain and for axes that are not perpendicular.

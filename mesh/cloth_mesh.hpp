@@ -23,7 +23,7 @@ struct LineSet {
   Triples triples;  ///< 3 x m: end, centre, end
 };
 
-/// A named set of connections between nodes that are not neighbours.
+/// A named set of connections between nodes that are not neighbors.
 struct ConnectionSet {
   std::string name;
   Edges connections;  ///< 2 x m: the node whose frame counts, the far node

@@ -12,7 +12,7 @@ namespace weft {
 /// the edge from i to j and (j, i, l) has it from j to i; k and l are the nodes opposite. In the
 /// order in which the triangles name the edges.
 /// Throws InvalidArgument, with the numbers of the triangles, for an edge of three or more triangles
-/// and for two neighbours that do not turn the same way round.
+/// and for two neighbors that do not turn the same way round.
 [[nodiscard]] Hinges hinges_of_triangles(const Triangles& triangles);
 
 /// Whether every edge belongs to exactly two triangles that turn the same way round, and there is at

@@ -15,7 +15,7 @@ struct Rope {
   MassLumping lumping = MassLumping::kArea;  ///< kArea: by length, the end nodes weigh half
 };
 
-/// Builds the mesh: edge sets "stretch" (next neighbours) and "bend" (next but one), line set "lines"
+/// Builds the mesh: edge sets "stretch" (next neighbors) and "bend" (next but one), line set "lines"
 /// (three in a row), no triangles, texture coordinates (i / (nodes - 1), 0). Throws InvalidArgument
 /// for values out of their domain and for a rope without length.
 [[nodiscard]] ClothMesh make_rope(const Rope& rope);

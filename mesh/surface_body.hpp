@@ -31,13 +31,13 @@ struct BodyMass {
 inline constexpr double kCenterMassShare = 0.1;
 
 /// Builds a body of any surface, open or closed: edge sets "stretch" (the edges) and "bend" (the two
-/// far corners of each pair of neighbouring triangles, unless an edge ties them already). The centre
+/// far corners of each pair of neighboring triangles, unless an edge ties them already). The centre
 /// node is the last node; it lies at the centroid of the surface, belongs to no triangle and is tied
 /// to each other node by the edge set "center" (spokes) and the connection set "center" (the surface
 /// node's frame counts, the centre is the far node).
 /// Throws InvalidArgument, with the number of the node or triangle, for positions that are not
 /// finite, a node of no triangle, a triangle that names no node of the surface or one twice or has
-/// no area, an edge of three triangles, neighbours that do not turn the same way round, a centre node
+/// no area, an edge of three triangles, neighbors that do not turn the same way round, a centre node
 /// that falls on the surface, and masses out of their domain.
 [[nodiscard]] ClothMesh make_surface_body(const Surface& surface, const BodyMass& mass);
 

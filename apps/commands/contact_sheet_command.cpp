@@ -191,7 +191,7 @@ class SheetOutputs {
   std::filesystem::path pictures_;
 };
 
-/// The same scene on several engines, as neighbours; white where it is not made for one.
+/// The same scene on several engines, as neighbors; white where it is not made for one.
 std::vector<scenes::SheetEntry> compare_engines(const SheetOptions& options) {
   std::vector<scenes::SheetEntry> entries;
   for (const std::string& name : options.names) {

@@ -15,7 +15,7 @@
 namespace weft::app {
 namespace {
 
-/// Springs of a node whose whole neighbourhood lies inside the cloth; the largest number of any
+/// Springs of a node whose whole neighborhood lies inside the cloth; the largest number of any
 /// node.
 int springs_of_inner_node(const ClothMesh& mesh) {
   std::vector<int> count(static_cast<std::size_t>(mesh.num_nodes()), 0);

@@ -8,9 +8,9 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-using Neighbours = std::vector<std::vector<int>>;
+using Neighbors = std::vector<std::vector<int>>;
 
-void couple(const std::vector<int>& group, Neighbours& neighbors) {
+void couple(const std::vector<int>& group, Neighbors& neighbors) {
   for (const int a : group) {
     for (const int b : group) {
       if (a != b) neighbors[static_cast<std::size_t>(a)].push_back(b);
@@ -19,7 +19,7 @@ void couple(const std::vector<int>& group, Neighbours& neighbors) {
 }
 
 // Triangles, and pairs of triangles that share an edge.
-void couple_triangles(const Triangles& triangles, Neighbours& neighbors) {
+void couple_triangles(const Triangles& triangles, Neighbors& neighbors) {
   std::map<std::pair<int, int>, std::vector<int>> opposite;
   for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
     for (int k = 0; k < 3; ++k) {
@@ -35,7 +35,7 @@ void couple_triangles(const Triangles& triangles, Neighbours& neighbors) {
 }
 
 // A connection feels the frame of its node, and so the nodes of all triangles around it.
-void couple_connections(const ClothMesh& mesh, Neighbours& neighbors) {
+void couple_connections(const ClothMesh& mesh, Neighbors& neighbors) {
   for (const ConnectionSet& set : mesh.connection_sets) {
     for (Eigen::Index c = 0; c < set.connections.cols(); ++c) {
       const int node = set.connections(0, c);
@@ -49,8 +49,8 @@ void couple_connections(const ClothMesh& mesh, Neighbours& neighbors) {
   }
 }
 
-Neighbours neighbors_of(const ClothMesh& mesh) {
-  Neighbours neighbors(static_cast<std::size_t>(mesh.num_nodes()));
+Neighbors neighbors_of(const ClothMesh& mesh) {
+  Neighbors neighbors(static_cast<std::size_t>(mesh.num_nodes()));
   for (const EdgeSet& set : mesh.edge_sets) {
     for (Eigen::Index e = 0; e < set.edges.cols(); ++e) {
       couple({set.edges(0, e), set.edges(1, e)}, neighbors);
@@ -70,7 +70,7 @@ Neighbours neighbors_of(const ClothMesh& mesh) {
 }  // namespace
 
 std::vector<std::vector<int>> node_colors(const ClothMesh& mesh) {
-  const Neighbours neighbors = neighbors_of(mesh);
+  const Neighbors neighbors = neighbors_of(mesh);
   std::vector<int> color_of(neighbors.size(), -1);
   std::vector<std::vector<int>> colors;
   for (std::size_t node = 0; node < neighbors.size(); ++node) {

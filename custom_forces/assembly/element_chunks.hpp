@@ -14,7 +14,7 @@ namespace weft::forces {
 /// Elements are put in the order of their lowest node, so that a piece is one region of the mesh,
 /// and cut into equal chunks. A chunk sums into slots of its own, one for each node it touches.
 /// Most nodes are touched by one chunk only, which adds its sum to the result itself; the others,
-/// shared by neighbouring chunks, are added up at the end in the order of the chunks.
+/// shared by neighboring chunks, are added up at the end in the order of the chunks.
 ///
 /// Nothing here depends on the number of threads: the same elements give the same sums in the same
 /// order, and so the same bits.

@@ -41,12 +41,12 @@ int corner_of(const Triangles& triangles, int triangle, int node) {
 }  // namespace
 
 // Numbers, not a map or a sort of all sides: cloth that tears is looked through in every frame.
-Neighbourhood::Neighbourhood(const Triangles& triangles, int num_nodes) {
+Neighborhood::Neighborhood(const Triangles& triangles, int num_nodes) {
   sort_triangles(triangles, num_nodes);
   find_inner_edges(triangles, num_nodes);
 }
 
-void Neighbourhood::sort_triangles(const Triangles& triangles, int num_nodes) {
+void Neighborhood::sort_triangles(const Triangles& triangles, int num_nodes) {
   first_triangle_.assign(static_cast<std::size_t>(num_nodes) + 1, 0);
   for (const int node : triangles.reshaped()) ++first_triangle_[static_cast<std::size_t>(node) + 1];
   std::partial_sum(first_triangle_.begin(), first_triangle_.end(), first_triangle_.begin());
@@ -59,7 +59,7 @@ void Neighbourhood::sort_triangles(const Triangles& triangles, int num_nodes) {
   }
 }
 
-void Neighbourhood::find_inner_edges(const Triangles& triangles, int num_nodes) {
+void Neighborhood::find_inner_edges(const Triangles& triangles, int num_nodes) {
   struct Side {
     int second;
     int triangle;
@@ -100,7 +100,7 @@ void Neighbourhood::find_inner_edges(const Triangles& triangles, int num_nodes) 
   }
 }
 
-Fans::Fans(const ClothMesh& mesh, const Neighbourhood& near, const std::vector<bool>& is_cut)
+Fans::Fans(const ClothMesh& mesh, const Neighborhood& near, const std::vector<bool>& is_cut)
     : mesh_(&mesh),
       triangles_(mesh.triangles),
       is_split_(static_cast<std::size_t>(mesh.num_nodes()), 0) {

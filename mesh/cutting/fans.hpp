@@ -21,10 +21,10 @@ struct InnerEdge {
 };
 
 /// What is next to what in a triangle mesh.
-class Neighbourhood {
+class Neighborhood {
  public:
   /// Throws InvalidArgument for an edge of more than two triangles.
-  Neighbourhood(const Triangles& triangles, int num_nodes);
+  Neighborhood(const Triangles& triangles, int num_nodes);
 
   /// By lower node, then by higher node.
   [[nodiscard]] const std::vector<InnerEdge>& inner_edges() const { return inner_edges_; }
@@ -54,8 +54,8 @@ class Neighbourhood {
 /// Which corners of the triangles stay one node when edges are cut: the nodes of a cut mesh.
 class Fans {
  public:
-  /// is_cut: of each of the neighbourhood's inner edges.
-  Fans(const ClothMesh& mesh, const Neighbourhood& near, const std::vector<bool>& is_cut);
+  /// is_cut: of each of the neighborhood's inner edges.
+  Fans(const ClothMesh& mesh, const Neighborhood& near, const std::vector<bool>& is_cut);
 
   /// New node numbers of every triangle, 3 x t.
   [[nodiscard]] const Triangles& triangles() const { return triangles_; }

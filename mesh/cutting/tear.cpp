@@ -15,7 +15,7 @@
 namespace weft {
 namespace {
 
-std::vector<bool> cut_flags(const ClothMesh& mesh, const Neighbourhood& near, const Edges& cut) {
+std::vector<bool> cut_flags(const ClothMesh& mesh, const Neighborhood& near, const Edges& cut) {
   std::vector<std::pair<int, int>> wanted;
   for (Eigen::Index e = 0; e < cut.cols(); ++e) {
     for (const int node : cut.col(e)) {
@@ -67,8 +67,7 @@ void share_mass(const std::vector<int>& copies, const std::vector<double>& areas
   masses[copies[0]] = left;
 }
 
-void add_nodes(const ClothMesh& mesh, const Neighbourhood& near, const Fans& fans,
-               ClothMesh& torn) {
+void add_nodes(const ClothMesh& mesh, const Neighborhood& near, const Fans& fans, ClothMesh& torn) {
   const auto old = static_cast<Eigen::Index>(mesh.num_nodes());
   const auto added = static_cast<Eigen::Index>(fans.origins().size());
   torn.rest_positions.resize(3, old + added);
@@ -241,7 +240,7 @@ Triples torn_lines(const Triples& triples, const TornSprings& springs, ChangedNo
 }
 
 /// The triangle of the fan around a node in which the next node is to.
-int triangle_along(const ClothMesh& mesh, const Neighbourhood& near, int from, int to) {
+int triangle_along(const ClothMesh& mesh, const Neighborhood& near, int from, int to) {
   for (const int t : near.triangles_of(from)) {
     for (int corner = 0; corner < 3; ++corner) {
       if (mesh.triangles(corner, t) == from && mesh.triangles((corner + 1) % 3, t) == to) return t;
@@ -251,7 +250,7 @@ int triangle_along(const ClothMesh& mesh, const Neighbourhood& near, int from, i
 }
 
 /// Flags each node that has a triangle in common with one that falls apart.
-std::vector<bool> near_splits(const ClothMesh& mesh, const Neighbourhood& near, const Fans& fans) {
+std::vector<bool> near_splits(const ClothMesh& mesh, const Neighborhood& near, const Fans& fans) {
   std::vector<bool> is_near(static_cast<std::size_t>(mesh.num_nodes()), false);
   for (const auto& [node, copies] : fans.split_nodes()) {
     for (const int t : near.triangles_of(node)) {
@@ -263,7 +262,7 @@ std::vector<bool> near_splits(const ClothMesh& mesh, const Neighbourhood& near, 
 
 /// A crossed triangle runs along two sides of its cell, and so along one side of each of the cell's
 /// own triangles; their common edge is the cell's diagonal.
-Triangles torn_crossed(const ClothMesh& mesh, const Neighbourhood& near, const Fans& fans,
+Triangles torn_crossed(const ClothMesh& mesh, const Neighborhood& near, const Fans& fans,
                        ChangedNodes& changed) {
   Replacement<3> replacement;
   const std::vector<bool> is_near = near_splits(mesh, near, fans);
@@ -345,10 +344,10 @@ void drop_parted_connections(ClothMesh& torn) {
 }  // namespace
 
 Tear cut_along(const ClothMesh& mesh, const Edges& cut) {
-  return cut_along(mesh, Neighbourhood(mesh.triangles, mesh.num_nodes()), cut);
+  return cut_along(mesh, Neighborhood(mesh.triangles, mesh.num_nodes()), cut);
 }
 
-Tear cut_along(const ClothMesh& mesh, const Neighbourhood& near, const Edges& cut) {
+Tear cut_along(const ClothMesh& mesh, const Neighborhood& near, const Edges& cut) {
   const Fans fans(mesh, near, cut_flags(mesh, near, cut));
   if (fans.origins().empty()) return {mesh, {}};
   Tear tear{{}, fans.origins()};

@@ -6,7 +6,7 @@
 
 namespace weft {
 
-class Neighbourhood;
+class Neighborhood;
 
 /// A mesh after a cut, and where its new nodes come from.
 struct Tear {
@@ -44,6 +44,6 @@ struct Tear {
 /// triangles. Edges that no two triangles share are no cuts.
 [[nodiscard]] Tear cut_along(const ClothMesh& mesh, const Edges& cut);
 /// The same for who knows what is next to what already: near is of this mesh.
-[[nodiscard]] Tear cut_along(const ClothMesh& mesh, const Neighbourhood& near, const Edges& cut);
+[[nodiscard]] Tear cut_along(const ClothMesh& mesh, const Neighborhood& near, const Edges& cut);
 
 }  // namespace weft

@@ -63,7 +63,7 @@ class Tearing {
   Tearing(const ClothMesh& mesh, ConstMatrix3XRef<double> positions, const TearRule& rule);
   [[nodiscard]] Edges cut();
   /// Empty if no thread is beyond its limit.
-  [[nodiscard]] const Neighbourhood& near() const { return near_; }
+  [[nodiscard]] const Neighborhood& near() const { return near_; }
 
  private:
   void find_threads(ConstMatrix3XRef<double> positions, const TearRule& rule);
@@ -81,7 +81,7 @@ class Tearing {
   }
 
   const ClothMesh& mesh_;
-  Neighbourhood near_{Triangles(3, 0), 0};  ///< only made if a thread is beyond its limit
+  Neighborhood near_{Triangles(3, 0), 0};  ///< only made if a thread is beyond its limit
   std::vector<Thread> threads_;
   std::vector<bool> is_weak_;
   std::vector<bool> is_pinned_;
@@ -100,7 +100,7 @@ Tearing::Tearing(const ClothMesh& mesh, ConstMatrix3XRef<double> positions, cons
       max_splits_(rule.max_splits) {
   for (const int node : mesh.pinned) is_pinned_[static_cast<std::size_t>(node)] = true;
   find_threads(positions, rule);
-  if (!threads_.empty()) near_ = Neighbourhood(mesh.triangles, mesh.num_nodes());
+  if (!threads_.empty()) near_ = Neighborhood(mesh.triangles, mesh.num_nodes());
 }
 
 void Tearing::find_threads(ConstMatrix3XRef<double> positions, const TearRule& rule) {
@@ -290,7 +290,7 @@ Edges edges_under(const Blade& blade, const ClothMesh& mesh, ConstMatrix3XRef<do
   const Vector3<double> by_along = blade.depth.cross(normal) / normal.squaredNorm();
   const Vector3<double> by_depth = normal.cross(along) / normal.squaredNorm();
   std::vector<int> cut;
-  const Neighbourhood near(mesh.triangles, mesh.num_nodes());
+  const Neighborhood near(mesh.triangles, mesh.num_nodes());
   for (const InnerEdge& edge : near.inner_edges()) {
     const double sides[2] = {side(edge.triangles[0]), side(edge.triangles[1])};
     // Written so that a place that is not finite is not cut.

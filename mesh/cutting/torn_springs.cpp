@@ -55,7 +55,7 @@ bool is_among(const std::vector<int>& few, int value) {
 
 }  // namespace
 
-TornSprings::TornSprings(const ClothMesh& mesh, const Neighbourhood& near, const Fans& fans)
+TornSprings::TornSprings(const ClothMesh& mesh, const Neighborhood& near, const Fans& fans)
     : mesh_(&mesh), near_(&near), fans_(&fans) {
   for (const InnerEdge& edge : near.inner_edges()) {
     const bool may_open = fans.is_split(edge.first) || fans.is_split(edge.second);
@@ -169,16 +169,16 @@ std::vector<int> TornSprings::strip(int i, int j) const {
 /// For a line that leaves a curved surface: all triangles around both ends and around the nodes
 /// between them. Sorted.
 std::vector<int> TornSprings::surroundings(int i, int j) const {
-  const auto neighbours = [&](int node) {
+  const auto neighbors = [&](int node) {
     std::set<int> nodes;
     for (const int t : near_->triangles_of(node)) {
       for (const int other : mesh_->triangles.col(t)) nodes.insert(other);
     }
     return nodes;
   };
-  const std::set<int> of_i = neighbours(i);
+  const std::set<int> of_i = neighbors(i);
   std::set<int> region;
-  for (const int node : neighbours(j)) {
+  for (const int node : neighbors(j)) {
     if (!of_i.contains(node) && node != i && node != j) continue;
     const std::span<const int> around = near_->triangles_of(node);
     region.insert(around.begin(), around.end());

@@ -14,7 +14,7 @@ namespace weft {
 class TornSprings {
  public:
   /// The arguments must outlive this object.
-  TornSprings(const ClothMesh& mesh, const Neighbourhood& near, const Fans& fans);
+  TornSprings(const ClothMesh& mesh, const Neighborhood& near, const Fans& fans);
 
   /// Whether the cut may change a spring from i to j: false says that it stays as it is.
   [[nodiscard]] bool is_touched(int i, int j) const;
@@ -43,7 +43,7 @@ class TornSprings {
                std::vector<std::pair<int, int>>& found) const;
 
   const ClothMesh* mesh_;
-  const Neighbourhood* near_;
+  const Neighborhood* near_;
   const Fans* fans_;
   std::vector<InnerEdge> open_;
   std::vector<Box> open_boxes_;  ///< at rest

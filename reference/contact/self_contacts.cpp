@@ -145,7 +145,7 @@ double SelfContacts::gap(const System& system, const Candidate& candidate) const
     const auto number = static_cast<std::size_t>(candidate.nodes[static_cast<std::size_t>(k)]);
     rest.col(k) = a.mesh.rest_positions.col(nodes_[number].node);
   }
-  // Neighbours in the same layer would push each other apart for ever.
+  // Neighbors in the same layer would push each other apart for ever.
   return std::min(thickness, 0.5 * nearest(candidate.kind, rest).distance());
 }
 

@@ -97,19 +97,19 @@ Edges nearly_coupled_nodes(const Body& body) {
 }
 
 std::vector<int> column_colors(const Edges& coupled, int num_nodes) {
-  std::vector<std::vector<int>> neighbours(static_cast<std::size_t>(num_nodes));
+  std::vector<std::vector<int>> neighbors(static_cast<std::size_t>(num_nodes));
   for (int node = 0; node < num_nodes; ++node) {
-    neighbours[static_cast<std::size_t>(node)].push_back(node);
+    neighbors[static_cast<std::size_t>(node)].push_back(node);
   }
   for (Eigen::Index e = 0; e < coupled.cols(); ++e) {
-    neighbours[static_cast<std::size_t>(coupled(0, e))].push_back(coupled(1, e));
-    neighbours[static_cast<std::size_t>(coupled(1, e))].push_back(coupled(0, e));
+    neighbors[static_cast<std::size_t>(coupled(0, e))].push_back(coupled(1, e));
+    neighbors[static_cast<std::size_t>(coupled(1, e))].push_back(coupled(0, e));
   }
   std::vector<int> colors(static_cast<std::size_t>(num_nodes), -1);
   std::vector<int> last_user;  // of each colour: the node that saw it taken last
   for (int node = 0; node < num_nodes; ++node) {
-    for (const int row : neighbours[static_cast<std::size_t>(node)]) {
-      for (const int other : neighbours[static_cast<std::size_t>(row)]) {
+    for (const int row : neighbors[static_cast<std::size_t>(node)]) {
+      for (const int other : neighbors[static_cast<std::size_t>(row)]) {
         const int color = colors[static_cast<std::size_t>(other)];
         if (color >= 0) last_user[static_cast<std::size_t>(color)] = node;
       }

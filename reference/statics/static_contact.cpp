@@ -83,7 +83,7 @@ class AugmentedContact {
 double node_stiffness(const StaticProblem& problem, const Matrix3X<double>& positions) {
   Matrix3X<double> direction(3, positions.cols());
   for (Eigen::Index i = 0; i < direction.size(); ++i) {
-    direction.data()[i] = i % 2 == 0 ? 1.0 : -1.0;  // neighbours against each other
+    direction.data()[i] = i % 2 == 0 ? 1.0 : -1.0;  // neighbors against each other
   }
   Matrix3X<double> product = Matrix3X<double>::Zero(3, positions.cols());
   problem.stiffness_product(positions, direction, product);

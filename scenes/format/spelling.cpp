@@ -16,7 +16,7 @@ char lower(char c) {
   return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
 }
 
-/// Insertions, deletions, replacements and swaps of neighbours that turn a into b, upper case
+/// Insertions, deletions, replacements and swaps of neighbors that turn a into b, upper case
 /// ignored.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));

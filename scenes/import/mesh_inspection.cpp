@@ -127,7 +127,7 @@ void check_fans(const Soup& soup, const std::vector<int>& keep, const EdgeTable&
       triangles_at[node].push_back(t);
     }
   }
-  // Corner c of triangle t is 3t + c; corners of one node in neighbouring triangles are joined.
+  // Corner c of triangle t is 3t + c; corners of one node in neighboring triangles are joined.
   Groups corners(3 * soup.triangles.size());
   const auto corner_of = [&](int triangle, int node) {
     const auto t = static_cast<std::size_t>(triangle);

@@ -33,7 +33,7 @@ enum class Deformation { kStretched, kCompressed, kMixed };
 inline constexpr std::array kDeformations = {Deformation::kStretched, Deformation::kCompressed,
                                              Deformation::kMixed};
 
-/// Distance of neighbours in the battery's sheet [m].
+/// Distance of neighbors in the battery's sheet [m].
 inline constexpr double kSpacing = 0.2;
 
 /// A sheet of 5 x 4 nodes, 24-neighbour springs, in an oblique plane off the origin; for laws that

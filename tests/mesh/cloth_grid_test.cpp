@@ -26,7 +26,7 @@ ClothGrid classic(GridStencil stencil) {
   return grid;
 }
 
-std::vector<int> neighbours(const ClothMesh& mesh) {
+std::vector<int> neighbors(const ClothMesh& mesh) {
   std::vector<int> count(static_cast<std::size_t>(mesh.num_nodes()), 0);
   for (const EdgeSet& set : mesh.edge_sets) {
     for (const int node : set.edges.reshaped()) ++count[static_cast<std::size_t>(node)];
@@ -57,13 +57,13 @@ TEST(ClothGrid, SmallerStencilsHaveFewerSprings) {
   EXPECT_FALSE(eight.has_edge_set("bend"));
 }
 
-TEST(ClothGrid, AnInnerNodeHasAsManyNeighboursAsTheStencilSays) {
+TEST(ClothGrid, AnInnerNodeHasAsManyNeighborsAsTheStencilSays) {
   const std::vector<std::pair<GridStencil, int>> stencils = {{GridStencil::k24Neighbour, 24},
                                                              {GridStencil::k12Neighbour, 12},
                                                              {GridStencil::k8Neighbour, 8}};
   for (const auto& [stencil, expected] : stencils) {
     const ClothGrid grid = classic(stencil);
-    const std::vector<int> count = neighbours(make_cloth_grid(grid));
+    const std::vector<int> count = neighbors(make_cloth_grid(grid));
     for (int j = 2; j < 48; ++j) {
       for (int i = 2; i < 48; ++i) {
         ASSERT_EQ(count[static_cast<std::size_t>(grid_node(grid, i, j))], expected);

@@ -54,7 +54,7 @@ double largest_eigenvalue(const Eigen::MatrixXd& matrix) {
   return Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues().real().maxCoeff();
 }
 
-/// Power iteration ends at a change of kRayleighTolerance; neighbouring modes leave an error.
+/// Power iteration ends at a change of kRayleighTolerance; neighboring modes leave an error.
 constexpr double kSpectrumError = 1e-5;
 
 TEST(Damping, SpectrumOfABodyWithAddedInertiaIsThatOfTheDenseMatrix) {

@@ -21,7 +21,7 @@ inline void add_law(Body& body, const std::string& law, Parameters parameters) {
   body.laws.add(forces::make_law<double>(forces::checked(specification), body.mesh));
 }
 
-/// Nodes at rest on the x axis, spacing apart, with springs between neighbours.
+/// Nodes at rest on the x axis, spacing apart, with springs between neighbors.
 inline Body make_chain(int num_nodes, double spacing, double mass, double stiffness) {
   Body body;
   body.name = "chain";

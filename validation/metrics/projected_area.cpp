@@ -111,7 +111,7 @@ std::optional<double> projected_area(ConstMatrix3XRef<double> positions, const T
   const Eigen::Matrix2Xd points = in_cells(positions, raster);
   const Eigen::Array2d low = points.rowwise().minCoeff().array().floor();
   const Eigen::Array2d size = points.rowwise().maxCoeff().array().floor() - low + 1.0;
-  // Beyond 2^52 cells from the centre neighbouring cells are the same number.
+  // Beyond 2^52 cells from the centre neighboring cells are the same number.
   const double farthest = std::max(low.abs().maxCoeff(), (low + size).abs().maxCoeff());
   if (!(farthest < 0x1p52) || !(size.prod() <= kMaxProjectedCells)) return std::nullopt;
   Bitmap bitmap{static_cast<std::int64_t>(low[0]),

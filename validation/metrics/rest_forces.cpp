@@ -21,7 +21,7 @@ double sign_of(std::uint32_t number) {
   return ((number >> 16) & 1U) != 0 ? 1.0 : -1.0;
 }
 
-/// Each coordinate off by half the distance of two neighbouring numbers at most, as rounding leaves it.
+/// Each coordinate off by half the distance of two neighboring numbers at most, as rounding leaves it.
 Matrix3X<double> rounded(const Matrix3X<double>& positions, double epsilon) {
   Matrix3X<double> moved = positions;
   for (Eigen::Index i = 0; i < moved.size(); ++i) {

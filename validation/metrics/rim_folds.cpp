@@ -79,7 +79,7 @@ void add_edge(const Eigen::Vector2d& p, const Eigen::Vector2d& q, VectorX<double
 }  // namespace
 
 int count_maxima(const VectorX<double>& closed_curve, double prominence) {
-  std::vector<double> values;  // without repeated neighbours, so that a plateau is one point
+  std::vector<double> values;  // without repeated neighbors, so that a plateau is one point
   for (const double value : closed_curve) {
     if (values.empty() || values.back() != value) values.push_back(value);
   }

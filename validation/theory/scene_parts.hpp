@@ -18,7 +18,7 @@ inline constexpr double kTheoryGravity = 9.81;  // [m/s^2]
 /// longest_step [s]; the duration is rounded up to whole frames.
 [[nodiscard]] scenes::World theory_world(double duration, double longest_step, int frames_apart);
 
-/// A rope of springs with one mass per node: tension on its next neighbours, and gravity if asked for.
+/// A rope of springs with one mass per node: tension on its next neighbors, and gravity if asked for.
 struct RopeParts {
   int springs = 1;
   Vector3<double> start{0, 0, 0};  ///< [m]

@@ -12,7 +12,7 @@ constexpr double kLargestInWeights = 3.0;
 /// Part of m / h^2 that the spring has, which an explicit step takes without ringing.
 constexpr double kStiffnessShare = 0.1;
 /// The pull is shared out over nodes within this part of the cloth's size, by their masses: a single
-/// light node would be torn out of its neighbours.
+/// light node would be torn out of its neighbors.
 constexpr double kPatchRadius = 0.06;
 
 double size_of(const ClothMesh& mesh) {

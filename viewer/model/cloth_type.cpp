@@ -33,7 +33,7 @@ bool can_bend(const scenes::Cloth& cloth) {
 
 struct Sheet {
   double density = 0.0;  ///< [kg/m^2]
-  double spacing = 0.0;  ///< [m] typical distance of neighbours
+  double spacing = 0.0;  ///< [m] typical distance of neighbors
 };
 
 Sheet sheet_of(const scenes::Cloth& cloth) {

@@ -7,7 +7,7 @@
 
 namespace weft::forces {
 
-/// Connections between nodes that are not neighbours: a far node p keeps its direction in the local
+/// Connections between nodes that are not neighbors: a far node p keeps its direction in the local
 /// frame of a node c, so that a surface that was folded over finds its way back.
 ///
 ///   E = kappa phi^2 / 2

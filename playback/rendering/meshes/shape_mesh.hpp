@@ -23,7 +23,7 @@ namespace weft::scenes {
 /// Around the y axis, tip at +half_height. [m]
 [[nodiscard]] SurfaceMesh cone_surface(double radius, double half_height);
 
-/// Triangles of any surface. Normals are smooth where neighbours meet at less than the crease angle
+/// Triangles of any surface. Normals are smooth where neighbors meet at less than the crease angle
 /// [rad]. Texture coordinates are seen along y, one repetition over the size of the body.
 [[nodiscard]] SurfaceMesh triangle_surface(ConstMatrix3XRef<double> positions,
                                            const Triangles& triangles, double crease_angle);

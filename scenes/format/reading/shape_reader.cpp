@@ -88,7 +88,7 @@ void check_edges(const MeshShape& mesh, const std::vector<TomlValue>& items) {
       const auto [place, is_new] = seen.try_emplace(edge, t);
       if (is_new) continue;
       items[static_cast<std::size_t>(t)].fail(
-          fmt::format("runs from point {} to point {} as triangle {} does, expected neighbours to "
+          fmt::format("runs from point {} to point {} as triangle {} does, expected neighbors to "
                       "run along their edge in opposite directions",
                       edge.first, edge.second, place->second));
     }

@@ -22,8 +22,8 @@ constexpr std::size_t kPlanes = sizeof(std::uint32_t);
 
 /// How a step is predicted; what is left is small and compresses well.
 struct Prediction {
-  std::uint8_t order;       ///< from one frame before, or from two along a straight line
-  std::uint8_t neighbours;  ///< 1: then by what was left at the node before
+  std::uint8_t order;      ///< from one frame before, or from two along a straight line
+  std::uint8_t neighbors;  ///< 1: then by what was left at the node before
 };
 
 // Unsigned arithmetic: it wraps around, so that every prediction can be undone, also at kNoPosition.
@@ -46,7 +46,7 @@ std::vector<std::byte> plain_bytes(const std::vector<RoundedFrame>& frames,
   const std::size_t num_poses = frames.size() * frames.front().poses.size();
   std::vector<std::byte> bytes(kHeaderBytes + sizeof(float) * num_poses + kPlanes * num_values);
   bytes[0] = std::byte{prediction.order};
-  bytes[1] = std::byte{prediction.neighbours};
+  bytes[1] = std::byte{prediction.neighbors};
   std::byte* to = bytes.data() + kHeaderBytes;
   for (const RoundedFrame& frame : frames) {
     for (const float value : frame.poses) {
@@ -57,14 +57,14 @@ std::vector<std::byte> plain_bytes(const std::vector<RoundedFrame>& frames,
   std::size_t value_index = 0;
   for (std::size_t f = 0; f < frames.size(); ++f) {
     // The first frame of a chunk has no other before it.
-    const bool by_neighbours = f == 0 || prediction.neighbours != 0;
+    const bool by_neighbors = f == 0 || prediction.neighbors != 0;
     std::size_t i = 0;
     for (const int nodes : cloth_nodes) {
       for (int axis = 0; axis < 3; ++axis) {
         std::uint32_t before = 0;
         for (int node = 0; node < nodes; ++node, ++i, ++value_index) {
           const std::uint32_t left = from_time(frames, f, i, prediction.order);
-          const std::uint32_t rest = zigzag(by_neighbours ? left - before : left);
+          const std::uint32_t rest = zigzag(by_neighbors ? left - before : left);
           before = left;
           for (std::size_t k = 0; k < kPlanes; ++k) {
             to[k * num_values + value_index] = std::byte{static_cast<std::uint8_t>(rest >> 8 * k)};

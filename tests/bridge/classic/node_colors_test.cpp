@@ -34,7 +34,7 @@ TEST(NodeColors, EveryNodeIsInOneGroup) {
   EXPECT_EQ(seen, all);
 }
 
-TEST(NodeColors, AGridOf24NeighboursNeedsNineGroups) {
+TEST(NodeColors, AGridOf24NeighborsNeedsNineGroups) {
   ClothGrid grid;
   grid.nodes = {12, 9};
   EXPECT_EQ(node_colors(make_cloth_grid(grid)).size(), 9U);

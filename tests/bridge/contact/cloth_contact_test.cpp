@@ -234,7 +234,7 @@ bool ways_meet(const btSoftBody::Node& node, const btSoftBody::Face& face, const
   return true;
 }
 
-TEST(NodeGroups, AreSortedWithoutOtherNeighbours) {
+TEST(NodeGroups, AreSortedWithoutOtherNeighbors) {
   SoftWorld world({});
   const btSoftBody& body = world.add(make_cloth_body(world.info(), square(0.0, 0.4), {}));
   NodeGroups groups;

@@ -75,7 +75,7 @@ TEST(EdgeSlots, HoldEachEdgeOnceAtBothEnds) {
   }
 }
 
-TEST(EdgeSlots, KeepAGridsNeighboursInARow) {
+TEST(EdgeSlots, KeepAGridsNeighborsInARow) {
   const EdgeSlots slots = make_edge_slots(grid_edges(50), 2500);
   int num_scattered = 0;
   for (const EdgeSlot& slot : slots.slots) num_scattered += slot.is_scattered ? 1 : 0;

@@ -145,7 +145,7 @@ TEST(Pattern, ChecksAreHalfOfEachColour) {
 }
 
 TEST(Pattern, ContinuesAcrossItsBorders) {
-  // Where a pattern repeats, its first column follows its last: they are as alike as neighbours
+  // Where a pattern repeats, its first column follows its last: they are as alike as neighbors
   // inside of it. The carpet has a border of its own and the eyeball is no repetition.
   constexpr int kSize = 128;
   for (const Pattern pattern : {Pattern::kStripes, Pattern::kDots, Pattern::kTartan}) {

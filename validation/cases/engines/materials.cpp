@@ -124,7 +124,7 @@ CheckResult order_check(const CaseInfo& info, const EngineChoice& engine, const 
   check.case_id = info.id;
   check.engine = engine.title();
   check.claim = "the more damped a material, the later it has come down";
-  check.metric = "frames by which the order of two neighbours is missed";
+  check.metric = "frames by which the order of two neighbors is missed";
   check.unit = "1";
   check.formula = "t(0.55) < t(0.6) < t(0.7) < t(0.9)";
   check.source = "de Joya 2011";

@@ -11,7 +11,7 @@
 namespace weft::validation {
 namespace {
 
-/// Threads alone, a stiff strip with hinges, and the lattice of 24 neighbours.
+/// Threads alone, a stiff strip with hinges, and the lattice of 24 neighbors.
 constexpr const char* kStabilityMapsScenes[] = {"hang", "heavy_strip", "drape_sphere"};
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace weft::validation {
 
-/// A flat cloth of 8 x 8 nodes with springs to 12 neighbours, floating free and at rest, with an
+/// A flat cloth of 8 x 8 nodes with springs to 12 neighbors, floating free and at rest, with an
 /// added inertia beta [-] if it is not 0.
 [[nodiscard]] reference::Body floating_cloth(double beta);
 

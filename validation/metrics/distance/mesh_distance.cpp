@@ -29,7 +29,7 @@ MeshDistance::MeshDistance(scenes::MeshShape mesh) : mesh_(std::move(mesh)) {
   const Eigen::Index count = mesh_.triangles.cols();
   face_normals_.resize(3, count);
   point_normals_ = Matrix3X<double>::Zero(3, mesh_.points.cols());
-  neighbours_ = Triangles::Constant(3, count, -1);
+  neighbors_ = Triangles::Constant(3, count, -1);
   centers_.resize(3, count);
   radii_.resize(count);
   std::map<std::pair<int, int>, std::pair<Eigen::Index, int>> edges;
@@ -50,8 +50,8 @@ MeshDistance::MeshDistance(scenes::MeshShape mesh) : mesh_(std::move(mesh)) {
       edges[{from, to}] = {t, k};
       const auto twin = edges.find({to, from});
       if (twin == edges.end()) continue;
-      neighbours_(k, t) = static_cast<int>(twin->second.first);
-      neighbours_(twin->second.second, twin->second.first) = static_cast<int>(t);
+      neighbors_(k, t) = static_cast<int>(twin->second.first);
+      neighbors_(twin->second.second, twin->second.first) = static_cast<int>(t);
     }
   }
 }
@@ -91,8 +91,8 @@ Vector3<double> MeshDistance::pseudonormal(Eigen::Index t, const Vector3<double>
   }
   for (int k = 0; k < 3; ++k) {
     if (weights[(k + 2) % 3] > kOnBorder) continue;
-    const int neighbour = neighbours_(k, t);
-    if (neighbour >= 0) return face_normals_.col(t) + face_normals_.col(neighbour);
+    const int neighbor = neighbors_(k, t);
+    if (neighbor >= 0) return face_normals_.col(t) + face_normals_.col(neighbor);
   }
   return face_normals_.col(t);
 }

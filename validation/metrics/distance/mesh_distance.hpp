@@ -31,7 +31,7 @@ class MeshDistance {
   scenes::MeshShape mesh_;
   Matrix3X<double> face_normals_;   ///< unit
   Matrix3X<double> point_normals_;  ///< sums weighted by angles
-  Triangles neighbours_;            ///< beyond the edge from corner k to k + 1; -1: none
+  Triangles neighbors_;             ///< beyond the edge from corner k to k + 1; -1: none
   Matrix3X<double> centers_;        ///< of bounding spheres [m]
   VectorX<double> radii_;           ///< [m]
 };

@@ -104,7 +104,7 @@ TEST(HingeTorsion, ATriangleWithoutAreaIsRefusedAtRestAndIgnoredInMotion) {
   EXPECT_EQ(hinge_force_at(two_triangles(), crushed).norm(), 0.0);
 }
 
-TEST(HingeTorsion, ThreeTrianglesAtAnEdgeAndTwistedNeighboursAreRefused) {
+TEST(HingeTorsion, ThreeTrianglesAtAnEdgeAndTwistedNeighborsAreRefused) {
   ClothMesh three = two_triangles();
   three.triangles.conservativeResize(3, 3);
   three.triangles.col(2) << 0, 1, 3;

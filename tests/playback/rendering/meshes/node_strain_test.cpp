@@ -33,7 +33,7 @@ TEST(NodeStrain, ShowsWhereThePositionsAreNotFinite) {
   positions(1, 0) = std::numeric_limits<double>::quiet_NaN();
   const Eigen::VectorXd strain = node_strain(mesh, positions);
   EXPECT_TRUE(std::isnan(strain[0]));
-  EXPECT_TRUE(std::isnan(strain[1]));  // its neighbour shares a spring
+  EXPECT_TRUE(std::isnan(strain[1]));  // its neighbor shares a spring
   EXPECT_LE(std::abs(strain[80]), kRoundOff);
 }
 

@@ -110,7 +110,7 @@ TEST(Penetration, SeparatesSurfaceAndMargin) {
 
 TEST(Penetration, OfASphereFindsTheDeepestNode) {
   // Nodes at spacing 0.5 in the plane y = 0; the sphere holds the centre node and its four
-  // neighbours.
+  // neighbors.
   const Fixture f({collider(SphereShape{0.6})}, 0.0);
   const Penetration p = penetrations(f.scene, f.state).at(0);
   EXPECT_EQ(p.closest_node, 12);

@@ -73,7 +73,7 @@ TEST(VertexDistance, AlignmentNeverReflects) {
   EXPECT_GT(aligned_vertex_distance(a, mirrored, equal_weights(12)).rms, 0.1);
 }
 
-TEST(VertexDistance, AlignmentBeatsEveryNeighbouringMotion) {
+TEST(VertexDistance, AlignmentBeatsEveryNeighboringMotion) {
   const Matrix3X<double> a = Sequence(3).columns(15);
   const Matrix3X<double> b = some_motion().apply(a) + 0.2 * Sequence(4).columns(15);
   const VectorX<double> weights =

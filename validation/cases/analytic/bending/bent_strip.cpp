@@ -343,7 +343,7 @@ BentStrip bend_strip(const StripModel& model, const Matrix3X<double>& start) {
   options.max_move = strip.length / 5;
   Matrix3X<double> positions = start.cols() > 0 ? start : body.mesh.rest_positions;
   if (model.is_endless) {
-    // The period in the middle; the rest is there so that it has neighbours.
+    // The period in the middle; the rest is there so that it has neighbors.
     const double spacing = repeat_of(strip, body.mesh);
     const double middle =
         (body.mesh.rest_positions.row(2).minCoeff() + body.mesh.rest_positions.row(2).maxCoeff()) /

@@ -38,7 +38,7 @@ struct Solution {
   double reach = 0.0;
 };
 
-/// Newton for theta(0) = 0 and no sideways way, from a neighbour's solution.
+/// Newton for theta(0) = 0 and no sideways way, from a neighbor's solution.
 Solution solve(double tip, Solution guess) {
   const auto miss = [&](double force, double beta) -> Eigen::Vector2d {
     const State y = shoot(tip, force, beta);

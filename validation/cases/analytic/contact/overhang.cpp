@@ -61,7 +61,7 @@ Matrix3X<double> places_of(const Table& table) {
     places.col(table.table_nodes() + i) << kOverhangRadius * std::sin(angle),
         kOverhangRadius * std::cos(angle), 0;
   }
-  // The neighbours of those on the edge are farther away, or they would touch it too.
+  // The neighbors of those on the edge are farther away, or they would touch it too.
   for (int i = table.table_nodes() - 1; i >= 0; --i) {
     const double share = i == table.table_nodes() - 1 ? 1.5 : 1.0;
     places.col(i) = places.col(i + 1) - Vector3<double>(share * spacing, 0, 0);

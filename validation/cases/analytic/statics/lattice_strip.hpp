@@ -19,7 +19,7 @@ struct LatticeDirection {
 
 /// A piece of a square grid whose lines run at an angle to x, clamped left of x = 0 and with its free end at
 /// x = length [m], about cells times as long as its spacing; along -z two periods and more, so that the middle
-/// one has all its neighbours. Masses are those of an endless sheet with a sharp end, of density [kg/m^2]. The nodes
+/// one has all its neighbors. Masses are those of an endless sheet with a sharp end, of density [kg/m^2]. The nodes
 /// behind the clamp are pinned. Edge set "net". Where a cell sticks out of the end its triangles remain as far
 /// as they have all corners.
 [[nodiscard]] ClothMesh make_lattice_strip(const LatticeDirection& direction, int cells,
