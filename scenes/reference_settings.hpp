@@ -4,7 +4,7 @@
 
 namespace weft::scenes {
 
-/// How the reference solver steps (reference/README.md), in the order of its own list.
+/// How the reference solver steps (docs/reference_solver.md), in the order of its own list.
 enum class Integrator {
   kExplicitEuler,
   kModifiedEuler,

@@ -119,7 +119,7 @@ struct Cloth {
   Appearance appearance = {};
 };
 
-/// A rigid obstacle; with a mass it is a dynamic rigid body that the cloth pushes back.
+/// A rigid collider; with a mass it is a dynamic rigid body that the cloth pushes back.
 struct Collider {
   std::string name;
   Shape shape;

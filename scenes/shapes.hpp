@@ -12,7 +12,7 @@
 
 namespace weft::scenes {
 
-/// The shapes of rigid obstacles, in the collider's own frame. Capsule, cylinder and cone stand
+/// The shapes of rigid colliders, in the collider's own frame. Capsule, cylinder and cone stand
 /// along its y axis, their middle at its origin.
 
 struct SphereShape {

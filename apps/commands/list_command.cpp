@@ -56,7 +56,7 @@ void print_scene(const scenes::CatalogEntry& entry, bool verbose) {
   for (const scenes::Collider& collider : scene.colliders) {
     print("    {}: {}\n", collider.name,
           collider.mass ? fmt::format("dynamic rigid body, {:.6g} kg", *collider.mass)
-                        : std::string("fixed obstacle"));
+                        : std::string("fixed collider"));
   }
 }
 

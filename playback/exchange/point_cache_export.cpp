@@ -14,7 +14,7 @@
 namespace weft::scenes {
 namespace {
 
-/// Largest departure of a frame's time from equal spacing, as a part of the spacing: Bullet rounds its steps.
+/// Largest deviation of a frame's time from equal spacing, as a part of the spacing: Bullet rounds its steps.
 constexpr double kTimeTolerance = 1e-2;
 
 constexpr std::string_view kNoOldFile = "weft.obj";  // folders without Weft's mark are never ours

@@ -122,7 +122,7 @@ void World::lead_pins(double time_step) {
   for (const auto& cloth : cloths_) {
     btSoftBody& body = *cloth->body;
     if (!cloth->led_nodes.empty()) {
-      bridge::lead_nodes(cloth->led_nodes, cloth->led_targets, time_step, body);
+      bridge::move_kinematic_nodes(cloth->led_nodes, cloth->led_targets, time_step, body);
     }
     for (std::size_t i = 0; i < cloth->forced_nodes.size(); ++i) {
       body.m_nodes[cloth->forced_nodes[i]].m_f +=

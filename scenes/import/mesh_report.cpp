@@ -67,7 +67,7 @@ std::optional<std::string> MeshReport::fault() const {
            ", expected at most two";
   }
   if (!flipped_edges.empty()) {
-    return "neighbours turn opposite ways at the edge at " + at(flipped_edges[0]) +
+    return "neighbors turn opposite ways at the edge at " + at(flipped_edges[0]) +
            ", expected all fronts on one side";
   }
   if (!bow_ties.empty()) {

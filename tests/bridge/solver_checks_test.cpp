@@ -136,12 +136,12 @@ TEST(SolverChecks, FastSettingsOutOfTheirDomainAreRefused) {
 }
 
 /// What makes a body one that cannot be fast, and what is said of it.
-struct Collider {
+struct Refusal {
   void (*make)(btSoftBody& body);
   std::string reason;
 };
 
-std::vector<Collider> obstacles_at_any_time() {
+std::vector<Refusal> refusals_at_any_time() {
   return {
       {[](btSoftBody& body) { body.generateClusters(1); }, "clusters"},
       {[](btSoftBody& body) {
@@ -154,41 +154,41 @@ std::vector<Collider> obstacles_at_any_time() {
 }
 
 TEST(SolverChecks, WhatCannotBeFastIsRefusedAndLeftAsItWas) {
-  std::vector<Collider> obstacles = obstacles_at_any_time();
-  obstacles.push_back({[](btSoftBody& body) { body.appendLink(0, 5); }, "1 links"});
-  for (const Collider& obstacle : obstacles) {
+  std::vector<Refusal> refusals = refusals_at_any_time();
+  refusals.push_back({[](btSoftBody& body) { body.appendLink(0, 5); }, "1 links"});
+  for (const Refusal& refusal : refusals) {
     SoftWorld world({});
     world.info().m_gravity.setValue(0, btScalar(-9.81), 0);
     btSoftBody& body = world.add(make_cloth_body(world.info(), cloth(), {}));
     SoftWorld plain({});
     plain.info().m_gravity.setValue(0, btScalar(-9.81), 0);
     btSoftBody& same = plain.add(make_cloth_body(plain.info(), cloth(), {}));
-    for (btSoftBody* each : {&body, &same}) obstacle.make(*each);
+    for (btSoftBody* each : {&body, &same}) refusal.make(*each);
     const auto reason = world.solver().attach_fast(body, cloth(), {kBending});
-    ASSERT_TRUE(reason) << obstacle.reason;
-    EXPECT_THAT(*reason, HasSubstr(obstacle.reason));
+    ASSERT_TRUE(reason) << refusal.reason;
+    EXPECT_THAT(*reason, HasSubstr(refusal.reason));
     EXPECT_FALSE(world.solver().has_laws(body));
     for (int step = 0; step < 5; ++step) {
       world.step(kTimeStep);
       plain.step(kTimeStep);
     }
     for (int i = 0; i < body.m_nodes.size(); ++i) {
-      EXPECT_EQ(body.m_nodes[i].m_x, same.m_nodes[i].m_x) << obstacle.reason;
+      EXPECT_EQ(body.m_nodes[i].m_x, same.m_nodes[i].m_x) << refusal.reason;
     }
   }
 }
 
 TEST(SolverChecks, WhatCannotBeFastAnyMoreIsReported) {
-  for (const Collider& obstacle : obstacles_at_any_time()) {
+  for (const Refusal& refusal : refusals_at_any_time()) {
     SoftWorld world({});
     btSoftBody& body = world.add(make_cloth_body(world.info(), cloth(), {}));
     ASSERT_FALSE(world.solver().attach_fast(body, cloth(), {kSpring}));
     world.step(kTimeStep);
     EXPECT_FALSE(world.solver().blow_up(body));
-    obstacle.make(body);
+    refusal.make(body);
     world.step(kTimeStep);
-    ASSERT_TRUE(world.solver().blow_up(body)) << obstacle.reason;
-    EXPECT_THAT(world.solver().blow_up(body)->reason, HasSubstr(obstacle.reason));
+    ASSERT_TRUE(world.solver().blow_up(body)) << refusal.reason;
+    EXPECT_THAT(world.solver().blow_up(body)->reason, HasSubstr(refusal.reason));
   }
 }
 

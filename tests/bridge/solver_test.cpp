@@ -154,8 +154,8 @@ TEST(SoftBodySolver, ExplosionIsReportedAndFrozen) {
   const ClothMesh mesh = free_cloth();
   SoftWorld world({});
   auto shape = std::make_unique<btSphereShape>(btScalar(1));
-  auto obstacle = std::make_unique<btRigidBody>(btScalar(0), nullptr, shape.get());
-  world.add(std::move(obstacle), std::move(shape));
+  auto collider = std::make_unique<btRigidBody>(btScalar(0), nullptr, shape.get());
+  world.add(std::move(collider), std::move(shape));
   btSoftBody& body = world.add(make_cloth_body(world.info(), mesh, {}));
   // A thousand times beyond the stable step: every mode grows at once.
   world.solver().attach(body, laws(mesh, {law("tension", "stiffness", {1e6})}),

@@ -189,7 +189,7 @@ System drape(const Shape& shape, const Eigen::Quaterniond& orientation) {
   cloth.collision_margin = kMargin;
   cloth.friction = 0.3;
   System system = system_of(std::move(cloth));
-  Collider collider{.name = "obstacle", .shape = shape};
+  Collider collider{.name = "collider", .shape = shape};
   collider.orientation = orientation;
   system.colliders.push_back(collider);
   Collider floor{.name = "floor", .shape = Plane{}, .position = {0, -0.3, 0}};

@@ -56,14 +56,14 @@ TEST(ImplicitIntegrators, AgreeWithRungeKuttaWithEveryKindOfLaw) {
     for (int n = 0; n < steps; ++n) (void)solver.step(kDuration / steps);
     return Matrix3X<double>(solver.system().bodies[0].positions);
   };
-  const Matrix3X<double> truth = end(IntegratorKind::kRungeKutta4, 2000);
+  const Matrix3X<double> solution = end(IntegratorKind::kRungeKutta4, 2000);
   for (const IntegratorKind integrator :
        {IntegratorKind::kTrBdf2, IntegratorKind::kImplicitMidpoint,
         IntegratorKind::kGeneralizedAlpha, IntegratorKind::kImplicitEuler}) {
     const int order = make_integrator(integrator)->order();
     const int steps = order == 1 ? 400 : 100;
-    const double coarse = (end(integrator, steps) - truth).norm();
-    const double fine = (end(integrator, 2 * steps) - truth).norm();
+    const double coarse = (end(integrator, steps) - solution).norm();
+    const double fine = (end(integrator, 2 * steps) - solution).norm();
     constexpr double kOrderTolerance = 0.15;
     EXPECT_NEAR(std::log2(coarse / fine), order, kOrderTolerance)
         << name_of(integrator) << ": " << coarse << " " << fine;
@@ -148,8 +148,8 @@ TEST(DormandPrince5, ErrsByWhatItsToleranceSaysAndTellsItsSteps) {
       inner += outcome.integration.inner_steps;
     }
     // At 2 s, from an independent Runge-Kutta solution with an error of 1e-8 m.
-    const Vector3<double> truth(.445570232, -1.005587065, 0);
-    const double error = (solver.system().bodies[0].positions.col(1) - truth).norm();
+    const Vector3<double> solution(.445570232, -1.005587065, 0);
+    const double error = (solver.system().bodies[0].positions.col(1) - solution).norm();
     // Some hundred inner steps, each with its tolerance, and errors grow a few times over 2 s.
     EXPECT_LT(error, 100 * tolerance + 2e-8) << tolerance;
     EXPECT_GT(inner, previous) << tolerance;

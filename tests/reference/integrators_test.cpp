@@ -219,7 +219,7 @@ TEST(MethodsOfHighOrder, ReproduceTheSpringPendulumTable) {
                              {5.0, -.526191324, -1.186708980},
                              {10.0, .347049829, -1.137932779}};
   constexpr double kTableError = 1e-8;   // [m]
-  constexpr int kStepsPerSecond = 4000;  // own error (w h)^4 w T / 120 = 3e-11 m
+  constexpr int kStepsPerSecond = 4000;  // discretization error (w h)^4 w T / 120 = 3e-11 m
   for (const IntegratorKind integrator :
        {IntegratorKind::kRungeKutta4, IntegratorKind::kYoshida4, IntegratorKind::kDormandPrince5}) {
     SpringSolver solver = solver_of(spring_pendulum(), integrator);
@@ -257,7 +257,7 @@ Eigen::VectorXd end_state(Body body, IntegratorKind integrator, int steps) {
 }
 
 void expect_orders(Body (*make)()) {
-  const Eigen::VectorXd truth = end_state(make(), IntegratorKind::kRungeKutta4, 8000);
+  const Eigen::VectorXd solution = end_state(make(), IntegratorKind::kRungeKutta4, 8000);
   const struct {
     IntegratorKind integrator;
     int order;
@@ -273,7 +273,7 @@ void expect_orders(Body (*make)()) {
   for (const auto& c : cases) {
     double previous = 0.0;
     for (int halving = 0; halving <= c.halvings; ++halving) {
-      const double error = (end_state(make(), c.integrator, c.steps << halving) - truth).norm();
+      const double error = (end_state(make(), c.integrator, c.steps << halving) - solution).norm();
       if (halving > 0) {
         EXPECT_NEAR(std::log2(previous / error), c.order, kOrderTolerance)
             << name_of(c.integrator) << ", halving " << halving << ", error " << error;

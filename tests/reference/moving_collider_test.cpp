@@ -130,10 +130,10 @@ TEST(DynamicCollider, ASpinningBoxKeepsAngularMomentumAndTumblesTheSameInAnyStep
     EXPECT_LT((angular_momentum(solver.system()) - spin).norm(), steps * kEpsilon);  // round-off
     return solver.system().colliders[0].orientation;
   };
-  const Eigen::Quaterniond truth = end_orientation(20000);
+  const Eigen::Quaterniond solution = end_orientation(20000);
   // Substeps of 0.05 rad and order 6: what is left is the round-off of 20,000 steps.
   for (const int steps : {1, 10, 100, 200}) {
-    EXPECT_LT(end_orientation(steps).angularDistance(truth), 1e-10) << steps;
+    EXPECT_LT(end_orientation(steps).angularDistance(solution), 1e-10) << steps;
   }
 }
 

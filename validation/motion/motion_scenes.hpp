@@ -10,7 +10,7 @@
 namespace weft::validation {
 
 /// Scenes in which a solver that is excellent in stretch can be wrong in motion, in contact and at rest. Each is plain: springs, gravity,
-/// drag and one obstacle, so that explicit integration in small steps tells what must happen. Time steps are 1/60 s; with_step() gives others.
+/// drag and one collider, so that explicit integration in small steps tells what must happen. Time steps are 1/60 s; with_step() gives others.
 
 /// A sheet of 1 m x 1 m that lies flat and is let go, held at two corners: 12 neighbors, equal masses, no damping, 3 s.
 /// nodes: along an edge, >= 2; mass [kg]; stiffness [N/m] of each spring.

@@ -229,7 +229,7 @@ Scene random_scene(std::uint64_t seed, std::string_view engine) {
   Dice dice(seed);
   Scene scene;
   scene.name = "stress_" + std::to_string(seed);
-  scene.summary = "Shows what an engine does with numbers out of a hat.";
+  scene.summary = "Shows what an engine does with random numbers.";
   if (dice.chance(0.3)) scene.world.gravity = dice.magnitude(0.1, 1e3) * dice.direction();
   scene.world.time_step = dice.magnitude(1e-5, 0.1);
   scene.world.duration = dice.between(3, 12) * scene.world.time_step;

@@ -1,4 +1,4 @@
-// Runs scenes out of a hat with every engine, each in a process of its own, and asserts that none of
+// Runs random scenes with every engine, each in a process of its own, and asserts that none of
 // them crashes, uses more processor time than its budget, or makes numbers that are not finite
 // without saying that it blew up.
 //

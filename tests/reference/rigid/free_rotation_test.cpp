@@ -94,8 +94,8 @@ TEST(FreeRotation, ConvergesToEulersEquations) {
                           d = rate(q + kStep * c);
     q += kStep / 6 * (a + 2 * b + 2 * c + d);
   }
-  const Eigen::Quaterniond truth = Eigen::Quaterniond(q).normalized();
-  EXPECT_LT(rotation.advance(box.orientation, 2.0).angularDistance(truth), 1e-10);
+  const Eigen::Quaterniond solution = Eigen::Quaterniond(q).normalized();
+  EXPECT_LT(rotation.advance(box.orientation, 2.0).angularDistance(solution), 1e-10);
   EXPECT_LT(rotation.angular_velocity(box.orientation).cross(box.angular_velocity).norm(), 1e-13);
 }
 

@@ -32,7 +32,7 @@ inline constexpr std::array<BrokenCase, 33> kBrokenCases = {{
     {"lines_only.obj", "has no triangle"},
     {"huge_accessor.gltf", "cannot be read"},
     {"huge_count.ply", "cannot be read"},
-    {"flipped.obj", "neighbours turn opposite ways at the edge at"},
+    {"flipped.obj", "neighbors turn opposite ways at the edge at"},
     {"missing_buffer.gltf", "the file 'not_there.bin' that it names does not exist"},
     {"circle.gltf", "recursive reference"},
     {"no_such_mesh.gltf", "Array index 7 is out of bounds"},

@@ -290,8 +290,9 @@ TEST(Damage, ATruncatedFileIsAnErrorAtEveryLength) {
 
 /// Changes each kStride-th byte of a file, one at a time; whatever can then be read must be
 /// unchanged.
-void expect_error_or_truth(const std::filesystem::path& damaged, const std::filesystem::path& base,
-                           std::size_t stride, const std::string& truth) {
+void expect_error_or_undamaged(const std::filesystem::path& damaged,
+                               const std::filesystem::path& base, std::size_t stride,
+                               const std::string& undamaged) {
   std::vector<char> bytes = read_bytes(damaged);
   int num_errors = 0;
   for (std::size_t i = 0; i < bytes.size(); i += stride) {
@@ -300,7 +301,7 @@ void expect_error_or_truth(const std::filesystem::path& damaged, const std::file
       bytes[i] = static_cast<char>(bytes[i] ^ mask);
       write_bytes(damaged, bytes);
       try {
-        ASSERT_EQ(read_everything(base), truth) << "byte " << i << " mask " << mask;
+        ASSERT_EQ(read_everything(base), undamaged) << "byte " << i << " mask " << mask;
       } catch (const Error& error) {
         ++num_errors;
         ASSERT_THAT(error.what(), HasSubstr(base.string())) << "byte " << i;
@@ -316,9 +317,9 @@ TEST(Damage, AFlippedByteIsAnErrorOrMakesNoDifference) {
   const TemporaryFolder folder;
   write_sample(folder / "a", make_scene(), StoredPrecision::kFloat32, 9, {.frames = 3},
                {{"engine", "fake"}, {"flags", "-O2"}});
-  const std::string truth = read_everything(folder / "a");
+  const std::string undamaged = read_everything(folder / "a");
   constexpr std::size_t kStride = 29;
-  expect_error_or_truth(folder / "a", folder / "a", kStride, truth);
+  expect_error_or_undamaged(folder / "a", folder / "a", kStride, undamaged);
 }
 
 }  // namespace

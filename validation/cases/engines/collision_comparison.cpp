@@ -42,7 +42,7 @@ std::vector<SweepEngine> sweep_engines(const CollisionScene& scene, const CaseOp
                                 {{"bullet_forces", kFloat32}},
                                 {{"bullet_forces", kFloat64}},
                                 {{"bullet_soft", kFloat32}}};
-  if (!scene.is_led) list.push_back({{"bullet_deformable", kFloat64}});
+  if (!scene.is_kinematic) list.push_back({{"bullet_deformable", kFloat64}});
   return list;
 }
 

@@ -17,11 +17,11 @@ inline constexpr int kFoldingNodes = 26;
 
 /// A cloth of 0.6 m x 0.6 m and one body that it comes to rest on.
 struct CollisionScene {
-  const char* id;           ///< "table_edge"
-  const char* start;        ///< keys of the cloth: where it starts, what holds it
-  const char* collider;     ///< the body, as TOML
-  double friction = 0.0;    ///< of the contact [-]
-  bool is_led = false;      ///< the body follows a path, which bullet_deformable does not know
+  const char* id;             ///< "table_edge"
+  const char* start;          ///< keys of the cloth: where it starts, what holds it
+  const char* collider;       ///< the body, as TOML
+  double friction = 0.0;      ///< of the contact [-]
+  bool is_kinematic = false;  ///< the body follows a path, which bullet_deformable does not know
   bool slides = false;      ///< in sliding contact, which is not the same in Bullet's classic world
   double duration = 3.0;    ///< [s] until it is at rest
   double fine_drag = 4.0;   ///< [1/s] of velocity_damping from kFoldingNodes on; else 4 / s

@@ -40,7 +40,7 @@ struct Fixture {
 };
 
 scenes::Collider collider(const scenes::Shape& shape) {
-  scenes::Collider result{.name = "obstacle", .shape = shape, .mass = std::nullopt};
+  scenes::Collider result{.name = "collider", .shape = shape, .mass = std::nullopt};
   return result;
 }
 
@@ -91,7 +91,7 @@ TEST(Penetration, OfAClothSunkIntoAPlane) {
   const Fixture f({collider(PlaneShape{})}, -0.02);
   const Penetration p = penetrations(f.scene, f.state).at(0);
   EXPECT_EQ(p.cloth, "cloth");
-  EXPECT_EQ(p.collider, "obstacle");
+  EXPECT_EQ(p.collider, "collider");
   EXPECT_NEAR(p.closest, -0.02, kRoundoff);
   EXPECT_NEAR(p.surface.deepest, 0.02, kRoundoff);
   EXPECT_NEAR(p.surface.percentile_99, 0.02, kRoundoff);
