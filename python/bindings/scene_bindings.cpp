@@ -5,11 +5,11 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <weft/engines/reference_simulator.hpp>
-#include <weft/scenes/engine_kind.hpp>
 #include <weft/python/bindings/core_module.hpp>
 #include <weft/python/bindings/numpy_arrays.hpp>
 #include <weft/python/bindings/scene_run.hpp>
 #include <weft/scenes/catalog.hpp>
+#include <weft/scenes/engine_kind.hpp>
 #include <weft/scenes/format/scene_file.hpp>
 
 namespace weft::python {
