@@ -9,9 +9,8 @@
 namespace weft::validation {
 namespace {
 
-constexpr std::array kCollisionComparisonNodes = {12, 18,
-                                                  26};  ///< along each side: every 55, 35 and 24 mm
-constexpr int kLongStep = 8;  ///< 1/250 s, for an engine that needs no short ones
+constexpr std::array kNodes = {12, 18, 26};  ///< along each side: every 55, 35 and 24 mm
+constexpr int kLongStep = 8;                 ///< 1/250 s, for an engine that needs no short ones
 
 scenes::Scene edited(scenes::Scene scene, const Sabotage& sabotage) {
   sabotage.edit_scene(scene);
@@ -47,9 +46,8 @@ std::vector<SweepEngine> sweep_engines(const CollisionScene& scene, const CaseOp
 }
 
 std::vector<int> sweep_resolutions(const CollisionScene& scene) {
-  if (scene.slides)
-    return {kCollisionComparisonNodes[1]};  // there to show a size, which one resolution does
-  return {kCollisionComparisonNodes.begin(), kCollisionComparisonNodes.end()};
+  if (scene.slides) return {kNodes[1]};  // there to show a size, which one resolution does
+  return {kNodes.begin(), kNodes.end()};
 }
 
 Comparison::Comparison(const CaseInfo& info, const CollisionScene& row, int nodes)

@@ -81,14 +81,14 @@ constexpr const char* kLedSphere = R"(shape = "sphere"
 radius = "12 cm"
 path = { times = ["0 s", "0.5 s"], points = [["-10 cm", "-20 cm", "0 cm"], ["5 cm", "-8 cm", "3 cm"]] })";
 
-constexpr double kCollisionScenesDrag = 4.0;  // [1/s]
-constexpr double kDamped = 8.0;               // [1/s]
+constexpr double kDrag = 4.0;    // [1/s]
+constexpr double kDamped = 8.0;  // [1/s]
 /// Where folds form, differences grow before they decay: shorter steps.
 constexpr int kFolding = 16;
 
 // Each has one end that it must come to: held, nailed, off centre, and either without friction or with so much that
 // nothing slides, for a sliding contact is not the same in Bullet's classic world. The last two rows slide.
-constexpr std::array kCollisionScenesScenes = {
+constexpr std::array kScenes = {
     CollisionScene{.id = "sphere",
                    .start = R"(center = ["4 cm", "1 cm", "2 cm"]
 pin = [{ sphere = { center = ["0 m", "1 cm", "0 m"], radius = "5 cm" } }])",
@@ -182,14 +182,14 @@ Sabotage body_moved() {
 }
 
 std::span<const CollisionScene> collision_scenes() {
-  return kCollisionScenesScenes;
+  return kScenes;
 }
 
 scenes::Scene written_collision_scene(const CollisionScene& scene, int nodes) {
   const std::string text =
       fmt::format(fmt::runtime(kCloth), fmt::arg("id", scene.id), fmt::arg("nodes", nodes),
                   fmt::arg("duration", scene.duration),
-                  fmt::arg("drag", nodes >= kFoldingNodes ? scene.fine_drag : kCollisionScenesDrag),
+                  fmt::arg("drag", nodes >= kFoldingNodes ? scene.fine_drag : kDrag),
                   fmt::arg("start", scene.start), fmt::arg("friction", scene.friction),
                   fmt::arg("collider", scene.collider));
   scenes::Scene made = scenes::read_scene_text(text, fmt::format("collision_sweep/{}", scene.id));

@@ -20,7 +20,7 @@ namespace {
 /// The gap that is asked, while the cloth moves, of an engine whose step damps, as a share of the cloth's size [-].
 constexpr double kDampedGap = 0.03;
 /// [m/s] RMS. The slowest swing has a period of half a second: it goes 0.5 mm to each side, a tenth of 1 % of the size.
-constexpr double kCollisionSweepRestSpeed = 0.006;
+constexpr double kRestSpeed = 0.006;
 
 const char* const kFrictionReason =
     "a sliding contact loses a fixed share of its sideways motion at each of Bullet's visits, "
@@ -111,7 +111,7 @@ void add_own(const CaseInfo& info, const Comparison& of, Report& report) {
   rest.metric = fmt::format("RMS speed of the nodes at {:g} s", of.row().duration);
   rest.unit = "m/s";
   rest.measured = of.end_speed();
-  judge_with(rest, {kCollisionSweepRestSpeed, Basis::kModelGap,
+  judge_with(rest, {kRestSpeed, Basis::kModelGap,
                     "a swing of this speed goes 0.5 mm to each side: a tenth of 1 % of the size"});
   report.checks.push_back(std::move(rest));
 }

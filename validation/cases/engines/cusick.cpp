@@ -26,16 +26,16 @@ namespace {
 
 constexpr double kClothRadius = 0.15;    // [m]
 constexpr double kSupportRadius = 0.09;  // [m]
-constexpr double kCusickGravity = 9.81;  // [m/s^2]
+constexpr double kGravity = 9.81;        // [m/s^2]
 constexpr int kSeeds = 8;
-constexpr double kNoise = 1e-5;          // [m]: unevenness of the start
-constexpr double kCusickDrag = 10.0;     // [1/s]: a free flap of 6 cm swings at 13 / s
-constexpr double kCusickEndTime = 1.5;   // [s]
-constexpr double kCusickStrain = 0.003;  // of the net under the weight of the overhang, about
+constexpr double kNoise = 1e-5;    // [m]: unevenness of the start
+constexpr double kDrag = 10.0;     // [1/s]: a free flap of 6 cm swings at 13 / s
+constexpr double kEndTime = 1.5;   // [s]
+constexpr double kStrain = 0.003;  // of the net under the weight of the overhang, about
 
-constexpr double kResolutionGap = 3.0;      // [%]
-constexpr double kSeedDeviation = 3.0;      // [%]
-constexpr double kCusickRestSpeed = 0.008;  // [m/s]
+constexpr double kResolutionGap = 3.0;  // [%]
+constexpr double kSeedDeviation = 3.0;  // [%]
+constexpr double kRestSpeed = 0.008;    // [m/s]
 
 /// A cloth with real areal density, and what its drape is compared with.
 struct Fabric {
@@ -51,7 +51,7 @@ constexpr std::array kFabrics = {Fabric{"cotton", 0.150, 2.34e-6}, Fabric{"wool"
 
 /// Length that a cloth of this rigidity bends over under its weight [m].
 double bending_length(const Fabric& fabric) {
-  return std::cbrt(fabric.rigidity / (fabric.areal_density * kCusickGravity));
+  return std::cbrt(fabric.rigidity / (fabric.areal_density * kGravity));
 }
 
 // Simulated with another program, ppf-contact-solver (Apache-2.0, folder calibration), whose fabrics were fitted to
@@ -160,14 +160,14 @@ Drape drape_once(const Fabric& fabric, const CusickRing& ring, std::uint32_t see
   reference::Body body;
   body.name = fabric.name;
   body.mesh = make_ring(ring, fabric.areal_density);
-  const double stiffness = fabric.areal_density * kCusickGravity * (kClothRadius - kSupportRadius) /
-                           (1.5 * kCusickStrain);
+  const double stiffness =
+      fabric.areal_density * kGravity * (kClothRadius - kSupportRadius) / (1.5 * kStrain);
   forces::LawSpecification net = tension_law(stiffness);
   net.sets = {"stretch"};
   const std::vector<forces::LawSpecification> laws{
       net,
-      gravity_law({0, -kCusickGravity, 0}),
-      velocity_damping_law(kCusickDrag),
+      gravity_law({0, -kGravity, 0}),
+      velocity_damping_law(kDrag),
       {"hinge_torsion", {}, {{"rigidity", {fabric.rigidity}}}}};
   for (const forces::LawSpecification& law : laws) {
     body.laws.add(forces::make_law<double>(law, body.mesh));
@@ -183,7 +183,7 @@ Drape drape_once(const Fabric& fabric, const CusickRing& ring, std::uint32_t see
   const ClothMesh mesh = body.mesh;
   reference::SpringSolver solver =
       make_solver(std::move(body), reference::IntegratorKind::kVelocityVerlet);
-  const int num_steps = static_cast<int>(std::ceil(kCusickEndTime / time_step));
+  const int num_steps = static_cast<int>(std::ceil(kEndTime / time_step));
   for (int step = 0; step < num_steps; ++step) {
     if (solver.step(time_step).blow_up) return {};
   }
@@ -324,7 +324,7 @@ void evaluate_cusick(const CaseInfo& info, const CaseOptions&, const EngineRuns&
     CheckResult rest =
         check_of(info, fmt::format("{}: the cloth is at rest", fabric.name),
                  "RMS speed of the nodes at 1.5 s, largest of eight seeds", right.largest_speed,
-                 {kCusickRestSpeed, Basis::kModelGap,
+                 {kRestSpeed, Basis::kModelGap,
                   "with swings of 13 / s: 0.6 mm to each side, 1 % of the overhang"});
     rest.unit = "m/s";
     report.checks.push_back(std::move(rest));

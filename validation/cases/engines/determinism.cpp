@@ -13,7 +13,7 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kDeterminismDuration = 1.2;  // [s]: falls, lies down on the sphere, starts to fold
+constexpr double kDuration = 1.2;  // [s]: falls, lies down on the sphere, starts to fold
 
 struct Variant {
   const char* name;
@@ -55,7 +55,7 @@ std::string hash_of(const EngineRuns& runs, const std::string& run_label) {
 
 void plan_determinism(const CaseInfo&, const CaseOptions& options, EngineRuns& runs) {
   scenes::Scene scene = scenes::load_scene("drape_sphere");
-  scene.world.duration = kDeterminismDuration;
+  scene.world.duration = kDuration;
   scenes::Scene moved = scene;
   moved.cloths[0].grid().center.y() += 1e-6;
   for (const EngineChoice& engine : determinism_engines(options.bullet)) {

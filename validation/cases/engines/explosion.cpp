@@ -13,7 +13,7 @@ namespace weft::validation {
 namespace {
 
 constexpr const char* kScene = "drape_sphere";
-constexpr const char* kExplosionExplicit = "explosion_explicit_euler";
+constexpr const char* kExplicit = "explosion_explicit_euler";
 constexpr const char* kControl = "explosion_modified_euler";
 
 scenes::Scene scene_with(scenes::Integrator integrator) {
@@ -53,14 +53,13 @@ double measure(const Attempt& attempt) {
 
 void plan_explosion(const CaseInfo&, const CaseOptions&, EngineRuns& runs) {
   constexpr auto kDouble = scenes::StoredPrecision::kFloat64;
-  runs.add(
-      {kExplosionExplicit, scene_with(scenes::Integrator::kExplicitEuler), "reference", kDouble});
+  runs.add({kExplicit, scene_with(scenes::Integrator::kExplicitEuler), "reference", kDouble});
   runs.add({kControl, scene_with(scenes::Integrator::kModifiedEuler), "reference", kDouble});
 }
 
 void evaluate_explosion(const CaseInfo& info, const CaseOptions&, const EngineRuns& runs,
                         Report& report) {
-  const Attempt attempt = load(runs, kExplosionExplicit, "explicit Euler");
+  const Attempt attempt = load(runs, kExplicit, "explicit Euler");
   const Attempt control = load(runs, kControl, "modified Euler");
   const Tolerance tolerance{0, Basis::kExact, "it is reported as data, or it is not"};
   CheckResult check;

@@ -27,7 +27,7 @@ constexpr double kRestWindow = 5.0;     ///< [s] at the end, over which residual
 /// [-]. Kinetic energy would not do: a slow cloth has little of it all the time.
 constexpr double kDownShare = 0.02;
 
-constexpr double kMaterialsRestSpeed = 2e-5;  ///< [m/s] RMS: measured 6e-7
+constexpr double kRestSpeed = 2e-5;  ///< [m/s] RMS: measured 6e-7
 
 std::vector<EngineChoice> material_engines(bool with_bullet) {
   std::vector<EngineChoice> list;
@@ -180,8 +180,7 @@ CheckResult rest_check(const CaseInfo& info, const History& history) {
   check.unit = "m/s";
   check.source = "de Joya 2011: at 0.2 particles near the edge keep jumping";
   check.measured = residual_speed(history, 2);
-  check.tolerance = {kMaterialsRestSpeed, Basis::kTruncation,
-                     "what exp(-t / tau) leaves after 40 s"};
+  check.tolerance = {kRestSpeed, Basis::kTruncation, "what exp(-t / tau) leaves after 40 s"};
   check.verdict = judge(check.measured, *check.tolerance);
   History early = history;  // before it can be at rest
   while (!early.frames.empty() && early.frames.back().time > 0.25 * kWeakDuration) {

@@ -12,14 +12,14 @@ namespace weft::validation {
 namespace {
 
 /// Threads alone, a stiff strip with hinges, and the lattice of 24 neighbors.
-constexpr const char* kStabilityMapsScenes[] = {"hang", "heavy_strip", "drape_sphere"};
+constexpr const char* kScenes[] = {"hang", "heavy_strip", "drape_sphere"};
 
 }  // namespace
 
 void evaluate_stability_maps(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                              Report& report) {
   Section section{std::string(info.id), std::string(info.summary), {}, {}, {}, ""};
-  for (const char* scene : kStabilityMapsScenes) {
+  for (const char* scene : kScenes) {
     for (const StabilityMap& map : map_stability(scenes::load_scene(scene))) {
       CheckResult check = stability_check(map);
       check.case_id = info.id;

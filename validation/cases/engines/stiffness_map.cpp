@@ -16,11 +16,11 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kStiffnessMapStiffness = 200.0;  // of every spring [N/m]
-constexpr double kStiffnessMapNodeMass = 0.05;    // [kg]
-constexpr double kStiffnessMapSpacing = 0.5;   // [m]: a step's fall of 2.7 mm stretches it by 0.5 %
-constexpr double kStiffnessMapGravity = 9.81;  // [m/s^2]
-constexpr double kStiffnessMapRate = 8.0;      // of velocity_damping [1/s]
+constexpr double kStiffness = 200.0;  // of every spring [N/m]
+constexpr double kNodeMass = 0.05;    // [kg]
+constexpr double kSpacing = 0.5;      // [m]: a step's fall of 2.7 mm stretches it by 0.5 %
+constexpr double kGravity = 9.81;     // [m/s^2]
+constexpr double kRate = 8.0;         // of velocity_damping [1/s]
 
 struct StiffnessMapSetting {
   int springs;
@@ -32,16 +32,15 @@ struct StiffnessMapSetting {
 };
 
 constexpr int kSprings[] = {1, 2, 10, 30};
-constexpr double kStiffnessMapSteps[] = {1.0 / 60, 1.0 / 120, 1.0 / 240};
-constexpr int kStiffnessMapIterations[] = {1, 10, 50};
+constexpr double kSteps[] = {1.0 / 60, 1.0 / 120, 1.0 / 240};
+constexpr int kIterations[] = {1, 10, 50};
 const EngineChoice kLinks{"bullet_soft", kFloat64};
 
 /// The columns of the matrix.
 std::vector<StiffnessMapSetting> settings(int springs) {
   std::vector<StiffnessMapSetting> list;
-  for (const double time_step : kStiffnessMapSteps) {
-    for (const int iterations : kStiffnessMapIterations)
-      list.push_back({springs, time_step, iterations});
+  for (const double time_step : kSteps) {
+    for (const int iterations : kIterations) list.push_back({springs, time_step, iterations});
   }
   return list;
 }
@@ -58,7 +57,7 @@ std::vector<EngineChoice> engines() {
 bool is_stable(const EngineChoice& engine, const StiffnessMapSetting& setting) {
   if (engine.engine == "bullet_soft" || engine.engine == "bullet_weft") return true;
   const double n = setting.springs;
-  const double omega = 2 * std::sqrt(kStiffnessMapStiffness / kStiffnessMapNodeMass) *
+  const double omega = 2 * std::sqrt(kStiffness / kNodeMass) *
                        std::sin((2 * n - 1) / (2 * n + 1) * std::numbers::pi / 2);
   return omega * setting.time_step < 1.9;  // and not on the edge, where it takes for ever to rest
 }
@@ -79,8 +78,8 @@ scenes::Scene rope_scene(const StiffnessMapSetting& setting) {
   Rope rope;
   rope.nodes = nodes;
   rope.start = {0, 0, 0};
-  rope.end = {0, -kStiffnessMapSpacing * setting.springs, 0};
-  rope.total_mass = kStiffnessMapNodeMass * nodes;
+  rope.end = {0, -kSpacing * setting.springs, 0};
+  rope.total_mass = kNodeMass * nodes;
   rope.lumping = MassLumping::kUniform;
   cloth.source = rope;
   cloth.pins = {scenes::NodePin{{0}}};
@@ -89,24 +88,23 @@ scenes::Scene rope_scene(const StiffnessMapSetting& setting) {
   cloth.regions.clear();
   cloth.bulge.reset();
   cloth.velocity.setZero();
-  cloth.laws = {{"gravity", {}, {{"acceleration", {0, -kStiffnessMapGravity, 0}}}},
-                {"tension", {"stretch"}, {{"stiffness", {kStiffnessMapStiffness}}}},
-                {"velocity_damping", {}, {{"rate", {kStiffnessMapRate}}}}};
+  cloth.laws = {{"gravity", {}, {{"acceleration", {0, -kGravity, 0}}}},
+                {"tension", {"stretch"}, {{"stiffness", {kStiffness}}}},
+                {"velocity_damping", {}, {{"rate", {kRate}}}}};
   scene.cloths.push_back(std::move(cloth));
   scene.bullet.position_iterations = setting.iterations;
   return scenes::with_bullets_time_step(scene);
 }
 
 double exact_drop(int springs) {
-  return kStiffnessMapNodeMass * kStiffnessMapGravity * springs * (springs + 1) /
-         (2 * kStiffnessMapStiffness);
+  return kNodeMass * kGravity * springs * (springs + 1) / (2 * kStiffness);
 }
 
 /// Stiffness of a spring over what was asked for, from how far the tip hangs down.
 double stiffness_ratio(const Frames& frames, int springs) {
   if (frames.empty()) return std::nan("");
   const auto tip = frames.back().cloths[0].positions.cols() - 1;
-  const double drop = -frames.back().cloths[0].positions(1, tip) - kStiffnessMapSpacing * springs;
+  const double drop = -frames.back().cloths[0].positions(1, tip) - kSpacing * springs;
   return exact_drop(springs) / drop;
 }
 

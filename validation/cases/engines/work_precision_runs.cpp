@@ -17,7 +17,7 @@ using scenes::Integrator;
 using scenes::StoredPrecision;
 
 constexpr double kFrameInterval = 0.02;  // [s]
-constexpr int kWorkPrecisionRunsIterations[] = {5, 10, 20, 40, 80};
+constexpr int kIterations[] = {5, 10, 20, 40, 80};
 
 std::string step_text(int steps_per_frame) {
   return fmt::format("1/{:.0f} s", steps_per_frame / kFrameInterval);
@@ -53,7 +53,7 @@ std::vector<WorkRun> work_runs(const WorkStudy& study, bool with_bullet) {
   if (with_bullet) {
     const EngineChoice soft{"bullet_soft", StoredPrecision::kFloat32};
     for (const int steps : study.steps_per_frame) {
-      for (const int iterations : kWorkPrecisionRunsIterations) {
+      for (const int iterations : kIterations) {
         const std::string name = soft.title() + ", " + step_text(steps);
         runs.push_back({soft, name, steps, iterations, Integrator::kModifiedEuler});
       }

@@ -18,7 +18,7 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kBentStripGravity = 9.81;  // [m/s^2]
+constexpr double kGravity = 9.81;  // [m/s^2]
 
 int num_diagonals(const Strip& strip) {
   return std::max(1, static_cast<int>(std::lround(strip.num_cells / std::numbers::sqrt2)));
@@ -297,7 +297,7 @@ reference::Body make_strip_body(const StripModel& model) {
   body.name = "strip";
   body.mesh = make_strip(strip);
   if (model.cut_one_way) body.mesh.crossed_triangles.resize(3, 0);
-  const double weight = strip.area_density * kBentStripGravity * strip.length;  // per width [N/m]
+  const double weight = strip.area_density * kGravity * strip.length;  // per width [N/m]
   if (model.is_tip_load) {
     const double end = body.mesh.rest_positions.row(0).maxCoeff() * (1 - 1e-9);
     const double whole = strip.area_density * strip.length * width_of(body.mesh);
@@ -313,7 +313,7 @@ reference::Body make_strip_body(const StripModel& model) {
   }
   const double rigidity = weight * strip.length * strip.length / model.gamma;
   const Vector3<double> gravity =
-      kBentStripGravity * Vector3<double>(std::sin(model.tilt), -std::cos(model.tilt), 0);
+      kGravity * Vector3<double>(std::sin(model.tilt), -std::cos(model.tilt), 0);
   for (const forces::LawSpecification& law : std::vector<forces::LawSpecification>{
            {"tension", {}, {{"stiffness", {weight / model.strain}}}},
            {"hinge_torsion",
@@ -336,7 +336,7 @@ BentStrip bend_strip(const StripModel& model, const Matrix3X<double>& start) {
   const Strip& strip = model.strip;
   reference::Body body = make_strip_body(model);
   const reference::StaticProblem whole =
-      reference::static_problem(body, body.mesh.masses.sum() * kBentStripGravity);
+      reference::static_problem(body, body.mesh.masses.sum() * kGravity);
   reference::StaticOptions options;
   // Springs of weight / 1e-5 times the rounding of positions of about L.
   options.residual = 1e-9;

@@ -143,7 +143,7 @@ void add_check(const CaseInfo& info, const Buckling& buckling, Report& report) {
   report.checks.push_back(std::move(check));
 }
 
-constexpr std::array kBucklingParameters = {
+constexpr std::array kParameters = {
     CaseParameter{"nodes", "1", "cells along the upright strip", 10, 160, 40, true},
     CaseParameter{"lateral-nodes", "1", "cells along the strip on its edge", 40, 240, 160, true},
     CaseParameter{"width-nodes", "1", "cells across the strip on its edge", 2, 16, 8, true},
@@ -152,7 +152,7 @@ constexpr std::array kBucklingParameters = {
 }  // namespace
 
 std::span<const CaseParameter> buckling_parameters() {
-  return kBucklingParameters;
+  return kParameters;
 }
 
 void evaluate_buckling(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kNumGammas = 12;
 constexpr int kNumCells = 40;
-constexpr double kCantileverStrain = 1e-3;  ///< of the springs under the whole weight [-]
+constexpr double kStrain = 1e-3;  ///< of the springs under the whole weight [-]
 
 double gamma_at(int index) {
   return 0.1 * std::pow(1000.0, index / (kNumGammas - 1.0));
@@ -76,7 +76,7 @@ StripModel strip_model(int angle) {
   model.strip.num_cells = kNumCells;
   model.strip.width_cells = angle == 45 ? 4 : 2;
   model.is_endless = angle == 45;
-  model.strain = kCantileverStrain;
+  model.strain = kStrain;
   return model;
 }
 
@@ -220,7 +220,7 @@ Way way_of(const CantileverPoint& point, double rigidity_factor) {
   model.strip.num_cells = point.cells;
   model.strip.width_cells = point.angle == 45 ? 4 : 2;
   model.is_endless = point.angle != 0 && point.angle != 90;
-  model.strain = kCantileverStrain;
+  model.strain = kStrain;
   model.gamma = point.gamma / rigidity_factor;
   model.tilt = tilt;
   const BentStrip strip = bend_strip(model);
@@ -266,7 +266,7 @@ void add_point_check(const CaseInfo& info, const CantileverPoint& point, Report&
   report.checks.push_back(std::move(check));
 }
 
-constexpr std::array kCantileverParameters = {
+constexpr std::array kParameters = {
     CaseParameter{"gamma", "1", "rho g L^3 / D", 0.05, 500.0, 1.0},
     CaseParameter{"nodes", "1", "cells along the strip", 10, 160, std::nullopt, true},
     CaseParameter{"angle", "deg",
@@ -278,7 +278,7 @@ constexpr std::array kCantileverParameters = {
 }  // namespace
 
 std::span<const CaseParameter> cantilever_parameters() {
-  return kCantileverParameters;
+  return kParameters;
 }
 
 void evaluate_cantilever(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,

@@ -11,7 +11,7 @@
 namespace weft::validation {
 namespace {
 
-constexpr int kElasticaSteps = 4000;
+constexpr int kSteps = 4000;
 
 /// phi = pi / 2 - theta, phi', height above the tip, distance from it; over the way from the tip.
 using State = Eigen::Vector4d;
@@ -24,15 +24,15 @@ State slope(const State& y, double way, const ElasticaLoad& load) {
 /// From a tip that hangs at this angle from the vertical; ends early where it passes the clamp's angle.
 State shoot(double tip, double end, const ElasticaLoad& load) {
   State y(tip, 0, 0, 0);
-  const double h = 1.0 / kElasticaSteps;
-  for (int step = 0; step < kElasticaSteps; ++step) {
+  const double h = 1.0 / kSteps;
+  for (int step = 0; step < kSteps; ++step) {
     const double way = step * h;
     const State k1 = slope(y, way, load);
     const State k2 = slope(y + h / 2 * k1, way + h / 2, load);
     const State k3 = slope(y + h / 2 * k2, way + h / 2, load);
     const State k4 = slope(y + h * k3, way + h, load);
     y += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-    if (y[0] > end && step + 1 < kElasticaSteps) break;
+    if (y[0] > end && step + 1 < kSteps) break;
   }
   return y;
 }

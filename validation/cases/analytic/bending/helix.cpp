@@ -17,8 +17,8 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kHelixRadius = 0.02;    // r [m]
-constexpr double kHelixRigidity = 1e-6;  // B [N m^2]
+constexpr double kRadius = 0.02;    // r [m]
+constexpr double kRigidity = 1e-6;  // B [N m^2]
 
 reference::Body make_rod(const Matrix3X<double>& rest, double spacing, double rigidity) {
   reference::Body body;
@@ -75,22 +75,22 @@ HelixTest test_helix(const Helix& helix) {
   const double alpha = helix.pitch * std::numbers::pi / 180;
   const int nodes = 2 * helix.nodes + 1;
   const double step = 2 * std::numbers::pi / helix.nodes;  // about the axis, per node
-  const double rise = kHelixRadius * std::tan(alpha) * step;
+  const double rise = kRadius * std::tan(alpha) * step;
   Matrix3X<double> places(3, nodes);
   for (int i = 0; i < nodes; ++i) {
-    places.col(i) << kHelixRadius * std::cos(i * step), kHelixRadius * std::sin(i * step), i * rise;
+    places.col(i) << kRadius * std::cos(i * step), kRadius * std::sin(i * step), i * rise;
   }
   const double spacing = (places.col(1) - places.col(0)).norm();
-  const double curvature = std::pow(std::cos(alpha), 2) / kHelixRadius;
-  const double natural = helix.natural / kHelixRadius;
+  const double curvature = std::pow(std::cos(alpha), 2) / kRadius;
+  const double natural = helix.natural / kRadius;
   reference::Body body = make_rod(arc(nodes, spacing, helix.is_straight ? 0.0 : natural), spacing,
-                                  helix.rigidity_factor * kHelixRigidity);
+                                  helix.rigidity_factor * kRigidity);
   const reference::StaticProblem problem = reference::static_problem(body, 1.0);
   Matrix3X<double> force(3, nodes);
   problem.forces(places, force);
   // Love: of a rod with C = 0.
-  const double axial = -kHelixRigidity * (curvature - natural) * std::sin(alpha) / kHelixRadius;
-  const double couple = kHelixRigidity * (curvature - natural) * std::cos(alpha);
+  const double axial = -kRigidity * (curvature - natural) * std::sin(alpha) / kRadius;
+  const double couple = kRigidity * (curvature - natural) * std::cos(alpha);
   // The springs of the rod carry the part of the axial force along it.
   const double tension = axial * std::sin(alpha);
   HelixTest result;
@@ -106,7 +106,7 @@ HelixTest test_helix(const Helix& helix) {
     if (i < 3) continue;
     const Vector3<double> rest = force.col(i) + tension * (tangent(i) - tangent(i - 1));
     result.unbalance =
-        std::max(result.unbalance, rest.norm() / (std::abs(axial) * spacing / kHelixRadius));
+        std::max(result.unbalance, rest.norm() / (std::abs(axial) * spacing / kRadius));
   }
   cut_force += tension * tangent(cut);
   cut_couple += tension * Vector3<double>(places.col(cut)).cross(tangent(cut));
@@ -183,11 +183,11 @@ struct HelixRing {
 };
 
 HelixRing close_ring(int segments, double rigidity_factor, bool is_solved = true) {
-  const double spacing = 2 * std::numbers::pi * kHelixRadius / segments;
+  const double spacing = 2 * std::numbers::pi * kRadius / segments;
   Matrix3X<double> straight = Matrix3X<double>::Zero(3, segments + 2);
   for (int i = 0; i < segments + 2; ++i) straight(0, i) = i * spacing;
-  reference::Body body = make_rod(straight, spacing, rigidity_factor * kHelixRigidity);
-  const double spring = 1e4 * kHelixRigidity / std::pow(spacing, 3);
+  reference::Body body = make_rod(straight, spacing, rigidity_factor * kRigidity);
+  const double spring = 1e4 * kRigidity / std::pow(spacing, 3);
   body.laws.add(forces::make_law<double>(tension_law(spring), body.mesh));
   body.mesh.pinned = {0, 1, segments, segments + 1};
   // A polygon of the rod's own segments; its last segment lies on its first.
@@ -199,11 +199,11 @@ HelixRing close_ring(int segments, double rigidity_factor, bool is_solved = true
     const double radius = is_held ? polygon : polygon * (1 + 0.1 * std::sin(2 * angle));
     places.col(i) << radius * std::cos(angle), radius * std::sin(angle), 0;
   }
-  const double load = kHelixRigidity / (kHelixRadius * kHelixRadius);
+  const double load = kRigidity / (kRadius * kRadius);
   const reference::StaticProblem problem = reference::static_problem(body, load);
   reference::StaticOptions options;
   options.residual = 1e-9;
-  options.max_move = 0.2 * kHelixRadius;
+  options.max_move = 0.2 * kRadius;
   if (is_solved && !reference::solve_statics(problem, places, options).converged) {
     return {std::nan(""), std::nan(""), {}};
   }
@@ -215,8 +215,7 @@ HelixRing close_ring(int segments, double rigidity_factor, bool is_solved = true
   for (int i = 0; i < segments; ++i) {
     ring.roundness = std::max(ring.roundness, std::abs(places.col(i).norm() / polygon - 1));
   }
-  ring.couple = {"couple", couple, 2 * std::numbers::pi * kHelixRigidity / (segments * spacing),
-                 "N m"};
+  ring.couple = {"couple", couple, 2 * std::numbers::pi * kRigidity / (segments * spacing), "N m"};
   ring.couple_error = relative_error(ring.couple);
   return ring;
 }
@@ -250,7 +249,7 @@ void add_ring_check(const CaseInfo& info, int segments, Report& report) {
   report.checks.push_back(std::move(round));
 }
 
-constexpr std::array kHelixParameters = {
+constexpr std::array kParameters = {
     CaseParameter{"pitch", "deg", "angle of the helix to the plane across its axis", 5.0, 70.0,
                   30.0},
     CaseParameter{"natural-curvature", "1", "kappa0 r of the rod at rest", 0.0, 2.0, 0.5},
@@ -260,7 +259,7 @@ constexpr std::array kHelixParameters = {
 }  // namespace
 
 std::span<const CaseParameter> helix_parameters() {
-  return kHelixParameters;
+  return kParameters;
 }
 
 void evaluate_helix(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,

@@ -14,9 +14,9 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kNonlocalTorsionSpacing = 0.1;    // [m]
-constexpr double kNonlocalTorsionTimeStep = 1e-3;  // [s]
-constexpr int kFlapColumn = 4;                     // where the flap begins
+constexpr double kSpacing = 0.1;    // [m]
+constexpr double kTimeStep = 1e-3;  // [s]
+constexpr int kFlapColumn = 4;      // where the flap begins
 
 enum class Ties { kNone, kNonlocal, kUnsignedTorsion };
 
@@ -41,7 +41,7 @@ double flap_distance(Ties ties) {
   constexpr double kEndTime = 12.0;  // [s]: the slowest motion has decayed by exp(-12)
   ClothGrid grid;
   grid.nodes = {9, 5};
-  grid.size = {8 * kNonlocalTorsionSpacing, 4 * kNonlocalTorsionSpacing};
+  grid.size = {8 * kSpacing, 4 * kSpacing};
   grid.stencil = GridStencil::k8Neighbour;
   grid.total_mass = 0.1;
   reference::Body body;
@@ -68,11 +68,9 @@ double flap_distance(Ties ties) {
   const Matrix3X<double> rest = body.mesh.rest_positions;
   reference::SpringSolver solver =
       make_solver(std::move(body), reference::IntegratorKind::kModifiedEuler);
-  for (int step = 0; step * kNonlocalTorsionTimeStep < kEndTime; ++step)
-    (void)solver.step(kNonlocalTorsionTimeStep);
+  for (int step = 0; step * kTimeStep < kEndTime; ++step) (void)solver.step(kTimeStep);
   const Matrix3X<double>& end = solver.system().bodies[0].positions;
-  return std::sqrt((end - rest).squaredNorm() / static_cast<double>(flap.size())) /
-         (4 * kNonlocalTorsionSpacing);
+  return std::sqrt((end - rest).squaredNorm() / static_cast<double>(flap.size())) / (4 * kSpacing);
 }
 
 /// How far the centre of a square sheet, pinned at its corners, hangs below them at rest [m].
@@ -80,7 +78,7 @@ double centre_sag(double stiffness) {
   constexpr double kEndTime = 10.0;  // [s]
   ClothGrid grid;
   grid.nodes = {11, 11};
-  grid.size = {10 * kNonlocalTorsionSpacing, 10 * kNonlocalTorsionSpacing};
+  grid.size = {10 * kSpacing, 10 * kSpacing};
   grid.stencil = GridStencil::k8Neighbour;
   grid.total_mass = 0.2;
   reference::Body body;
@@ -107,8 +105,7 @@ double centre_sag(double stiffness) {
   body.velocities.setZero(3, body.mesh.num_nodes());
   reference::SpringSolver solver =
       make_solver(std::move(body), reference::IntegratorKind::kModifiedEuler);
-  for (int step = 0; step * kNonlocalTorsionTimeStep < kEndTime; ++step)
-    (void)solver.step(kNonlocalTorsionTimeStep);
+  for (int step = 0; step * kTimeStep < kEndTime; ++step) (void)solver.step(kTimeStep);
   return -solver.system().bodies[0].positions(1, centre);
 }
 

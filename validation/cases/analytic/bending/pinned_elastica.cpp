@@ -11,7 +11,7 @@
 namespace weft::validation {
 namespace {
 
-constexpr int kPinnedElasticaSteps = 1000;
+constexpr int kSteps = 1000;
 
 /// theta, theta', integral of cos and of sin(theta) from the tip.
 using State = Eigen::Vector4d;
@@ -21,8 +21,8 @@ State shoot(double tip, double force, double beta) {
     return {y[1], -force * std::sin(y[0] - beta), std::cos(y[0]), std::sin(y[0])};
   };
   State y(tip, 0, 0, 0);
-  const double h = 1.0 / kPinnedElasticaSteps;
-  for (int step = 0; step < kPinnedElasticaSteps; ++step) {
+  const double h = 1.0 / kSteps;
+  for (int step = 0; step < kSteps; ++step) {
     const State k1 = slope(y);
     const State k2 = slope(y + h / 2 * k1);
     const State k3 = slope(y + h / 2 * k2);

@@ -14,10 +14,10 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kPlateRigiditySpacing = 0.01;  // [m]
+constexpr double kSpacing = 0.01;   // [m]
 constexpr double kCurvature = 0.1;  // [1/m]: 1e-3 per cell, so that squares of slopes do not count
-constexpr double kPlateRigidityRigidity = 1e-5;                                   // [N m]
-constexpr std::array<int, 7> kPlateRigidityAngles = {0, 15, 30, 45, 60, 75, 90};  // [deg]
+constexpr double kRigidity = 1e-5;  // [N m]
+constexpr std::array<int, 7> kAngles = {0, 15, 30, 45, 60, 75, 90};  // [deg]
 
 struct Shape {
   const char* name;
@@ -36,8 +36,8 @@ struct PlateRigiditySheet {
 ClothMesh make_sheet(int cells, const PlateRigiditySheet& sheet) {
   ClothGrid grid;
   grid.nodes = {cells + 1, cells + 1};
-  grid.size = {kPlateRigiditySpacing * cells, kPlateRigiditySpacing * cells};
-  grid.center = {kPlateRigiditySpacing * cells / 2, kPlateRigiditySpacing * cells / 2, 0};
+  grid.size = {kSpacing * cells, kSpacing * cells};
+  grid.center = {kSpacing * cells / 2, kSpacing * cells / 2, 0};
   grid.v_axis = {0, 1, 0};
   grid.stencil = GridStencil::k8Neighbour;
   ClothMesh mesh = make_cloth_grid(grid);
@@ -48,10 +48,8 @@ ClothMesh make_sheet(int cells, const PlateRigiditySheet& sheet) {
     // Without a pattern of the grid's own, and the same for every size.
     const double u = std::sin(12.9898 * i + 78.233 * j) * 43758.5453;
     const double v = std::sin(39.3468 * i + 11.135 * j) * 24634.6345;
-    mesh.rest_positions(0, node) +=
-        sheet.jitter * kPlateRigiditySpacing * (2 * (u - std::floor(u)) - 1);
-    mesh.rest_positions(1, node) +=
-        sheet.jitter * kPlateRigiditySpacing * (2 * (v - std::floor(v)) - 1);
+    mesh.rest_positions(0, node) += sheet.jitter * kSpacing * (2 * (u - std::floor(u)) - 1);
+    mesh.rest_positions(1, node) += sheet.jitter * kSpacing * (2 * (v - std::floor(v)) - 1);
   }
   return mesh;
 }
@@ -73,8 +71,8 @@ Matrix3X<double> curved(const ClothMesh& mesh, const Shape& shape, int angle) {
 
 double energy(int cells, const PlateRigiditySheet& sheet, const Shape& shape, int angle) {
   const ClothMesh mesh = make_sheet(cells, sheet);
-  const auto law = forces::make_law<double>(
-      {"hinge_torsion", {}, {{"rigidity", {kPlateRigidityRigidity}}}}, mesh);
+  const auto law =
+      forces::make_law<double>({"hinge_torsion", {}, {{"rigidity", {kRigidity}}}}, mesh);
   const Matrix3X<double> positions = curved(mesh, shape, angle);
   const Matrix3X<double> still = Matrix3X<double>::Zero(3, mesh.num_nodes());
   return law->potential_energy({positions, still, mesh.masses});
@@ -89,14 +87,13 @@ double rigidity_ratio(const PlateRigiditySheet& sheet, const Shape& shape, int a
                                    energy(kCells, sheet, shape, angle);
   const double per_cell = second_difference / (2.0 * kCells * kCells);
   const double squared = shape.first * shape.first + shape.second * shape.second;
-  return per_cell / (kPlateRigidityRigidity / 2 * squared * kCurvature * kCurvature *
-                     kPlateRigiditySpacing * kPlateRigiditySpacing);
+  return per_cell / (kRigidity / 2 * squared * kCurvature * kCurvature * kSpacing * kSpacing);
 }
 
 double largest_error(const PlateRigiditySheet& sheet) {
   double largest = 0.0;
   for (const Shape& shape : kShapes) {
-    for (const int angle : kPlateRigidityAngles) {
+    for (const int angle : kAngles) {
       const double error = std::abs(rigidity_ratio(sheet, shape, angle) - 1);
       if (!(error <= largest)) largest = error;
     }
@@ -108,10 +105,10 @@ double largest_error(const PlateRigiditySheet& sheet) {
 double largest_inner_force(const PlateRigiditySheet& sheet) {
   constexpr int kCells = 12;
   const ClothMesh mesh = make_sheet(kCells, sheet);
-  const auto law = forces::make_law<double>(
-      {"hinge_torsion", {}, {{"rigidity", {kPlateRigidityRigidity}}}}, mesh);
+  const auto law =
+      forces::make_law<double>({"hinge_torsion", {}, {{"rigidity", {kRigidity}}}}, mesh);
   double largest = 0.0;
-  for (const int angle : kPlateRigidityAngles) {
+  for (const int angle : kAngles) {
     const Matrix3X<double> positions = curved(mesh, kShapes[0], angle);
     const Matrix3X<double> still = Matrix3X<double>::Zero(3, mesh.num_nodes());
     Matrix3X<double> scratch(3, law->scratch_columns());
@@ -123,7 +120,7 @@ double largest_inner_force(const PlateRigiditySheet& sheet) {
       }
     }
   }
-  return largest / (kPlateRigidityRigidity * kCurvature);
+  return largest / (kRigidity * kCurvature);
 }
 
 CheckResult plate_check(const CaseInfo& info) {
@@ -183,7 +180,7 @@ void evaluate_plate_rigidity(const CaseInfo& info, const CaseOptions&, const Eng
   for (const double jitter : {0.0, 0.2}) {
     for (const Shape& shape : kShapes) {
       Series series{fmt::format("{}{}", shape.name, jitter > 0 ? ", 20 % jitter" : ""), {}, {}};
-      for (const int angle : kPlateRigidityAngles) {
+      for (const int angle : kAngles) {
         series.x.push_back(angle);
         series.y.push_back(rigidity_ratio({jitter, false}, shape, angle));
       }

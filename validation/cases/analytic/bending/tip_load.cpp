@@ -15,7 +15,7 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kTipLoadStrain = 1e-3;  ///< of the springs under the whole weight [-]
+constexpr double kStrain = 1e-3;  ///< of the springs under the whole weight [-]
 constexpr int kCells = 40;
 
 StripModel model_of(double load, int cells, double clamp_factor) {
@@ -23,7 +23,7 @@ StripModel model_of(double load, int cells, double clamp_factor) {
   model.strip.num_cells = cells;
   model.gamma = load;
   model.clamp_factor = clamp_factor;
-  model.strain = kTipLoadStrain;
+  model.strain = kStrain;
   model.is_tip_load = true;
   return model;
 }
@@ -85,7 +85,7 @@ double simulated_gamma(double degrees, int cells, double clamp_factor) {
   StripModel model;
   model.strip.num_cells = cells;
   model.clamp_factor = clamp_factor;
-  model.strain = kTipLoadStrain;
+  model.strain = kStrain;
   Matrix3X<double> start;
   const auto chord = [&](double log_gamma) {
     model.gamma = std::exp(log_gamma);

@@ -12,10 +12,10 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kTorsionBeamSpacing = 0.01;   // a [m]
-constexpr double kTorsionBeamStiffness = 2.0;  // k [N/(m rad)]
-constexpr double kSpring = 100.0;              // [N/m]
-constexpr double kTipForce = 1e-7;             // [N]: turns the tip by 1e-2 rad at most
+constexpr double kSpacing = 0.01;   // a [m]
+constexpr double kStiffness = 2.0;  // k [N/(m rad)]
+constexpr double kSpring = 100.0;   // [N/m]
+constexpr double kTipForce = 1e-7;  // [N]: turns the tip by 1e-2 rad at most
 
 double tip_drop(int num_segments, double stiffness) {
   reference::Body body;
@@ -25,7 +25,7 @@ double tip_drop(int num_segments, double stiffness) {
   Edges edges(2, num_nodes - 1);
   Triples triples(3, num_nodes - 2);
   for (int i = 0; i < num_nodes; ++i) {
-    body.mesh.rest_positions(0, i) = i * kTorsionBeamSpacing;
+    body.mesh.rest_positions(0, i) = i * kSpacing;
     if (i > 0) edges.col(i - 1) << i - 1, i;
     if (i > 1) triples.col(i - 2) << i - 2, i - 1, i;
   }
@@ -54,9 +54,8 @@ void evaluate_torsion_beam(const CaseInfo& info, const CaseOptions&, const Engin
                            Report& report) {
   const Tolerance tolerance{1e-4, Basis::kTruncation, "small turns: 1e-2 rad squared at most"};
   for (const int n : {1, 10, 20}) {
-    const double kappa = kTorsionBeamStiffness * kTorsionBeamSpacing * kTorsionBeamSpacing;
-    const double exact = kTipForce * kTorsionBeamSpacing * kTorsionBeamSpacing * n * (n + 1) *
-                         (2 * n + 1) / (6 * kappa);
+    const double kappa = kStiffness * kSpacing * kSpacing;
+    const double exact = kTipForce * kSpacing * kSpacing * n * (n + 1) * (2 * n + 1) / (6 * kappa);
     const auto drop = [&](double stiffness) {
       return ComparedValue{"drop of the tip", tip_drop(n, stiffness), exact, "m"};
     };
@@ -68,11 +67,11 @@ void evaluate_torsion_beam(const CaseInfo& info, const CaseOptions&, const Engin
     check.unit = "1";
     check.formula = "F a^2 N (N + 1) (2 N + 1) / (6 kappa), kappa = k a^2";
     check.source = "statics of a chain of hinges";
-    check.values = {drop(kTorsionBeamStiffness)};
+    check.values = {drop(kStiffness)};
     check.measured = relative_error(check.values[0]);
     check.tolerance = tolerance;
     check.verdict = judge(check.measured, tolerance);
-    const double sabotaged = relative_error(drop(1.01 * kTorsionBeamStiffness));
+    const double sabotaged = relative_error(drop(1.01 * kStiffness));
     check.sabotages.push_back(
         {"torsion stiffness +1 %", sabotaged, judge(sabotaged, tolerance) == Verdict::kFail});
     check.note = "the torsion law, or the static solver";

@@ -15,10 +15,10 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kCapstanRadius = 1.0;   // [m]
-constexpr double kPull = 1.0;            // T1 [N]
-constexpr double kCapstanMass = 1.0;     // of a node [kg]
-constexpr double kCapstanStrain = 1e-4;  // of the springs under T1 [-]
+constexpr double kRadius = 1.0;   // [m]
+constexpr double kPull = 1.0;     // T1 [N]
+constexpr double kMass = 1.0;     // of a node [kg]
+constexpr double kStrain = 1e-4;  // of the springs under T1 [-]
 
 struct Capstan {
   double friction = 0.3;
@@ -39,11 +39,11 @@ struct Capstan {
 bool slips(const Capstan& capstan, double ratio) {
   const int n = capstan.nodes + 2;
   const double turn = capstan.turn();
-  const double spacing = 2 * kCapstanRadius * std::sin(turn / 2);
+  const double spacing = 2 * kRadius * std::sin(turn / 2);
   Matrix3X<double> places = Matrix3X<double>::Zero(3, n);
   for (int i = 1; i <= capstan.nodes; ++i) {
     const double angle = (i - 0.5) * turn;
-    places.col(i) << kCapstanRadius * std::cos(angle), kCapstanRadius * std::sin(angle), 0;
+    places.col(i) << kRadius * std::cos(angle), kRadius * std::sin(angle), 0;
   }
   const double wrap = capstan.nodes * turn;
   const Vector3<double> first(0, -1, 0);  // away from the body, along the pulls
@@ -54,9 +54,9 @@ bool slips(const Capstan& capstan, double ratio) {
   springs.positions = places;
   springs.edges.resize(2, n - 1);
   for (int i = 1; i < n; ++i) springs.edges.col(i - 1) << i - 1, i;
-  springs.masses = VectorX<double>::Constant(n, kCapstanMass);
-  const double stiffness = kPull / (kCapstanStrain * spacing);
-  const double rate = std::sqrt(stiffness / kCapstanMass);  // of a node on its spring [rad/s]
+  springs.masses = VectorX<double>::Constant(n, kMass);
+  const double stiffness = kPull / (kStrain * spacing);
+  const double rate = std::sqrt(stiffness / kMass);  // of a node on its spring [rad/s]
   const double damping = 3 * rate / n;  // the slowest wave along the chain dies fastest
   springs.laws = {tension_law(stiffness), velocity_damping_law(damping)};
   reference::Body body = make_body(springs);
@@ -66,7 +66,7 @@ bool slips(const Capstan& capstan, double ratio) {
   system.bodies.push_back(std::move(body));
   reference::Collider ball;
   ball.name = "ball";
-  ball.shape = reference::Sphere{kCapstanRadius};
+  ball.shape = reference::Sphere{kRadius};
   system.colliders.push_back(ball);
   reference::SpringSolver solver(std::move(system), {});
   const double step = 0.5 / rate;
@@ -81,7 +81,7 @@ bool slips(const Capstan& capstan, double ratio) {
     if (solver.step(step).blow_up) return true;
   }
   // A difference of 1e-4 T1 would move the whole chain at this speed.
-  const double moving = 1e-4 * kPull / (n * kCapstanMass * damping);
+  const double moving = 1e-4 * kPull / (n * kMass * damping);
   const reference::Body& end = solver.system().bodies[0];
   return end.velocities.col(n - 1).dot(last) > moving;
 }
@@ -121,7 +121,7 @@ void add_check(const CaseInfo& info, const Capstan& capstan, Report& report) {
   report.checks.push_back(std::move(check));
 }
 
-constexpr std::array kCapstanParameters = {
+constexpr std::array kParameters = {
     CaseParameter{"mu", "1", "friction of chain and body", 0.05, 0.8, 0.3},
     CaseParameter{"wrap", "deg", "angle round the body", 45.0, 270.0, 180.0},
     CaseParameter{"nodes", "1", "nodes that touch", 8, 48, 16, true},
@@ -130,7 +130,7 @@ constexpr std::array kCapstanParameters = {
 }  // namespace
 
 std::span<const CaseParameter> capstan_parameters() {
-  return kCapstanParameters;
+  return kParameters;
 }
 
 void evaluate_capstan(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,

@@ -15,14 +15,14 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kContactBalanceGravity = 9.81;    // [m/s^2]
-constexpr double kContactBalanceSide = 0.5;        // [m]
-constexpr double kContactBalanceMass = 0.05;       // [kg]
-constexpr double kContactBalanceMargin = 0.005;    // [m]
-constexpr double kContactBalanceStep = 1.0 / 240;  // [s], of the falls
-constexpr double kSmallStep = 1e-3;                // [s], of the cloth at rest
-constexpr double kHalf = 0.1;                      // [m] of the box: thickness / 2
-constexpr double kContactBalanceRadius = 0.2;      // [m]
+constexpr double kGravity = 9.81;    // [m/s^2]
+constexpr double kSide = 0.5;        // [m]
+constexpr double kMass = 0.05;       // [kg]
+constexpr double kMargin = 0.005;    // [m]
+constexpr double kStep = 1.0 / 240;  // [s], of the falls
+constexpr double kSmallStep = 1e-3;  // [s], of the cloth at rest
+constexpr double kHalf = 0.1;        // [m] of the box: thickness / 2
+constexpr double kRadius = 0.2;      // [m]
 
 enum class Under { kNothing, kPlane, kBox, kSphere };
 
@@ -37,21 +37,20 @@ struct Fall {
 reference::SpringSolver make_fall(const Fall& fall) {
   ClothGrid grid;
   grid.nodes = {11, 11};
-  grid.size = {kContactBalanceSide, kContactBalanceSide};
+  grid.size = {kSide, kSide};
   grid.stencil = GridStencil::k8Neighbour;
-  grid.total_mass = kContactBalanceMass;
-  grid.center = {0, fall.height + kContactBalanceMargin, 0};
+  grid.total_mass = kMass;
+  grid.center = {0, fall.height + kMargin, 0};
   reference::Body body;
   body.name = "cloth";
   body.mesh = make_cloth_grid(grid);
   for (const forces::LawSpecification& law :
-       {tension_law(5.0), gravity_law({0, -kContactBalanceGravity, 0}),
-        velocity_damping_law(fall.damping)}) {
+       {tension_law(5.0), gravity_law({0, -kGravity, 0}), velocity_damping_law(fall.damping)}) {
     body.laws.add(forces::make_law<double>(law, body.mesh));
   }
   body.positions = body.mesh.rest_positions;
   body.velocities = Vector3<double>(0, -fall.speed, 0).replicate(1, body.mesh.num_nodes());
-  body.collision_margin = kContactBalanceMargin;
+  body.collision_margin = kMargin;
   body.friction = 0.3;
   reference::System system;
   system.bodies.push_back(std::move(body));
@@ -63,8 +62,8 @@ reference::SpringSolver make_fall(const Fall& fall) {
       collider.shape = reference::Box{{1, kHalf, 1}};
       collider.position = {0, -kHalf, 0};
     } else if (fall.under == Under::kSphere) {
-      collider.shape = reference::Sphere{kContactBalanceRadius};
-      collider.position = {0, -kContactBalanceRadius, 0};
+      collider.shape = reference::Sphere{kRadius};
+      collider.position = {0, -kRadius, 0};
     }
     system.colliders.push_back(collider);
   }
@@ -75,9 +74,8 @@ reference::SpringSolver make_fall(const Fall& fall) {
 double fall_error(double gravity) {
   reference::SpringSolver solver = make_fall({.height = 1.0});
   constexpr int kSteps = 100;
-  for (int i = 0; i < kSteps; ++i) (void)solver.step(kContactBalanceStep);
-  const double exact =
-      gravity * kContactBalanceStep * kContactBalanceStep * kSteps * (kSteps + 1) / 2;
+  for (int i = 0; i < kSteps; ++i) (void)solver.step(kStep);
+  const double exact = gravity * kStep * kStep * kSteps * (kSteps + 1) / 2;
   const reference::Body& end = solver.system().bodies[0];
   return ((end.mesh.rest_positions.row(1) - end.positions.row(1)).array() / exact - 1)
       .abs()
@@ -92,17 +90,16 @@ double carried_error(Under under, bool no_contact) {
   constexpr int kSteps = 2000;
   double impulse = 0;
   for (int i = 0; i < kSteps; ++i) impulse = solver.step(kSmallStep).contact.normal_impulse;
-  return std::abs(impulse / (kSmallStep * kContactBalanceMass * kContactBalanceGravity) - 1);
+  return std::abs(impulse / (kSmallStep * kMass * kGravity) - 1);
 }
 
 /// Depth of a node's centre below the surface grown by the margin [m]; written apart from the solver's.
 double depth(Under under, const Vector3<double>& x) {
   if (under == Under::kSphere) {
-    return kContactBalanceRadius + kContactBalanceMargin -
-           (x - Vector3<double>(0, -kContactBalanceRadius, 0)).norm();
+    return kRadius + kMargin - (x - Vector3<double>(0, -kRadius, 0)).norm();
   }
   const bool is_beside = under == Under::kBox && std::max(std::abs(x.x()), std::abs(x.z())) > 1;
-  return is_beside ? 0.0 : kContactBalanceMargin - x.y();
+  return is_beside ? 0.0 : kMargin - x.y();
 }
 
 /// Deepest node at the end of any step over all speeds, and how many nodes are below the body at the end.
@@ -119,16 +116,15 @@ Passage throw_down(Under under, bool no_contact) {
         make_fall({.under = under, .height = 0.1, .speed = speed, .no_contact = no_contact});
     constexpr int kSteps = 60;
     for (int i = 0; i < kSteps; ++i) {
-      (void)solver.step(kContactBalanceStep);
+      (void)solver.step(kStep);
       const Matrix3X<double>& x = solver.system().bodies[0].positions;
       for (Eigen::Index node = 0; node < x.cols(); ++node) {
         const Vector3<double> place = x.col(node);
         const double now = depth(under, place);
         // Inside the box or the sphere, or anywhere below a plane.
-        const bool is_inside =
-            under == Under::kPlane ||
-            (under == Under::kBox && place.y() > -2 * kHalf - kContactBalanceMargin) ||
-            under == Under::kSphere;
+        const bool is_inside = under == Under::kPlane ||
+                               (under == Under::kBox && place.y() > -2 * kHalf - kMargin) ||
+                               under == Under::kSphere;
         if (is_inside) passage.deepest = std::max(passage.deepest, now);
         if (i + 1 == kSteps && place.y() < -kHalf / 2) ++passage.passed;
       }
@@ -163,8 +159,8 @@ void evaluate_contact_balance(const CaseInfo& info, const CaseOptions&, const En
        "recurrence of modified Euler",
        {1e-13, Basis::kRoundoff, "100 steps, each with a rounding of a place of 1 m by 1e-16"},
        "gravity, or an order of operations"},
-      fall_error(kContactBalanceGravity));
-  add_sabotage(fall, "the continuum's g t^2 / 2", fall_error(kContactBalanceGravity * 100 / 101));
+      fall_error(kGravity));
+  add_sabotage(fall, "the continuum's g t^2 / 2", fall_error(kGravity * 100 / 101));
   report.checks.push_back(std::move(fall));
   for (const Under under : {Under::kPlane, Under::kBox}) {
     CheckResult carried =

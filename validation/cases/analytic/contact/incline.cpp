@@ -17,12 +17,12 @@ namespace weft::validation {
 namespace {
 
 constexpr int kFrictions = 20;
-constexpr int kInclineAngles = 20;
-constexpr double kInclineGravity = 9.81;  // [m/s^2]
-constexpr double kInclineDuration = 0.5;  // [s]
-constexpr double kSlid = 2e-3;  // [m]: a sixth of the way of the slowest cloth that slides
-constexpr double kInclineSpacing = 0.22;  // [m] between the middles of cloths of 0.2 m
-constexpr double kInclineMargin = 0.01;   // part of the threshold at which creep is measured
+constexpr int kAngles = 20;
+constexpr double kGravity = 9.81;  // [m/s^2]
+constexpr double kDuration = 0.5;  // [s]
+constexpr double kSlid = 2e-3;     // [m]: a sixth of the way of the slowest cloth that slides
+constexpr double kSpacing = 0.22;  // [m] between the middles of cloths of 0.2 m
+constexpr double kMargin = 0.01;   // part of the threshold at which creep is measured
 
 double friction_at(int i) {
   return 0.05 * (i + 1);
@@ -40,8 +40,8 @@ scenes::Scene slope(double angle, const std::vector<double>& frictions) {
   scenes::Scene scene = scenes::load_scene("drop_ground");
   scene.name = "incline";
   scene.summary = "Shows flat cloths of different friction on a slope";
-  scene.world.duration = kInclineDuration;
-  scene.world.gravity = kInclineGravity * Vector3<double>(std::sin(angle), -std::cos(angle), 0);
+  scene.world.duration = kDuration;
+  scene.world.gravity = kGravity * Vector3<double>(std::sin(angle), -std::cos(angle), 0);
   scene.colliders[0].friction = 1.0;
   scenes::Cloth cloth = scene.cloths[0];
   ClothGrid& grid = cloth.grid();
@@ -63,7 +63,7 @@ scenes::Scene slope(double angle, const std::vector<double>& frictions) {
     cloth.friction = frictions[i];
     // Around the origin: single precision resolves 5e-7 m at 5 m, which is worth a fortieth of a node's weight here.
     const double place = static_cast<double>(i) - 0.5 * static_cast<double>(frictions.size() - 1);
-    cloth.grid().center = {0, cloth.collision_margin, kInclineSpacing * place};
+    cloth.grid().center = {0, cloth.collision_margin, kSpacing * place};
     scene.cloths.push_back(cloth);
   }
   return scenes::with_bullets_time_step(scene);
@@ -80,7 +80,7 @@ scenes::Scene creep_scene() {
   std::vector<double> frictions;
   const double angle = radians(20.0);
   for (int i = 0; i < kFrictions; ++i) {
-    frictions.push_back(std::tan(angle) / (1 - kInclineMargin) * (1 + 0.05 * i));
+    frictions.push_back(std::tan(angle) / (1 - kMargin) * (1 + 0.05 * i));
   }
   return slope(angle, frictions);
 }
@@ -105,7 +105,7 @@ using Ways = std::vector<double>;
 
 Ways ways_of(const Frames& frames) {
   Ways ways(kFrictions, std::nan(""));
-  if (frames.empty() || frames.back().time < 0.99 * kInclineDuration) return ways;
+  if (frames.empty() || frames.back().time < 0.99 * kDuration) return ways;
   for (std::size_t i = 0; i < ways.size() && i < frames.back().cloths.size(); ++i) {
     ways[i] = frames.back().cloths[i].positions.row(0).mean() -
               frames.front().cloths[i].positions.row(0).mean();
@@ -124,13 +124,13 @@ struct Grid {
 /// The way of modified Euler under a constant acceleration is a h^2 n (n + 1) / 2.
 Grid judge_grid(std::vector<Ways> ways, double time_step) {
   Grid grid{std::move(ways), 0, 0.0, 0.0};
-  const double n = std::round(kInclineDuration / time_step);
+  const double n = std::round(kDuration / time_step);
   int sliding = 0;
-  for (int j = 0; j < kInclineAngles; ++j) {
+  for (int j = 0; j < kAngles; ++j) {
     for (int i = 0; i < kFrictions; ++i) {
       const double way = grid.ways[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)];
       const double angle = radians(angle_at(j));
-      const double exact = kInclineGravity * (std::sin(angle) - friction_at(i) * std::cos(angle));
+      const double exact = kGravity * (std::sin(angle) - friction_at(i) * std::cos(angle));
       const bool must_slide = exact > 0;
       if ((way > kSlid) != must_slide || std::isnan(way)) ++grid.wrong;
       if (!must_slide) continue;
@@ -153,7 +153,7 @@ Table table_of(const EngineChoice& engine, const Grid& grid) {
     const std::string text = fmt::format("{:.2f}", friction_at(i));
     table.columns.push_back(text.starts_with("0") ? text.substr(1) : text.substr(0, 3));
   }
-  for (int j = 0; j < kInclineAngles; ++j) {
+  for (int j = 0; j < kAngles; ++j) {
     std::vector<std::string> row{fmt::format("{:.1f}", angle_at(j))};
     for (int i = 0; i < kFrictions; ++i) {
       const double way = grid.ways[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)];
@@ -176,8 +176,8 @@ Sabotage frictions_scaled(double factor) {
 
 Grid sabotaged_grid(const Sabotage& sabotage) {
   std::vector<Ways> ways;
-  for (int j = 0; j < kInclineAngles; ++j) {
-    ways.push_back(ways_of(run_sabotaged(row_scene(j), sabotage, kInclineDuration)));
+  for (int j = 0; j < kAngles; ++j) {
+    ways.push_back(ways_of(run_sabotaged(row_scene(j), sabotage, kDuration)));
   }
   return judge_grid(std::move(ways), row_scene(0).world.time_step);
 }
@@ -186,7 +186,7 @@ Grid sabotaged_grid(const Sabotage& sabotage) {
 double creep_of(const Frames& frames) {
   double largest = frames.empty() ? std::nan("") : 0.0;
   for (const scenes::SceneState& frame : frames) {
-    if (frame.time < kInclineDuration / 2) continue;
+    if (frame.time < kDuration / 2) continue;
     for (const auto& cloth : frame.cloths) {
       const double speed = cloth.velocities.colwise().norm().maxCoeff();
       if (!(speed <= largest)) largest = speed;
@@ -253,11 +253,10 @@ void add(CheckResult check, const EngineChoice& engine, double measured, const T
 
 void plan_incline(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
   for (const EngineChoice& engine : incline_engines(options.bullet)) {
-    for (int j = 0; j < kInclineAngles; ++j) {
+    for (int j = 0; j < kAngles; ++j) {
       runs.add({label_of(info, engine, j), row_scene(j), engine.engine, engine.precision});
     }
-    runs.add(
-        {label_of(info, engine, kInclineAngles), creep_scene(), engine.engine, engine.precision});
+    runs.add({label_of(info, engine, kAngles), creep_scene(), engine.engine, engine.precision});
   }
 }
 
@@ -265,15 +264,14 @@ void evaluate_incline(const CaseInfo& info, const CaseOptions& options, const En
                       Report& report) {
   const double time_step = row_scene(0).world.time_step;
   const Grid rougher = sabotaged_grid(frictions_scaled(1.03));
-  const double slower =
-      creep_of(run_sabotaged(creep_scene(), frictions_scaled(0.97), kInclineDuration));
+  const double slower = creep_of(run_sabotaged(creep_scene(), frictions_scaled(0.97), kDuration));
   Section section{std::string(info.id), std::string(info.summary), {}, {}, {}, ""};
   const auto load = [&](const EngineChoice& engine, int j) {
     return load_history(runs, fmt::format("{}_{}", info.id, j), engine).frames;
   };
   for (const EngineChoice& engine : incline_engines(options.bullet)) {
     std::vector<Ways> ways;
-    for (int j = 0; j < kInclineAngles; ++j) ways.push_back(ways_of(load(engine, j)));
+    for (int j = 0; j < kAngles; ++j) ways.push_back(ways_of(load(engine, j)));
     const Grid grid = judge_grid(std::move(ways), time_step);
     add(check_of(info, engine, "cloths on a slope stick and slide as Coulomb's law says",
                  "cells of 20 x 20 (mu, angle) in the wrong class", "sticks iff tan(angle) <= mu"),
@@ -287,7 +285,7 @@ void evaluate_incline(const CaseInfo& info, const CaseOptions& options, const En
     CheckResult creep = check_of(info, engine, "a cloth 1 % below its threshold does not creep",
                                  "largest speed of a node from 0.25 s to 0.5 s", "0");
     creep.unit = "m/s";
-    const double crept = creep_of(load(engine, kInclineAngles));
+    const double crept = creep_of(load(engine, kAngles));
     add(std::move(creep), engine, crept, creep_tolerance(engine), {{"friction -3 %", slower}},
         report);
     section.tables.push_back(table_of(engine, grid));

@@ -15,11 +15,11 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kOverhangRadius = 0.1;   // of the edge [m]
-constexpr double kWeight = 1.0;           // of a node on table and edge [N]
-constexpr double kOverhangMass = 1.0;     // of a node [kg]
-constexpr double kOverhangStrain = 1e-4;  // of the springs under what hangs [-]
-constexpr int kHanging = 3;               // nodes, whose weight is what is looked for
+constexpr double kRadius = 0.1;   // of the edge [m]
+constexpr double kWeight = 1.0;   // of a node on table and edge [N]
+constexpr double kMass = 1.0;     // of a node [kg]
+constexpr double kStrain = 1e-4;  // of the springs under what hangs [-]
+constexpr int kHanging = 3;       // nodes, whose weight is what is looked for
 
 struct Table {
   double friction = 0.3;
@@ -28,9 +28,9 @@ struct Table {
   double friction_factor = 1.0;  ///< sabotage
 
   [[nodiscard]] double turn() const { return 0.5 * std::numbers::pi / edge_nodes; }
-  [[nodiscard]] double spacing() const { return 2 * kOverhangRadius * std::sin(turn() / 2); }
+  [[nodiscard]] double spacing() const { return 2 * kRadius * std::sin(turn() / 2); }
   [[nodiscard]] int table_nodes() const {
-    return static_cast<int>(std::lround(length * kOverhangRadius / spacing()));
+    return static_cast<int>(std::lround(length * kRadius / spacing()));
   }
   /// Largest weight that hangs still [N]: along the chain, each node at its limit.
   [[nodiscard]] double exact_weight() const {
@@ -58,8 +58,7 @@ Matrix3X<double> places_of(const Table& table) {
   Matrix3X<double> places = Matrix3X<double>::Zero(3, first_hanging + kHanging);
   for (int i = 0; i < table.edge_nodes; ++i) {
     const double angle = (i + 0.5) * turn;
-    places.col(table.table_nodes() + i) << kOverhangRadius * std::sin(angle),
-        kOverhangRadius * std::cos(angle), 0;
+    places.col(table.table_nodes() + i) << kRadius * std::sin(angle), kRadius * std::cos(angle), 0;
   }
   // The neighbors of those on the edge are farther away, or they would touch it too.
   for (int i = table.table_nodes() - 1; i >= 0; --i) {
@@ -79,12 +78,11 @@ void add_table(const Table& table, const Matrix3X<double>& places, reference::Sy
   const double length = 2 * -places(0, 0);
   reference::Collider top;
   top.name = "table";
-  top.shape = reference::Box{{length / 2, kOverhangRadius / 4, kOverhangRadius}};
-  top.position = {-length / 2, kOverhangRadius * std::cos(table.turn() / 2) - kOverhangRadius / 4,
-                  0};
+  top.shape = reference::Box{{length / 2, kRadius / 4, kRadius}};
+  top.position = {-length / 2, kRadius * std::cos(table.turn() / 2) - kRadius / 4, 0};
   reference::Collider edge;
   edge.name = "edge";
-  edge.shape = reference::Sphere{kOverhangRadius};
+  edge.shape = reference::Sphere{kRadius};
   system.colliders = {top, edge};
 }
 
@@ -96,9 +94,9 @@ bool slips(const Table& table, double hanging_weight) {
   const auto n = static_cast<int>(springs.positions.cols());
   springs.edges.resize(2, n - 1);
   for (int i = 1; i < n; ++i) springs.edges.col(i - 1) << i - 1, i;
-  springs.masses = VectorX<double>::Constant(n, kOverhangMass);
-  const double stiffness = table.exact_weight() / (kOverhangStrain * table.spacing());
-  const double rate = std::sqrt(stiffness / kOverhangMass);  // of a node on its spring [rad/s]
+  springs.masses = VectorX<double>::Constant(n, kMass);
+  const double stiffness = table.exact_weight() / (kStrain * table.spacing());
+  const double rate = std::sqrt(stiffness / kMass);  // of a node on its spring [rad/s]
   const double damping = 3 * rate / n;  // the slowest wave along the chain dies fastest
   springs.laws = {tension_law(stiffness), velocity_damping_law(damping)};
   reference::Body body = make_body(springs);
@@ -120,7 +118,7 @@ bool slips(const Table& table, double hanging_weight) {
     if (solver.step(step).blow_up) return true;
   }
   // A difference of 1e-4 of the weight would move the whole chain at this speed.
-  const double moving = 1e-4 * table.exact_weight() / (n * kOverhangMass * damping);
+  const double moving = 1e-4 * table.exact_weight() / (n * kMass * damping);
   return -solver.system().bodies[0].velocities(1, n - 1) > moving;
 }
 
@@ -163,7 +161,7 @@ void add_check(const CaseInfo& info, const Table& table, Report& report) {
   report.checks.push_back(std::move(check));
 }
 
-constexpr std::array kOverhangParameters = {
+constexpr std::array kParameters = {
     CaseParameter{"mu", "1", "friction of chain and table", 0.2, 0.6, 0.3},
     CaseParameter{"nodes", "1", "on the quarter turn of the edge", 4, 16, 8, true},
     CaseParameter{"length", "1", "of the chain on the table, in radii of the edge", 6, 20, 8},
@@ -172,7 +170,7 @@ constexpr std::array kOverhangParameters = {
 }  // namespace
 
 std::span<const CaseParameter> overhang_parameters() {
-  return kOverhangParameters;
+  return kParameters;
 }
 
 void evaluate_overhang(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,

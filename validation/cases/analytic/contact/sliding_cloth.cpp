@@ -13,16 +13,16 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kSpeed = 1.0;                 // [m/s]
-constexpr double kSlidingClothGravity = 9.81;  // [m/s^2]
-constexpr double kSlidingClothDuration = 0.6;  // [s]: with a friction of 0.4 it stops after 0.25 s
+constexpr double kSpeed = 1.0;     // [m/s]
+constexpr double kGravity = 9.81;  // [m/s^2]
+constexpr double kDuration = 0.6;  // [s]: with a friction of 0.4 it stops after 0.25 s
 
 /// drop_ground's cloth and ground, but flat, in touch from the start, and without dampers.
 scenes::Scene sliding_scene() {
   scenes::Scene scene = scenes::load_scene("drop_ground");
   scene.name = "sliding_cloth";
   scene.summary = "Shows a flat cloth that slides over the ground and stops";
-  scene.world.duration = kSlidingClothDuration;
+  scene.world.duration = kDuration;
   scenes::Cloth& cloth = scene.cloths[0];
   cloth.grid().u_axis = {1, 0, 0};
   cloth.grid().center.y() = scene.colliders[0].position.y() + cloth.collision_margin;
@@ -35,7 +35,7 @@ scenes::Scene sliding_scene() {
 
 double stopping_distance(const scenes::Scene& scene) {
   const double friction = scene.cloths[0].friction * scene.colliders[0].friction;
-  return kSpeed * kSpeed / (2 * friction * kSlidingClothGravity);
+  return kSpeed * kSpeed / (2 * friction * kGravity);
 }
 
 /// How far the middle of the cloth went in a run, minus theory [m].
@@ -81,7 +81,7 @@ void evaluate_sliding_cloth(const CaseInfo& info, const CaseOptions& options,
       check.tolerance = tolerance;
       check.verdict = judge(check.measured, tolerance);
       for (const Sabotage& sabotage : {friction_removed(), initial_velocity_unset()}) {
-        const double measured = error(run_sabotaged(scene, sabotage, kSlidingClothDuration), scene);
+        const double measured = error(run_sabotaged(scene, sabotage, kDuration), scene);
         check.sabotages.push_back(
             {sabotage.name, measured, judge(measured, tolerance) == Verdict::kFail});
       }

@@ -17,14 +17,14 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kStickSlipLength = 1.0;    // L [m]
-constexpr double kStickSlipRigidity = 1.0;  // B [N m^2]
-constexpr double kStickSlipDensity = 1.0;   // [kg/m]
-constexpr double kTension = 1e5;            // EA [N]: shorter by 2e-4 under the force of buckling
-constexpr double kStickSlipDamping = 10.0;  // [1/s]: the slowest mode turns by 15 rad/s
-constexpr double kBegin = 0.8;  // compression at the start, over the one at which the tip slips
-constexpr double kEnd = 1.25;   // and at the end
-constexpr double kStickSlipDuration = 4.0;  // [s]: ten periods of the slowest mode
+constexpr double kLength = 1.0;    // L [m]
+constexpr double kRigidity = 1.0;  // B [N m^2]
+constexpr double kDensity = 1.0;   // [kg/m]
+constexpr double kTension = 1e5;   // EA [N]: shorter by 2e-4 under the force of buckling
+constexpr double kDamping = 10.0;  // [1/s]: the slowest mode turns by 15 rad/s
+constexpr double kBegin = 0.8;     // compression at the start, over the one at which the tip slips
+constexpr double kEnd = 1.25;      // and at the end
+constexpr double kDuration = 4.0;  // [s]: ten periods of the slowest mode
 constexpr double kSettled = 0.85;  // compression at which what the start has stirred up is gone
 constexpr double kWatched = 0.95;  // and up to which creep is watched
 constexpr double kSlipped = 1e-4;  // [m] way of the tip since then that counts as slipped
@@ -34,7 +34,7 @@ struct Press {
   int segments = 30;
   double friction_factor = 1.0;  ///< sabotage
   bool plain_clamp = false;      ///< sabotage
-  [[nodiscard]] double spacing() const { return kStickSlipLength / segments; }
+  [[nodiscard]] double spacing() const { return kLength / segments; }
 };
 
 /// Clamped at the upper end, nodes 0 and 1; the last node is the tip, at the origin.
@@ -46,12 +46,12 @@ reference::Body make_rod(const Press& press, double compression) {
   ClothMesh& mesh = body.mesh;
   mesh.rest_positions = Matrix3X<double>::Zero(3, n);
   mesh.triangles.resize(3, 0);
-  mesh.masses = VectorX<double>::Constant(n, kStickSlipDensity * a);
+  mesh.masses = VectorX<double>::Constant(n, kDensity * a);
   Edges edges(2, n - 1);
   Triples clamp(3, 1);
   Triples beam(3, n - 3);
   for (int i = 0; i < n; ++i) {
-    mesh.rest_positions(1, i) = kStickSlipLength * (1 - compression) - (i - 1) * a;
+    mesh.rest_positions(1, i) = kLength * (1 - compression) - (i - 1) * a;
     if (i > 0) edges.col(i - 1) << i - 1, i;
     if (i == 2) clamp.col(0) << 0, 1, 2;
     if (i > 2) beam.col(i - 3) << i - 2, i - 1, i;
@@ -60,13 +60,13 @@ reference::Body make_rod(const Press& press, double compression) {
   mesh.line_sets.push_back({"clamp", clamp});
   mesh.line_sets.push_back({"beam", beam});
   mesh.pinned = {0, 1};
-  const double stiffness = kStickSlipRigidity / std::pow(a, 3);
+  const double stiffness = kRigidity / std::pow(a, 3);
   // Half a segment's curvature lies before the clamp: its hinge counts twice.
   for (const forces::LawSpecification& law : std::vector<forces::LawSpecification>{
            tension_law(kTension / a),
            {"torsion", {"clamp"}, {{"stiffness", {(press.plain_clamp ? 1 : 2) * stiffness}}}},
            {"torsion", {"beam"}, {{"stiffness", {stiffness}}}},
-           velocity_damping_law(kStickSlipDamping)}) {
+           velocity_damping_law(kDamping)}) {
     body.laws.add(forces::make_law<double>(law, mesh));
   }
   body.velocities.setZero(3, n);
@@ -79,17 +79,16 @@ bool bend(reference::Body& body, double compression) {
   const auto tip = static_cast<int>(body.positions.cols()) - 1;
   for (int i = 2; i <= tip; ++i) {
     const double s = static_cast<double>(i - 1) / (tip - 1);
-    body.positions(0, i) =
-        0.9 * std::sqrt(compression) * s * std::sin(3.14159 * s) * kStickSlipLength;
-    body.positions(1, i) = kStickSlipLength * (1 - compression) * (1 - s);
+    body.positions(0, i) = 0.9 * std::sqrt(compression) * s * std::sin(3.14159 * s) * kLength;
+    body.positions(1, i) = kLength * (1 - compression) * (1 - s);
   }
   const std::vector<int> pinned = body.mesh.pinned;
   body.mesh.pinned.push_back(tip);
-  const reference::StaticProblem problem = reference::static_problem(
-      body, 20 * kStickSlipRigidity / (kStickSlipLength * kStickSlipLength));
+  const reference::StaticProblem problem =
+      reference::static_problem(body, 20 * kRigidity / (kLength * kLength));
   reference::StaticOptions options;
   options.residual = 1e-8;
-  options.max_move = 0.05 * kStickSlipLength;
+  options.max_move = 0.05 * kLength;
   options.max_iterations = 1000;
   const bool found = reference::solve_statics(problem, body.positions, options).converged;
   body.mesh.pinned = pinned;
@@ -103,12 +102,12 @@ struct Slip {
 
 Slip press_down(const Press& press, double critical) {
   const double begin = kBegin * critical;
-  const double speed = (kEnd - kBegin) * critical * kStickSlipLength / kStickSlipDuration;  // [m/s]
+  const double speed = (kEnd - kBegin) * critical * kLength / kDuration;  // [m/s]
   reference::Body body = make_rod(press, begin);
   if (!bend(body, begin)) return {std::nan(""), std::nan("")};
   body.mesh.pinned_velocities = Vector3<double>(0, -speed, 0).replicate(1, 2);
   // Moving as it will, so that no wave runs along it.
-  body.velocities.row(1) = -speed * body.positions.row(1) / kStickSlipLength;
+  body.velocities.row(1) = -speed * body.positions.row(1) / kLength;
   body.friction = press.friction * press.friction_factor;
   reference::System system;
   const auto tip = body.positions.cols() - 1;
@@ -119,15 +118,15 @@ Slip press_down(const Press& press, double critical) {
   system.colliders.push_back(plane);
   reference::SpringSolver solver(std::move(system), {});
   // Half of the stable step of the springs.
-  const double step = 0.5 * press.spacing() / std::sqrt(kTension / kStickSlipDensity);
+  const double step = 0.5 * press.spacing() / std::sqrt(kTension / kDensity);
   Slip slip;
   double time = 0;
   double before = 0;
   double settled = 0;
-  while (time < kStickSlipDuration) {
+  while (time < kDuration) {
     if (solver.step(step).blow_up) break;
     time += step;
-    const double compression = begin + speed * time / kStickSlipLength;
+    const double compression = begin + speed * time / kLength;
     const double place = solver.system().bodies[0].positions(0, tip);
     if (compression < kSettled * critical) {
       settled = place;
@@ -181,7 +180,7 @@ void add_checks(const CaseInfo& info, const Press& press, Report& report) {
   report.checks.push_back(std::move(creep));
 }
 
-constexpr std::array kStickSlipParameters = {
+constexpr std::array kParameters = {
     CaseParameter{"mu", "1", "friction of strip and plane", 0.05, 0.35, 0.2},
     CaseParameter{"nodes", "1", "segments of the strip", 16, 60, 30, true},
 };
@@ -189,7 +188,7 @@ constexpr std::array kStickSlipParameters = {
 }  // namespace
 
 std::span<const CaseParameter> stick_slip_parameters() {
-  return kStickSlipParameters;
+  return kParameters;
 }
 
 void evaluate_stick_slip(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,

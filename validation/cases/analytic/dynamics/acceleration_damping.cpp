@@ -23,7 +23,7 @@ namespace {
 using reference::IntegratorKind;
 using LawPointer = std::unique_ptr<forces::ForceLaw<double>>;
 
-constexpr double kAccelerationDampingBetas[] = {0.5, 1.0, 3.0};  // [-]
+constexpr double kBetas[] = {0.5, 1.0, 3.0};  // [-]
 
 LawPointer right_law(double beta, const ClothMesh& mesh) {
   return forces::make_law<double>(acceleration_damping_law(beta), mesh);
@@ -85,10 +85,10 @@ LawPointer one_percent_more(double beta, const ClothMesh& mesh) {
 }
 
 // A dumbbell that falls and drifts while it swings.
-constexpr double kMasses[] = {0.2, 0.5};                // [kg]
-constexpr double kAccelerationDampingStiffness = 40.0;  // [N/m]
-constexpr double kAccelerationDampingTimeStep = 0.02;   // [s]: omega h = 0.33
-constexpr int kAccelerationDampingNumSteps = 1000;
+constexpr double kMasses[] = {0.2, 0.5};  // [kg]
+constexpr double kStiffness = 40.0;       // [N/m]
+constexpr double kTimeStep = 0.02;        // [s]: omega h = 0.33
+constexpr int kNumSteps = 1000;
 
 /// Elongations d_0 to d_n [m] of the dumbbell, let go at d_0 = 0.1 m.
 std::vector<double> elongations(IntegratorKind integrator, double beta, const MakeLaw& make) {
@@ -97,7 +97,7 @@ std::vector<double> elongations(IntegratorKind integrator, double beta, const Ma
   springs.positions(0, 1) = 1.0;
   springs.edges = Edges{{0}, {1}};
   springs.masses = Eigen::Vector2d(kMasses[0], kMasses[1]);
-  springs.laws = {tension_law(kAccelerationDampingStiffness), gravity_law({0.1, 0, 0})};
+  springs.laws = {tension_law(kStiffness), gravity_law({0.1, 0, 0})};
   reference::Body body = make_body(springs);
   if (beta > 0) body.laws.add(make(beta, body.mesh));
   body.positions(0, 1) += 0.1;
@@ -105,9 +105,9 @@ std::vector<double> elongations(IntegratorKind integrator, double beta, const Ma
   reference::SpringSolver solver = make_solver(std::move(body), integrator);
   const reference::Body& now = solver.system().bodies[0];
   std::vector<double> d;
-  for (int step = 0; step <= kAccelerationDampingNumSteps; ++step) {
+  for (int step = 0; step <= kNumSteps; ++step) {
     d.push_back(now.positions(0, 1) - now.positions(0, 0) - 1.0);
-    (void)solver.step(kAccelerationDampingTimeStep);
+    (void)solver.step(kTimeStep);
   }
   return d;
 }
@@ -115,8 +115,7 @@ std::vector<double> elongations(IntegratorKind integrator, double beta, const Ma
 /// w h / 2 [-] without the law.
 double half_phase() {
   const double reduced_mass = kMasses[0] * kMasses[1] / (kMasses[0] + kMasses[1]);
-  return 0.5 * kAccelerationDampingTimeStep *
-         std::sqrt(kAccelerationDampingStiffness / reduced_mass);
+  return 0.5 * kTimeStep * std::sqrt(kStiffness / reduced_mass);
 }
 
 /// Phase per step [rad] from the three-term recurrence d_(n+1) + d_(n-1) = 2 cos(phase) d_n, by
@@ -151,7 +150,7 @@ double period_error(IntegratorKind integrator, const MakeLaw& make) {
   const double half = half_phase();
   const double plain = phase_per_step(integrator, 0.0, make);
   double worst = 0;
-  for (const double beta : kAccelerationDampingBetas) {
+  for (const double beta : kBetas) {
     const double exact = std::asin(half) / std::asin(half / std::sqrt(1 + beta));
     const double error = plain / phase_per_step(integrator, beta, make) / exact - 1;
     if (!(std::abs(error) <= worst)) worst = std::abs(error);

@@ -13,7 +13,7 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kDampedHangDuration = 0.4;  // [s]
+constexpr double kDuration = 0.4;  // [s]
 
 struct Damping {
   const char* law;
@@ -29,7 +29,7 @@ scenes::Scene damped_scene() {
   scenes::Scene scene = scenes::load_scene("hang");
   scene.name = "damped_hang";
   scene.summary = "Shows the cloth of hang with damped accelerations, spin and swirl";
-  scene.world.duration = kDampedHangDuration;
+  scene.world.duration = kDuration;
   for (const Damping& damping : kDampings) {
     scene.cloths[0].laws.push_back({damping.law, {}, {{damping.parameter, {damping.value}}}});
   }
@@ -95,8 +95,7 @@ void evaluate_damped_hang(const CaseInfo& info, const CaseOptions& options, cons
   std::vector<Sabotage> mistakes = {one_step_dropped()};
   for (const Damping& damping : kDampings) mistakes.push_back(one_percent_more(damping));
   for (const Sabotage& mistake : mistakes) {
-    const double measured =
-        distance(bullet, run_sabotaged(damped_scene(), mistake, kDampedHangDuration));
+    const double measured = distance(bullet, run_sabotaged(damped_scene(), mistake, kDuration));
     check.sabotages.push_back(
         {mistake.name, measured, judge(measured, tolerance) == Verdict::kFail});
   }

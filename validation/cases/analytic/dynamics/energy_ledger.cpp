@@ -18,11 +18,11 @@ namespace {
 
 using reference::IntegratorKind;
 
-constexpr int kEnergyLedgerNodes = 9;
-constexpr double kEnergyLedgerSide = 0.8;      // [m]
-constexpr double kEnergyLedgerMass = 0.13;     // [kg]
-constexpr double kEnergyLedgerGravity = 9.81;  // [m/s^2]
-constexpr double kEnergyLedgerEndTime = 2.0;   // [s]
+constexpr int kNodes = 9;
+constexpr double kSide = 0.8;      // [m]
+constexpr double kMass = 0.13;     // [kg]
+constexpr double kGravity = 9.81;  // [m/s^2]
+constexpr double kEndTime = 2.0;   // [s]
 
 struct EnergyLedgerSetting {
   IntegratorKind integrator = IntegratorKind::kVelocityVerlet;
@@ -35,20 +35,20 @@ struct EnergyLedgerSetting {
 
 reference::Body make_cloth(bool is_free, const EnergyLedgerSetting& setting) {
   ClothGrid grid;
-  grid.nodes = {kEnergyLedgerNodes, kEnergyLedgerNodes};
-  grid.size = {kEnergyLedgerSide, kEnergyLedgerSide};
+  grid.nodes = {kNodes, kNodes};
+  grid.size = {kSide, kSide};
   grid.stencil = GridStencil::k12Neighbour;
-  grid.total_mass = kEnergyLedgerMass;
+  grid.total_mass = kMass;
   reference::Body body;
   body.name = "cloth";
   body.mesh = make_cloth_grid(grid);
-  if (!is_free) body.mesh.pinned = {0, kEnergyLedgerNodes - 1};
+  if (!is_free) body.mesh.pinned = {0, kNodes - 1};
   std::vector<forces::LawSpecification> laws = {tension_law(120),
                                                 spring_damping_law(setting.damping),
                                                 {"hinge_torsion", {}, {{"rigidity", {2e-3}}}},
                                                 {"torsion", {}, {{"stiffness", {0.05}}}}};
   if (!is_free) {
-    laws.push_back(gravity_law({0, -kEnergyLedgerGravity, 0}));
+    laws.push_back(gravity_law({0, -kGravity, 0}));
     laws.push_back(velocity_damping_law(setting.drag));
   }
   for (const forces::LawSpecification& law : laws) {
@@ -80,7 +80,7 @@ Ledger keep_ledger(const EnergyLedgerSetting& setting) {
   double scale = 1e-300;
   double work = 0;
   double gap = 0;
-  const auto steps = std::lround(kEnergyLedgerEndTime / setting.time_step);
+  const auto steps = std::lround(kEndTime / setting.time_step);
   for (long step = 0; step < steps; ++step) {
     (void)solver.step(setting.time_step);
     const reference::Energies now = reference::energies(solver.system());
@@ -103,8 +103,8 @@ Drift drift(double hidden) {
   setting.hidden = hidden;
   reference::Body body = make_cloth(true, setting);
   for (int node = 0; node < body.mesh.num_nodes(); ++node) {
-    const double u = node % kEnergyLedgerNodes - (kEnergyLedgerNodes - 1) / 2.0;
-    const double v = node / kEnergyLedgerNodes - (kEnergyLedgerNodes - 1) / 2.0;
+    const double u = node % kNodes - (kNodes - 1) / 2.0;
+    const double v = node / kNodes - (kNodes - 1) / 2.0;
     body.positions(1, node) += 0.01 * u * v;
     body.positions(0, node) *= 1.1;
     body.velocities.col(node) << 0.3 * v, 1.0 - 0.2 * u, 0.4 - 0.3 * u;
@@ -121,8 +121,8 @@ Drift drift(double hidden) {
     result.linear = std::max(result.linear,
                              (reference::linear_momentum(solver.system()) - linear).norm() / scale);
     result.angular =
-        std::max(result.angular, (reference::angular_momentum(solver.system()) - angular).norm() /
-                                     (scale * kEnergyLedgerSide));
+        std::max(result.angular,
+                 (reference::angular_momentum(solver.system()) - angular).norm() / (scale * kSide));
   }
   return result;
 }

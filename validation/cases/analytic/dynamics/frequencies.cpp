@@ -19,7 +19,7 @@
 namespace weft::validation {
 namespace {
 
-constexpr int kFrequenciesSteps = 2000;
+constexpr int kSteps = 2000;
 constexpr double kPhase = 0.02;  ///< omega h of the mode that is watched [rad]
 
 /// phase: omega h of the run [rad].
@@ -77,8 +77,7 @@ double measured_frequency(const FrequenciesRow& row, double mass_factor) {
   Matrix3X<double> mode = Matrix3X<double>::Zero(3, springs.num_springs + 1);
   const int axis = row.strain > 0 ? 1 : 0;
   for (int i = 1; i <= row.masses; ++i) mode(axis, i) = std::sin(row.phase() * i);
-  return swing_frequency(make, mode, 1e-5 * FrequenciesRow::kSpacing, row.step(),
-                         kFrequenciesSteps);
+  return swing_frequency(make, mode, 1e-5 * FrequenciesRow::kSpacing, row.step(), kSteps);
 }
 
 void add_row_check(const CaseInfo& info, const std::string& what, const std::string& formula,
@@ -258,7 +257,7 @@ void add_strip_checks(const CaseInfo& info, int cells, int count, Report& report
   }
 }
 
-constexpr std::array kFrequenciesParameters = {
+constexpr std::array kParameters = {
     CaseParameter{"masses", "1", "of the row", 1, 500, 50, true},
     CaseParameter{"mode", "1", "of the row, and of the membrane along both sides", 1, 20, 1, true},
     CaseParameter{"cells", "1", "of the membrane, along a side", 4, 64, 32, true},
@@ -268,7 +267,7 @@ constexpr std::array kFrequenciesParameters = {
 }  // namespace
 
 std::span<const CaseParameter> frequencies_parameters() {
-  return kFrequenciesParameters;
+  return kParameters;
 }
 
 void evaluate_frequencies(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,

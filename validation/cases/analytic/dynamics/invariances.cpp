@@ -30,11 +30,11 @@ struct InvariancesSetting {
   bool crossed_left_out = false;  ///< sabotage
 };
 
-constexpr int kInvariancesNodes = 9;         // along a side
-constexpr double kInvariancesSide = 0.8;     // [m]
-constexpr double kInvariancesStep = 1e-3;    // [s]
-constexpr int kInvariancesSteps = 400;       // the cloth meets the sphere after 0.15 s
-constexpr double kInvariancesRadius = 0.25;  // [m]
+constexpr int kNodes = 9;         // along a side
+constexpr double kSide = 0.8;     // [m]
+constexpr double kStep = 1e-3;    // [s]
+constexpr int kSteps = 400;       // the cloth meets the sphere after 0.15 s
+constexpr double kRadius = 0.25;  // [m]
 
 void renumber(ClothMesh& mesh, const std::vector<int>& order) {
   const ClothMesh old = mesh;
@@ -62,12 +62,12 @@ void renumber(ClothMesh& mesh, const std::vector<int>& order) {
 
 ClothMesh make_mesh(const InvariancesSetting& setting) {
   ClothGrid grid;
-  grid.nodes = {kInvariancesNodes, kInvariancesNodes};
-  grid.size = {kInvariancesSide, kInvariancesSide};
+  grid.nodes = {kNodes, kNodes};
+  grid.size = {kSide, kSide};
   grid.stencil = GridStencil::k12Neighbour;
   grid.total_mass = 0.13;
   ClothMesh mesh = make_cloth_grid(grid);
-  mesh.pinned = {0, kInvariancesNodes - 1};
+  mesh.pinned = {0, kNodes - 1};
   if (setting.crossed_left_out) mesh.crossed_triangles.resize(3, 0);
   if (!setting.order.empty()) renumber(mesh, setting.order);
   mesh.rest_positions = setting.meter * setting.turn * mesh.rest_positions;
@@ -101,7 +101,7 @@ reference::System make_system(const InvariancesSetting& s) {
   system.bodies.push_back(std::move(body));
   reference::Collider ball;
   ball.name = "ball";
-  ball.shape = reference::Sphere{kInvariancesRadius * s.meter};
+  ball.shape = reference::Sphere{kRadius * s.meter};
   ball.position = s.meter * s.turn * Vector3<double>(0.03, -0.37, 0.07);
   if (!s.ball_stays) ball.velocity = speed;
   system.colliders.push_back(ball);
@@ -111,10 +111,9 @@ reference::System make_system(const InvariancesSetting& s) {
 /// Places at the end as the untransformed setting has them, 3 x n [m].
 Matrix3X<double> end_places(const InvariancesSetting& s) {
   reference::SpringSolver solver(make_system(s), {});
-  for (int step = 0; step < kInvariancesSteps; ++step)
-    (void)solver.step(kInvariancesStep * s.second);
+  for (int step = 0; step < kSteps; ++step) (void)solver.step(kStep * s.second);
   const Matrix3X<double> moved = s.turn.transpose() * solver.system().bodies[0].positions / s.meter;
-  Matrix3X<double> places = moved.colwise() - s.velocity * (kInvariancesSteps * kInvariancesStep);
+  Matrix3X<double> places = moved.colwise() - s.velocity * (kSteps * kStep);
   if (s.order.empty()) return places;
   Matrix3X<double> in_order(3, places.cols());
   for (Eigen::Index node = 0; node < places.cols(); ++node) {
@@ -125,7 +124,7 @@ Matrix3X<double> end_places(const InvariancesSetting& s) {
 
 /// Largest way between the two, over the cloth's side [-].
 double difference(const InvariancesSetting& setting, const Matrix3X<double>& original) {
-  return (end_places(setting) - original).colwise().norm().maxCoeff() / kInvariancesSide;
+  return (end_places(setting) - original).colwise().norm().maxCoeff() / kSide;
 }
 
 std::vector<Matrix3<double>> turns() {
@@ -191,7 +190,7 @@ void evaluate_invariances(const CaseInfo& info, const CaseOptions&, const Engine
   add("a cloth falls alike in feet, pounds and minutes", "x' = x m/ft", right,
       "a stiffness in N/ft", difference(units, original));
 
-  std::vector<int> order(kInvariancesNodes * kInvariancesNodes);
+  std::vector<int> order(kNodes * kNodes);
   std::iota(order.begin(), order.end(), 0);
   for (std::size_t i = order.size() - 1; i > 0; --i)
     std::swap(order[i], order[(i * 7919 + 13) % (i + 1)]);

@@ -13,7 +13,7 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kMomentumDuration = 0.5;  // [s]: the ball meets the cloth after 0.25 s
+constexpr double kDuration = 0.5;  // [s]: the ball meets the cloth after 0.25 s
 
 struct Judged {
   EngineChoice engine;
@@ -66,7 +66,7 @@ std::vector<Judged> momentum_engines(bool with_bullet) {
 scenes::Scene collision(int steps_per_second) {
   scenes::Scene scene = scenes::load_scene("ball_on_cloth");
   scene.world.gravity.setZero();
-  scene.world.duration = kMomentumDuration;
+  scene.world.duration = kDuration;
   scenes::Cloth& cloth = scene.cloths[0];
   cloth.pins.clear();
   std::erase_if(cloth.laws, [](const forces::LawSpecification& law) {

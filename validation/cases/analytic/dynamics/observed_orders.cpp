@@ -12,8 +12,8 @@ namespace {
 
 using reference::IntegratorKind;
 
-constexpr double kObservedOrdersEndTime = 1.0;  // [s]
-constexpr int kNumLevels = 4;                   // steps h, h/2, h/4, h/8
+constexpr double kEndTime = 1.0;  // [s]
+constexpr int kNumLevels = 4;     // steps h, h/2, h/4, h/8
 
 struct Ladder {
   IntegratorKind integrator;
@@ -37,8 +37,7 @@ Vector3<double> end_position(IntegratorKind integrator, int num_steps, bool unse
   body.positions.col(1) << 0.6, -1.2, 0.0;
   if (!unset_velocity) body.velocities.col(1) << 0.5, 0.0, 0.3;
   reference::SpringSolver solver = make_solver(std::move(body), integrator);
-  for (int step = 0; step < num_steps; ++step)
-    (void)solver.step(kObservedOrdersEndTime / num_steps);
+  for (int step = 0; step < num_steps; ++step) (void)solver.step(kEndTime / num_steps);
   return solver.system().bodies[0].positions.col(1);
 }
 
@@ -55,7 +54,7 @@ Study study(const Ladder& ladder, bool unset_velocity) {
   Study result;
   for (std::size_t level = 0; level < kNumLevels; ++level) {
     const int num_steps = ladder.first_num_steps << level;
-    result.steps[level] = kObservedOrdersEndTime / num_steps;
+    result.steps[level] = kEndTime / num_steps;
     result.errors[level] =
         (end_position(ladder.integrator, num_steps, unset_velocity) - kReferenceEnd).norm();
   }

@@ -150,7 +150,7 @@ double measure(IntegratorKind integrator, const Oscillator& oscillator, const Mi
          scale;
 }
 
-constexpr std::array kOscillatorParameters = {
+constexpr std::array kParameters = {
     CaseParameter{"mass", "kg", "of the mass", 1e-3, 1e3, 0.3},
     CaseParameter{"stiffness", "N/m", "of the spring", 0.1, 1e4, 40.0},
     CaseParameter{"damping", "N s/m", "of the spring's damper", 0.0, 0.1, 0.02},
@@ -162,7 +162,7 @@ constexpr std::array kOscillatorParameters = {
 }  // namespace
 
 std::span<const CaseParameter> oscillator_parameters() {
-  return kOscillatorParameters;
+  return kParameters;
 }
 
 void evaluate_oscillator(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,

@@ -19,9 +19,9 @@ namespace {
 
 using reference::IntegratorKind;
 
-constexpr double kRotationDampingRate = 0.5;       // [1/s]
-constexpr double kRotationDampingTimeStep = 5e-3;  // [s]
-constexpr int kRotationDampingNumSteps = 4000;     // ten time constants: exp(-10) is left
+constexpr double kRate = 0.5;       // [1/s]
+constexpr double kTimeStep = 5e-3;  // [s]
+constexpr int kNumSteps = 4000;     // ten time constants: exp(-10) is left
 
 /// Mistake: omega as if the inertia were the same about every axis.
 class SphereInertia final : public forces::ForceLaw<double> {
@@ -41,8 +41,7 @@ class SphereInertia final : public forces::ForceLaw<double> {
       momentum += state.masses[i] * r.cross(Vector3<double>(velocities.col(i)));
       trace += 2 * state.masses[i] * r.squaredNorm();
     }
-    const Vector3<double> omega =
-        (1 - std::exp(-kRotationDampingRate * time_step)) * 3 / trace * momentum;
+    const Vector3<double> omega = (1 - std::exp(-kRate * time_step)) * 3 / trace * momentum;
     for (Eigen::Index i = 0; i < velocities.cols(); ++i) {
       velocities.col(i) -= omega.cross(Vector3<double>(state.positions.col(i) - center));
     }
@@ -108,20 +107,18 @@ Run run(const AddLaw& add_law, int num_steps) {
   }
   const Momenta start = momenta(body);
   reference::SpringSolver solver = make_solver(std::move(body), IntegratorKind::kModifiedEuler);
-  for (int step = 0; step < num_steps; ++step) (void)solver.step(kRotationDampingTimeStep);
+  for (int step = 0; step < num_steps; ++step) (void)solver.step(kTimeStep);
   return {start, momenta(solver.system().bodies[0])};
 }
 
-double spin_error(const AddLaw& add_law, int num_steps = kRotationDampingNumSteps) {
+double spin_error(const AddLaw& add_law, int num_steps = kNumSteps) {
   const Run found = run(add_law, num_steps);
-  const Vector3<double> exact =
-      std::exp(-kRotationDampingRate * kRotationDampingTimeStep * kRotationDampingNumSteps) *
-      found.start.angular;
+  const Vector3<double> exact = std::exp(-kRate * kTimeStep * kNumSteps) * found.start.angular;
   return (found.end.angular - exact).norm() / exact.norm();
 }
 
 double drift_error(const AddLaw& add_law) {
-  const Run found = run(add_law, kRotationDampingNumSteps);
+  const Run found = run(add_law, kNumSteps);
   return (found.end.linear - found.start.linear).norm() / found.start.linear.norm();
 }
 
@@ -135,12 +132,10 @@ void check_spin(const CaseInfo& info, Report& report) {
               {1e-8, Basis::kRoundoff,
                "4000 steps, each with a rounding of 1e-15 of the first L, 2e4 times the last"},
               "the inertia tensor, or the place of the law in the step"},
-             spin_error(with(rotation_damping_law(kRotationDampingRate))));
-  add_sabotage(check, "rate +1 %",
-               spin_error(with(rotation_damping_law(1.01 * kRotationDampingRate))));
-  add_sabotage(
-      check, "one step dropped",
-      spin_error(with(rotation_damping_law(kRotationDampingRate)), kRotationDampingNumSteps - 1));
+             spin_error(with(rotation_damping_law(kRate))));
+  add_sabotage(check, "rate +1 %", spin_error(with(rotation_damping_law(1.01 * kRate))));
+  add_sabotage(check, "one step dropped",
+               spin_error(with(rotation_damping_law(kRate)), kNumSteps - 1));
   add_sabotage(check, "the same inertia about every axis", spin_error([](reference::Body& body) {
                  body.laws.add(std::make_unique<SphereInertia>());
                }));
@@ -156,9 +151,8 @@ void check_drift(const CaseInfo& info, Report& report) {
               "a rotation about the centre of mass carries no momentum",
               {1e-11, Basis::kRoundoff, "4000 steps, each with a rounding of 1e-15"},
               "the centre of mass"},
-             drift_error(with(rotation_damping_law(kRotationDampingRate))));
-  add_sabotage(check, "velocity_damping instead",
-               drift_error(with(velocity_damping_law(kRotationDampingRate))));
+             drift_error(with(rotation_damping_law(kRate))));
+  add_sabotage(check, "velocity_damping instead", drift_error(with(velocity_damping_law(kRate))));
   report.checks.push_back(std::move(check));
 }
 

@@ -11,17 +11,17 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kSpinningDumbbellLength = 0.5;      // l0 [m]
-constexpr double kSpinningDumbbellStiffness = 50.0;  // k [N/m]
-constexpr double kSpinningDumbbellDamping = 0.2;     // c [N s/m]
-constexpr double kLight = 0.1;                       // [kg]
-constexpr double kHeavy = 0.4;                       // [kg]
-constexpr int kSpinningDumbbellStepsPerTurn = 100;
-constexpr int kSpinningDumbbellTurns = 1000;
+constexpr double kLength = 0.5;      // l0 [m]
+constexpr double kStiffness = 50.0;  // k [N/m]
+constexpr double kDamping = 0.2;     // c [N s/m]
+constexpr double kLight = 0.1;       // [kg]
+constexpr double kHeavy = 0.4;       // [kg]
+constexpr int kStepsPerTurn = 100;
+constexpr int kTurns = 1000;
 constexpr double kSpin = 8.0;  // W = 2 sin(p / 2) / h [rad/s], p the angle per step
 
 double step_angle() {
-  return 2 * std::numbers::pi / kSpinningDumbbellStepsPerTurn;
+  return 2 * std::numbers::pi / kStepsPerTurn;
 }
 double dumbbell_step() {
   return 2 * std::sin(step_angle() / 2) / kSpin;
@@ -31,16 +31,15 @@ double dumbbell_step() {
 /// along the spring.
 double steady_length(double damping) {
   const double reduced = kLight * kHeavy / (kLight + kHeavy);
-  return kSpinningDumbbellStiffness * kSpinningDumbbellLength /
-         (kSpinningDumbbellStiffness + damping * dumbbell_step() * kSpin * kSpin / 2 -
-          reduced * kSpin * kSpin);
+  return kStiffness * kLength /
+         (kStiffness + damping * dumbbell_step() * kSpin * kSpin / 2 - reduced * kSpin * kSpin);
 }
 
 /// Largest relative change of the length and of the angular momentum at full turns.
 double change(double length, const std::vector<forces::LawSpecification>& laws, int turns) {
   SpringBody springs;
   springs.positions = Matrix3X<double>::Zero(3, 2);
-  springs.positions(0, 1) = kSpinningDumbbellLength;
+  springs.positions(0, 1) = kLength;
   springs.edges.resize(2, 1);
   springs.edges << 0, 1;
   springs.masses.resize(2);
@@ -69,9 +68,9 @@ double change(double length, const std::vector<forces::LawSpecification>& laws, 
   };
   const double start = spin();
   double largest = 0;
-  for (int step = 1; step <= turns * kSpinningDumbbellStepsPerTurn; ++step) {
+  for (int step = 1; step <= turns * kStepsPerTurn; ++step) {
     if (solver.step(h).blow_up) return std::nan("");
-    if (step % kSpinningDumbbellStepsPerTurn != 0) continue;
+    if (step % kStepsPerTurn != 0) continue;
     const Matrix3X<double>& x = solver.system().bodies[0].positions;
     largest = std::max({largest, std::abs((x.col(1) - x.col(0)).norm() / length - 1),
                         std::abs(spin() / start - 1)});
@@ -83,9 +82,8 @@ double change(double length, const std::vector<forces::LawSpecification>& laws, 
 
 void evaluate_spinning_dumbbell(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                                 Report& report) {
-  const std::vector<forces::LawSpecification> laws = {tension_law(kSpinningDumbbellStiffness),
-                                                      spring_damping_law(kSpinningDumbbellDamping),
-                                                      torsional_rotation_damping_law(2.0)};
+  const std::vector<forces::LawSpecification> laws = {
+      tension_law(kStiffness), spring_damping_law(kDamping), torsional_rotation_damping_law(2.0)};
   CheckResult check = judged(
       info,
       {"a spinning dumbbell with spring and torsional rotation damping on keeps length and spin",
@@ -94,12 +92,12 @@ void evaluate_spinning_dumbbell(const CaseInfo& info, const CaseOptions&, const 
        "steady state of modified Euler with the angle p per step; h -> 0: k (l - l0) = mu w^2 l",
        {5e-13, Basis::kRoundoff, "1e5 steps, each with a rounding of 1e-16 up or down"},
        "a damper that acts on rigid rotation"},
-      change(steady_length(kSpinningDumbbellDamping), laws, kSpinningDumbbellTurns));
+      change(steady_length(kDamping), laws, kTurns));
   auto with_rotation_damping = laws;
   with_rotation_damping.push_back(rotation_damping_law(1e-6));
   constexpr int kFewTurns = 20;
   add_sabotage(check, "rotation_damping of 1e-6 1/s on, 20 turns",
-               change(steady_length(kSpinningDumbbellDamping), with_rotation_damping, kFewTurns));
+               change(steady_length(kDamping), with_rotation_damping, kFewTurns));
   add_sabotage(check, "length without the damper's part, 20 turns",
                change(steady_length(0), laws, kFewTurns));
   report.checks.push_back(std::move(check));

@@ -17,7 +17,7 @@ namespace {
 
 using reference::IntegratorKind;
 
-constexpr double kSpringPendulumGravity = 9.81;  // [m/s^2]
+constexpr double kGravity = 9.81;  // [m/s^2]
 
 struct Pendulum {
   double mass = 1.0;         ///< [kg]
@@ -32,7 +32,7 @@ reference::SpringSolver make_pendulum(const Pendulum& pendulum, IntegratorKind i
   row.spacing = pendulum.length;
   row.mass = pendulum.mass;
   row.direction = {0, -1, 0};
-  row.laws = {tension_law(pendulum.stiffness), gravity_law({0, -kSpringPendulumGravity, 0})};
+  row.laws = {tension_law(pendulum.stiffness), gravity_law({0, -kGravity, 0})};
   reference::Body body = make_row(row);
   body.positions.col(1) << pendulum.x, pendulum.y, 0;
   return make_solver(std::move(body), integrator);
@@ -42,7 +42,7 @@ reference::SpringSolver make_pendulum(const Pendulum& pendulum, IntegratorKind i
 struct Place {
   double time, x, y;
 };
-constexpr std::array kSpringPendulumTable = {
+constexpr std::array kTable = {
     Place{0.5, -.069627411, -1.217504590}, Place{1, -.348251841, -.821392145},
     Place{2, .445570232, -1.005587065}, Place{5, -.526191324, -1.186708980},
     Place{10, .347049829, -1.137932779}};
@@ -52,10 +52,10 @@ Place exact_place(const Pendulum& p, double time) {
   using State = std::array<double, 4>;  // r, phi (0: hanging), their rates
   const auto slope = [&](const State& s) {
     const double r = s[0];
-    return State{s[2], s[3],
-                 r * s[3] * s[3] + kSpringPendulumGravity * std::cos(s[1]) -
-                     p.stiffness / p.mass * (r - p.length),
-                 -(kSpringPendulumGravity * std::sin(s[1]) + 2 * s[2] * s[3]) / r};
+    return State{
+        s[2], s[3],
+        r * s[3] * s[3] + kGravity * std::cos(s[1]) - p.stiffness / p.mass * (r - p.length),
+        -(kGravity * std::sin(s[1]) + 2 * s[2] * s[3]) / r};
   };
   const auto moved = [](const State& a, double h, const State& d) {
     return State{a[0] + h * d[0], a[1] + h * d[1], a[2] + h * d[2], a[3] + h * d[3]};
@@ -142,7 +142,7 @@ constexpr double kStretch = 1e-5;  ///< of the stiff pendulum under its weight [
 /// Period of a stiff spring pendulum of 1 m, from the time to its lowest point, over 2 pi sqrt(l / g).
 double measured_ratio(double amplitude, double gravity_factor) {
   Pendulum stiff;
-  stiff.stiffness = stiff.mass * kSpringPendulumGravity / (kStretch * stiff.length);
+  stiff.stiffness = stiff.mass * kGravity / (kStretch * stiff.length);
   const double length = stiff.length * (1 + kStretch * std::cos(amplitude));
   stiff.x = length * std::sin(amplitude);
   stiff.y = -length * std::cos(amplitude);
@@ -156,8 +156,7 @@ double measured_ratio(double amplitude, double gravity_factor) {
     const double now = solver.system().bodies[0].positions(0, 1);
     if (now <= 0) {
       const double quarter = kStep * (step - 1 + before / (before - now));
-      return 4 * quarter /
-             (2 * std::numbers::pi * std::sqrt(stiff.length / kSpringPendulumGravity));
+      return 4 * quarter / (2 * std::numbers::pi * std::sqrt(stiff.length / kGravity));
     }
     before = now;
   }
@@ -182,7 +181,7 @@ void add_period_check(const CaseInfo& info, double degrees, Report& report) {
   report.checks.push_back(std::move(check));
 }
 
-constexpr std::array kSpringPendulumParameters = {
+constexpr std::array kParameters = {
     CaseParameter{"mass", "kg", "of the bob", 0.1, 10.0, 1.0},
     CaseParameter{"stiffness", "N/m", "of the spring", 20.0, 1000.0, 100.0},
     CaseParameter{"length", "m", "of the spring at rest", 0.5, 2.0, 1.0},
@@ -195,7 +194,7 @@ constexpr std::array kSpringPendulumParameters = {
 }  // namespace
 
 std::span<const CaseParameter> spring_pendulum_parameters() {
-  return kSpringPendulumParameters;
+  return kParameters;
 }
 
 void evaluate_spring_pendulum(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
@@ -210,7 +209,7 @@ void evaluate_spring_pendulum(const CaseInfo& info, const CaseOptions& options, 
     return;
   }
   add_trajectory_checks(
-      info, {}, {kSpringPendulumTable.begin(), kSpringPendulumTable.end()},
+      info, {}, {kTable.begin(), kTable.end()},
       "m = 1 kg, k = 100 N/m, l0 = 1 m from (0.6, -1.2) m: tabulated, Runge-Kutta 4", report);
   for (const double degrees : {5.0, 10.0, 30.0, 60.0, 90.0, 120.0, 150.0}) {
     add_period_check(info, degrees, report);

@@ -17,16 +17,18 @@ namespace {
 
 using reference::IntegratorKind;
 
+const double kPi = std::acos(-1.0);
+
 // Two rings of 6 masses, each inner mass tied to the two outer ones beside the one in front of it.
 namespace twist {
 
 constexpr int kSize = 6;
 constexpr double kInner = 0.5, kOuter = 1.0;          // radii [m]
 constexpr double kInnerMass = 0.3, kOuterMass = 0.1;  // [kg]
-constexpr double kTorsionalDampingStiffness = 50.0;   // [N/m]
-constexpr double kTorsionalDampingRate = 0.6;         // [1/s]
-constexpr double kTorsionalDampingTimeStep = 5e-3;    // [s]: omega h = 0.1
-constexpr int kTorsionalDampingNumSteps = 1000;       // three time constants of the amplitude / 2
+constexpr double kStiffness = 50.0;                   // [N/m]
+constexpr double kRate = 0.6;                         // [1/s]
+constexpr double kTimeStep = 5e-3;                    // [s]: omega h = 0.1
+constexpr int kNumSteps = 1000;                       // three time constants of the amplitude / 2
 constexpr double kAngle = 1e-6;                       // [rad]
 
 SpringBody rings() {
@@ -35,8 +37,7 @@ SpringBody rings() {
   body.masses.resize(2 * kSize);
   body.edges.resize(2, 4 * kSize);
   for (int i = 0; i < kSize; ++i) {
-    const Vector3<double> e(std::cos(2 * std::numbers::pi * i / kSize),
-                            std::sin(2 * std::numbers::pi * i / kSize), 0);
+    const Vector3<double> e(std::cos(2 * kPi * i / kSize), std::sin(2 * kPi * i / kSize), 0);
     body.positions.col(i) = kInner * e;
     body.positions.col(kSize + i) = kOuter * e;
     body.masses[i] = kInnerMass;
@@ -69,21 +70,20 @@ Eigen::Vector2d twist_of(const reference::Body& body) {
 /// omega^2 [rad^2/s^2]: stretch of a tie per angle a b sin(60 deg) / l, two ties for each pair of
 /// masses, whose moments of inertia act in series.
 double squared_frequency() {
-  const double sine = std::sin(2 * std::numbers::pi / kSize);
-  const double cosine = std::cos(2 * std::numbers::pi / kSize);
+  const double sine = std::sin(2 * kPi / kSize);
+  const double cosine = std::cos(2 * kPi / kSize);
   const double squared_length = kInner * kInner + kOuter * kOuter - 2 * kInner * kOuter * cosine;
   const double lever = kInner * kOuter * sine;
   const double inner = kInnerMass * kInner * kInner;
   const double outer = kOuterMass * kOuter * kOuter;
-  return 2 * kTorsionalDampingStiffness * lever * lever / squared_length * (inner + outer) /
-         (inner * outer);
+  return 2 * kStiffness * lever * lever / squared_length * (inner + outer) / (inner * outer);
 }
 
-/// Relative error of angle and rate after kTorsionalDampingNumSteps against the recurrence of modified Euler.
+/// Relative error of angle and rate after kNumSteps against the recurrence of modified Euler.
 double error(const std::vector<forces::LawSpecification>& damping, bool flip) {
   SpringBody springs = rings();
   springs.laws = damping;
-  springs.laws.push_back(tension_law(kTorsionalDampingStiffness));
+  springs.laws.push_back(tension_law(kStiffness));
   springs.flip_damping = flip;
   reference::Body body = make_body(springs);
   const double inner = kInnerMass * kInner * kInner;
@@ -94,15 +94,14 @@ double error(const std::vector<forces::LawSpecification>& damping, bool flip) {
     body.positions.col(i) += kAngle * share / (inner + outer) * Vector3<double>(-x.y(), x.x(), 0);
   }
   reference::SpringSolver solver = make_solver(std::move(body), IntegratorKind::kModifiedEuler);
-  for (int step = 0; step < kTorsionalDampingNumSteps; ++step)
-    (void)solver.step(kTorsionalDampingTimeStep);
+  for (int step = 0; step < kNumSteps; ++step) (void)solver.step(kTimeStep);
 
   const double w2 = squared_frequency();
   Eigen::Vector2d exact(kAngle, 0);
-  for (int step = 0; step < kTorsionalDampingNumSteps; ++step) {
-    exact[1] -= kTorsionalDampingTimeStep * w2 * exact[0];
-    exact[0] += kTorsionalDampingTimeStep * exact[1];
-    exact[1] *= std::exp(-kTorsionalDampingRate * kTorsionalDampingTimeStep);
+  for (int step = 0; step < kNumSteps; ++step) {
+    exact[1] -= kTimeStep * w2 * exact[0];
+    exact[0] += kTimeStep * exact[1];
+    exact[1] *= std::exp(-kRate * kTimeStep);
   }
   const Eigen::Vector2d found = twist_of(solver.system().bodies[0]);
   const Eigen::Vector2d scale(1, 1 / std::sqrt(w2));
@@ -125,23 +124,23 @@ double error(const std::vector<forces::LawSpecification>& damping, bool flip) {
 namespace ring {
 
 constexpr int kSize = 12;
-constexpr double kTorsionalDampingMass = 0.05;      // [kg]
-constexpr double kTorsionalDampingStiffness = 200;  // [N/m]
-constexpr double kTorsionalDampingDamping = 0.1;    // [N s/m]
-constexpr double kTorsionalDampingRate = 2.0;       // of the swirl [1/s]
-constexpr double kBeta = 1.0;                       // [-]
-constexpr double kDiscreteSpin = 8;                 // W [rad/s]
-constexpr int kTorsionalDampingStepsPerTurn = 100;
-constexpr int kTorsionalDampingTurns = 1000;
+constexpr double kMass = 0.05;       // [kg]
+constexpr double kStiffness = 200;   // [N/m]
+constexpr double kDamping = 0.1;     // [N s/m]
+constexpr double kRate = 2.0;        // of the swirl [1/s]
+constexpr double kBeta = 1.0;        // [-]
+constexpr double kDiscreteSpin = 8;  // W [rad/s]
+constexpr int kStepsPerTurn = 100;
+constexpr int kTurns = 1000;
 constexpr int kFewTurns = 20;  // enough for a mistake to show
 
 double side() {
-  return std::sin(std::numbers::pi / kSize);
+  return std::sin(kPi / kSize);
 }
 double angle() {
-  return 2 * std::numbers::pi / kTorsionalDampingStepsPerTurn;
+  return 2 * kPi / kStepsPerTurn;
 }
-double swirl_step() {
+double time_step() {
   return 2 * std::sin(angle() / 2) / kDiscreteSpin;
 }
 double rest_length() {
@@ -152,25 +151,23 @@ double rest_length() {
 double radius(double mass, double damping) {
   const double w2 = kDiscreteSpin * kDiscreteSpin;
   const double s = side();
-  return 2 * kTorsionalDampingStiffness * rest_length() * s /
-         (4 * kTorsionalDampingStiffness * s * s + 2 * damping * s * s * swirl_step() * w2 -
-          mass * w2);
+  return 2 * kStiffness * rest_length() * s /
+         (4 * kStiffness * s * s + 2 * damping * s * s * time_step() * w2 - mass * w2);
 }
 
 std::vector<forces::LawSpecification> internal_laws() {
-  return {tension_law(kTorsionalDampingStiffness), spring_damping_law(kTorsionalDampingDamping),
-          torsional_rotation_damping_law(kTorsionalDampingRate), acceleration_damping_law(kBeta)};
+  return {tension_law(kStiffness), spring_damping_law(kDamping),
+          torsional_rotation_damping_law(kRate), acceleration_damping_law(kBeta)};
 }
 
 SpringBody resting(const std::vector<forces::LawSpecification>& laws) {
   SpringBody body;
   body.positions = Matrix3X<double>::Zero(3, kSize);
   body.edges.resize(2, kSize);
-  body.masses = VectorX<double>::Constant(kSize, kTorsionalDampingMass);
+  body.masses = VectorX<double>::Constant(kSize, kMass);
   body.laws = laws;
   for (int i = 0; i < kSize; ++i) {
-    body.positions.col(i) << std::cos(2 * std::numbers::pi * i / kSize),
-        std::sin(2 * std::numbers::pi * i / kSize), 0;
+    body.positions.col(i) << std::cos(2 * kPi * i / kSize), std::sin(2 * kPi * i / kSize), 0;
     const int next = (i + 1) % kSize;
     body.edges.col(i) << std::min(i, next), std::max(i, next);
   }
@@ -180,7 +177,7 @@ SpringBody resting(const std::vector<forces::LawSpecification>& laws) {
 /// Largest relative change of the radius of any mass, and of its angular velocity, at full turns.
 double change(const std::vector<forces::LawSpecification>& laws, double start_radius, int turns) {
   reference::Body body = make_body(resting(laws));
-  const double h = swirl_step();
+  const double h = time_step();
   const std::complex<double> before = std::polar(1.0, -angle());
   for (int i = 0; i < kSize; ++i) {
     const std::complex<double> x =
@@ -193,9 +190,9 @@ double change(const std::vector<forces::LawSpecification>& laws, double start_ra
   const reference::Body& now = solver.system().bodies[0];
   const double spin = std::sin(angle()) / h;
   double worst = 0;
-  for (int step = 1; step <= turns * kTorsionalDampingStepsPerTurn; ++step) {
+  for (int step = 1; step <= turns * kStepsPerTurn; ++step) {
     if (solver.step(h).blow_up) return std::numeric_limits<double>::infinity();
-    if (step % kTorsionalDampingStepsPerTurn != 0) continue;
+    if (step % kStepsPerTurn != 0) continue;
     for (int i = 0; i < kSize; ++i) {
       const Vector3<double> x = now.positions.col(i);
       const Vector3<double> v = now.velocities.col(i);

@@ -19,12 +19,12 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kBalloonRadius = 1.0;       // R0 [m]
-constexpr double kBalloonStiffness = 100.0;  // k [N/m]
-constexpr int kFrequency = 8;              // 642 nodes: sum of l0^2 is 0.7 % over that of a lattice
-constexpr double kBalloonNodeMass = 0.12;  // [kg]: the fastest mode turns by 0.7 rad per step
-constexpr double kBalloonTimeStep = 0.01;  // [s]
-constexpr double kBalloonDamping = 5.0;    // [1/s]: the breathing mode (5 rad/s) settles fastest
+constexpr double kRadius = 1.0;       // R0 [m]
+constexpr double kStiffness = 100.0;  // k [N/m]
+constexpr int kFrequency = 8;         // 642 nodes: sum of l0^2 is 0.7 % over that of a lattice
+constexpr double kNodeMass = 0.12;    // [kg]: the fastest mode turns by 0.7 rad per step
+constexpr double kTimeStep = 0.01;    // [s]
+constexpr double kDamping = 5.0;      // [1/s]: the breathing mode (5 rad/s) settles fastest
 
 /// dp R0 / k of a triangular lattice of springs, stretched by 1 + e.
 double lattice_load(double e) {
@@ -36,14 +36,14 @@ class Balloon {
   struct Setup {
     double pressure = 0.0;   ///< p0 [Pa]
     double reservoir = 0.0;  ///< V_r [m^3]
-    double stiffness = kBalloonStiffness;
+    double stiffness = kStiffness;
     double first_stretch = 0.0;  ///< e at the start
     double hidden = 0.0;         ///< sabotage: outside pressure that no formula knows of [Pa]
   };
 
   explicit Balloon(const Setup& setup) : Balloon(setup, mesh()) {}
 
-  void step() { (void)solver_.step(kBalloonTimeStep); }
+  void step() { (void)solver_.step(kTimeStep); }
   /// e = (V / V0)^(1/3) - 1.
   [[nodiscard]] double stretch() const { return std::cbrt(volume() / rest_volume_) - 1; }
   /// Growth of the mean radius [m/s].
@@ -74,8 +74,8 @@ class Balloon {
 
  private:
   static ClothMesh mesh() {
-    ClothMesh mesh = make_icosphere({.radius = kBalloonRadius, .frequency = kFrequency});
-    mesh.masses.setConstant(kBalloonNodeMass);
+    ClothMesh mesh = make_icosphere({.radius = kRadius, .frequency = kFrequency});
+    mesh.masses.setConstant(kNodeMass);
     mesh.edge_sets.resize(1);  // the theory's lattice has springs along the edges only
     return mesh;
   }
@@ -91,7 +91,7 @@ class Balloon {
     body.name = "balloon";
     body.mesh = mesh;
     for (const forces::LawSpecification& law :
-         {tension_law(setup.stiffness), gas_law(setup), velocity_damping_law(kBalloonDamping)}) {
+         {tension_law(setup.stiffness), gas_law(setup), velocity_damping_law(kDamping)}) {
       body.laws.add(forces::make_law<double>(law, body.mesh));
     }
     body.positions = (1 + setup.first_stretch) * mesh.rest_positions;
@@ -121,8 +121,8 @@ struct Equilibrium {
 /// loses pressure faster than the springs, so that the falling branch e > 1 is stable as well.
 Equilibrium inflated(double target, double stiffness_factor, double hidden = 0.0) {
   const double cube = (1 + target) * (1 + target) * (1 + target);
-  Balloon balloon({.pressure = lattice_load(target) * kBalloonStiffness / kBalloonRadius * cube,
-                   .stiffness = stiffness_factor * kBalloonStiffness,
+  Balloon balloon({.pressure = lattice_load(target) * kStiffness / kRadius * cube,
+                   .stiffness = stiffness_factor * kStiffness,
                    .first_stretch = target,
                    .hidden = hidden});
   // Speeds of 1e-9 m/s mean forces of about m gamma v = 1e-9 N, next to 1 N in a spring.
@@ -133,16 +133,15 @@ Equilibrium inflated(double target, double stiffness_factor, double hidden = 0.0
     balloon.step();
     if (step > kSettle && balloon.largest_speed() < kAtRest) break;
   }
-  return {balloon.stretch(), balloon.load() * kBalloonRadius / kBalloonStiffness,
-          balloon.virial_ratio()};
+  return {balloon.stretch(), balloon.load() * kRadius / kStiffness, balloon.virial_ratio()};
 }
 
 /// Whether the balloon grows without end under a constant pressure. It starts just below the
 /// stretch of the largest load.
 bool bursts(double load, double stiffness_factor) {
-  Balloon balloon({.pressure = load * kBalloonStiffness / kBalloonRadius,
+  Balloon balloon({.pressure = load * kStiffness / kRadius,
                    .reservoir = 1e9,
-                   .stiffness = stiffness_factor * kBalloonStiffness,
+                   .stiffness = stiffness_factor * kStiffness,
                    .first_stretch = 0.9});
   constexpr double kBurst = 1.3;  // past the top of the curve
   // It creeps through the top in 2 pi / sqrt(x) / 4 s for a load of a fraction x above the limit.
@@ -219,14 +218,14 @@ void judge_with(CheckResult& check, const Tolerance& tolerance, double right, do
   check.sabotages.push_back({sabotage, wrong, judge(wrong, tolerance) == Verdict::kFail});
 }
 
-constexpr std::array kBalloonParameters = {
+constexpr std::array kParameters = {
     CaseParameter{"stretch", "1", "e = R / R0 - 1 of the balloon", 0.02, 2.0, 0.5},
 };
 
 }  // namespace
 
 std::span<const CaseParameter> balloon_parameters() {
-  return kBalloonParameters;
+  return kParameters;
 }
 
 void evaluate_balloon(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,

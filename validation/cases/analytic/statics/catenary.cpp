@@ -15,8 +15,8 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kSpan = 1.0;              // d [m]
-constexpr double kCatenaryGravity = 9.81;  // [m/s^2]
+constexpr double kSpan = 1.0;          // d [m]
+constexpr double kGravity = 9.81;      // [m/s^2]
 constexpr double kInextensible = 1e6;  ///< EA / (w d) of a chain that counts as inextensible [-]
 
 /// Static chain of springs of mass w a / g per node. weight: of it over what the formula is told [-].
@@ -27,9 +27,9 @@ CableShape hang(const Cable& cable, double weight) {
   SpringRow row;
   row.num_springs = n;
   row.spacing = spacing;
-  row.mass = weight * kWeight * spacing / kCatenaryGravity;
+  row.mass = weight * kWeight * spacing / kGravity;
   const double stiffness = cable.stiffness * kWeight * kSpan / spacing;
-  row.laws = {tension_law(stiffness), gravity_law({0, -kCatenaryGravity, 0})};
+  row.laws = {tension_law(stiffness), gravity_law({0, -kGravity, 0})};
   reference::Body body = make_row(row);
   body.mesh.pinned = {0, n};
   // From a parabola of about the right length: the equilibrium is the solver's to find.
@@ -97,19 +97,18 @@ struct CatenaryRow {
   Cable cable;
   CableShape exact;
 };
-constexpr std::array kCatenaryTable = {
-    CatenaryRow{{1.2, 1200}, {.468698, .292818, .761366}},
-    CatenaryRow{{1.2, 120}, {.461352, .297014, .756866}},
-    CatenaryRow{{1.2, 12}, {.405121, .333842, .723963}},
-    CatenaryRow{{1.0, 1000}, {3.456022, .036106, 3.492004}},
-    CatenaryRow{{1.0, 100}, {1.586167, .078190, 1.663107}},
-    CatenaryRow{{1.0, 10}, {.699764, .172777, .860040}},
-    CatenaryRow{{1.05, kInextensible}, {.919640, .139304, 1.058944}},
-    CatenaryRow{{1.2, kInextensible}, {.469542, .292344, .761885}},
-    CatenaryRow{{2.0, kInextensible}, {.229640, .796388, 1.026029}},
-    CatenaryRow{{3.0, kInextensible}, {.176153, 1.334155, 1.510308}}};
+constexpr std::array kTable = {CatenaryRow{{1.2, 1200}, {.468698, .292818, .761366}},
+                               CatenaryRow{{1.2, 120}, {.461352, .297014, .756866}},
+                               CatenaryRow{{1.2, 12}, {.405121, .333842, .723963}},
+                               CatenaryRow{{1.0, 1000}, {3.456022, .036106, 3.492004}},
+                               CatenaryRow{{1.0, 100}, {1.586167, .078190, 1.663107}},
+                               CatenaryRow{{1.0, 10}, {.699764, .172777, .860040}},
+                               CatenaryRow{{1.05, kInextensible}, {.919640, .139304, 1.058944}},
+                               CatenaryRow{{1.2, kInextensible}, {.469542, .292344, .761885}},
+                               CatenaryRow{{2.0, kInextensible}, {.229640, .796388, 1.026029}},
+                               CatenaryRow{{3.0, kInextensible}, {.176153, 1.334155, 1.510308}}};
 
-constexpr std::array kCatenaryParameters = {
+constexpr std::array kParameters = {
     CaseParameter{"length", "1", "unstretched length over the span", 0.8, 5.0, 1.2},
     CaseParameter{
         "stiffness", "1",
@@ -138,7 +137,7 @@ CableShape exact_cable(const Cable& cable) {
 }
 
 std::span<const CaseParameter> catenary_parameters() {
-  return kCatenaryParameters;
+  return kParameters;
 }
 
 void evaluate_catenary(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
@@ -149,7 +148,7 @@ void evaluate_catenary(const CaseInfo& info, const CaseOptions& options, const E
     add_check(info, cable, exact_cable(cable), "elastic catenary, solved on the spot", report);
     return;
   }
-  for (const CatenaryRow& row : kCatenaryTable) {
+  for (const CatenaryRow& row : kTable) {
     add_check(info, row.cable, row.exact, "elastic catenary, six tabulated digits", report);
   }
 }

@@ -14,7 +14,7 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kHangingChainGravity = 9.81;  // [m/s^2]
+constexpr double kGravity = 9.81;  // [m/s^2]
 
 struct Chain {
   int masses = 10;
@@ -31,7 +31,7 @@ double tip_drop(const Chain& chain) {
   // Twice the slowest mode's frequency: near-critical damping, the fastest way to rest.
   const double rate = std::sqrt(chain.stiffness / chain.mass);  // [1/s]
   const double slowest = 2 * rate * std::sin(std::numbers::pi / (2 * (2 * chain.masses + 1)));
-  row.laws = {tension_law(chain.stiffness), gravity_law({0, -kHangingChainGravity, 0}),
+  row.laws = {tension_law(chain.stiffness), gravity_law({0, -kGravity, 0}),
               velocity_damping_law(2 * slowest)};
   reference::SpringSolver solver =
       make_solver(make_row(row), reference::IntegratorKind::kModifiedEuler);
@@ -45,7 +45,7 @@ double tip_drop(const Chain& chain) {
 
 void add_check(const CaseInfo& info, const Chain& chain, Report& report) {
   const int n = chain.masses;
-  const double exact = chain.mass * kHangingChainGravity * n * (n + 1) / (2 * chain.stiffness);
+  const double exact = chain.mass * kGravity * n * (n + 1) / (2 * chain.stiffness);
   const double length = 0.1 * n + exact;
   ClosedForm form;
   form.claim = "a chain of " + std::to_string(n) + " masses hangs as theory says";
@@ -65,7 +65,7 @@ void add_check(const CaseInfo& info, const Chain& chain, Report& report) {
   report.checks.push_back(std::move(check));
 }
 
-constexpr std::array kHangingChainParameters = {
+constexpr std::array kParameters = {
     CaseParameter{"masses", "1", "of the chain", 1, 200, 10.0, true},
     CaseParameter{"mass", "kg", "of each", 1e-4, 10.0, 0.1},
     CaseParameter{"stiffness", "N/m", "of each spring", 1.0, 1e6, 1000.0},
@@ -74,7 +74,7 @@ constexpr std::array kHangingChainParameters = {
 }  // namespace
 
 std::span<const CaseParameter> hanging_chain_parameters() {
-  return kHangingChainParameters;
+  return kParameters;
 }
 
 void evaluate_hanging_chain(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,

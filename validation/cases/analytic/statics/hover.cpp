@@ -11,31 +11,31 @@
 namespace weft::validation {
 namespace {
 
-constexpr double kHoverSide = 0.6;       // [m]
-constexpr double kArealDensity = 0.15;   // [kg/m^2]: light cotton
-constexpr double kHoverDensity = 1.2;    // of the air [kg/m^3]
-constexpr double kNormalDrag = 1.1;      // [-]
-constexpr double kHoverGravity = 9.81;   // [m/s^2]
-constexpr double kHoverTimeStep = 1e-3;  // [s]: half of the stable step
-constexpr double kHoverEndTime = 2.0;    // [s]: 25 times u / (2 g), in which the speed settles
-constexpr int kBisections = 8;           // of 0.3 m/s: to 1.2 mm/s, 0.08 %
+constexpr double kSide = 0.6;           // [m]
+constexpr double kArealDensity = 0.15;  // [kg/m^2]: light cotton
+constexpr double kDensity = 1.2;        // of the air [kg/m^3]
+constexpr double kNormalDrag = 1.1;     // [-]
+constexpr double kGravity = 9.81;       // [m/s^2]
+constexpr double kTimeStep = 1e-3;      // [s]: half of the stable step
+constexpr double kEndTime = 2.0;        // [s]: 25 times u / (2 g), in which the speed settles
+constexpr int kBisections = 8;          // of 0.3 m/s: to 1.2 mm/s, 0.08 %
 
 struct HoverSheet {
-  bool exactly_flat = false;       ///< masses in proportion to the drag of each node
-  double density = kHoverDensity;  ///< that the law is told [kg/m^3]
+  bool exactly_flat = false;  ///< masses in proportion to the drag of each node
+  double density = kDensity;  ///< that the law is told [kg/m^3]
 };
 
 /// Speed at which drag carries the weight [m/s].
 double terminal_speed() {
-  return std::sqrt(2 * kArealDensity * kHoverGravity / (kHoverDensity * kNormalDrag));
+  return std::sqrt(2 * kArealDensity * kGravity / (kDensity * kNormalDrag));
 }
 
 /// Mean vertical velocity of the sheet's mass at the end, in an upward wind [m/s].
 double final_velocity(const HoverSheet& sheet, double wind) {
   ClothGrid grid;
   grid.nodes = {9, 9};
-  grid.size = {kHoverSide, kHoverSide};
-  grid.total_mass = kArealDensity * kHoverSide * kHoverSide;
+  grid.size = {kSide, kSide};
+  grid.total_mass = kArealDensity * kSide * kSide;
   grid.stencil = GridStencil::k8Neighbour;
   grid.lumping = MassLumping::kArea;
   reference::Body body;
@@ -43,7 +43,7 @@ double final_velocity(const HoverSheet& sheet, double wind) {
   body.mesh = make_cloth_grid(grid);
   if (sheet.exactly_flat) body.mesh.masses = kArealDensity * node_areas(body.mesh);
   for (const forces::LawSpecification& law :
-       {tension_law(25.0), spring_damping_law(0.01), gravity_law({0, -kHoverGravity, 0}),
+       {tension_law(25.0), spring_damping_law(0.01), gravity_law({0, -kGravity, 0}),
         forces::LawSpecification{"hinge_torsion", {}, {{"rigidity", {1e-3}}}},
         forces::LawSpecification{"wind",
                                  {},
@@ -56,8 +56,8 @@ double final_velocity(const HoverSheet& sheet, double wind) {
   body.velocities.setZero(3, body.mesh.num_nodes());
   reference::SpringSolver solver =
       make_solver(std::move(body), reference::IntegratorKind::kModifiedEuler);
-  const int num_steps = static_cast<int>(std::lround(kHoverEndTime / kHoverTimeStep));
-  for (int step = 0; step < num_steps; ++step) (void)solver.step(kHoverTimeStep);
+  const int num_steps = static_cast<int>(std::lround(kEndTime / kTimeStep));
+  for (int step = 0; step < num_steps; ++step) (void)solver.step(kTimeStep);
   const reference::Body& end = solver.system().bodies[0];
   return (end.velocities * end.mesh.masses).y() / end.mesh.masses.sum();
 }

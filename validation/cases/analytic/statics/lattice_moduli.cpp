@@ -19,7 +19,7 @@ namespace {
 using Strain = Eigen::Vector3d;  ///< e11, e22, 2 e12
 using Moduli = Eigen::Matrix3d;  ///< C of energy per area e . C e / 2 [N/m]
 
-constexpr double kLatticeModuliSpacing = 0.02;  // a [m]
+constexpr double kSpacing = 0.02;  // a [m]
 
 /// A patch of cells x cells square cells with both diagonals.
 struct Patch {
@@ -50,12 +50,12 @@ reference::Body make_patch(const Patch& patch) {
   for (int j = 0; j < side; ++j) {
     for (int i = 0; i < side; ++i) {
       const int node = j * side + i;
-      mesh.rest_positions.col(node) << i * kLatticeModuliSpacing, j * kLatticeModuliSpacing, 0;
+      mesh.rest_positions.col(node) << i * kSpacing, j * kSpacing, 0;
       if (is_rim(i) || is_rim(j)) {
         mesh.pinned.push_back(node);
       } else {
-        mesh.rest_positions(0, node) += patch.jitter * kLatticeModuliSpacing * noise(i, j);
-        mesh.rest_positions(1, node) += patch.jitter * kLatticeModuliSpacing * noise(j + 100, i);
+        mesh.rest_positions(0, node) += patch.jitter * kSpacing * noise(i, j);
+        mesh.rest_positions(1, node) += patch.jitter * kSpacing * noise(j + 100, i);
       }
       if (i < patch.cells) (is_rim(j) ? rim : inner).emplace_back(node, node + 1);
       if (j < patch.cells) (is_rim(i) ? rim : inner).emplace_back(node, node + side);
@@ -108,7 +108,7 @@ PatchTest test_patch(const Patch& patch) {
   problem.forces = [&](const Matrix3X<double>& u, Matrix3X<double>& f) { f = with_plane(u); };
   problem.stiffness_product = [&](const Matrix3X<double>&, const Matrix3X<double>& u,
                                   Matrix3X<double>& f) { f = with_plane(u); };
-  problem.load = patch.leg * kLatticeModuliSpacing;
+  problem.load = patch.leg * kSpacing;
   PatchTest result;
   std::array<Matrix3X<double>, 3> moved;
   for (int c = 0; c < 3; ++c) {
@@ -124,7 +124,7 @@ PatchTest test_patch(const Patch& patch) {
     options.max_move = rest.cwiseAbs().maxCoeff();
     (void)reference::solve_statics(problem, u, options);
   }
-  const double area = std::pow(patch.cells * kLatticeModuliSpacing, 2);
+  const double area = std::pow(patch.cells * kSpacing, 2);
   for (int a = 0; a < 3; ++a) {
     const Matrix3X<double> force = product(moved[static_cast<std::size_t>(a)]);
     for (int b = 0; b < 3; ++b) {
@@ -243,14 +243,14 @@ Moduli triangular_star(double stiffness, int springs) {
   Edges edges(2, springs);
   for (int i = 0; i < springs; ++i) {
     const double angle = i * std::numbers::pi / 3;
-    body.mesh.rest_positions.col(i + 1) << kLatticeModuliSpacing * std::cos(angle),
-        kLatticeModuliSpacing * std::sin(angle), 0;
+    body.mesh.rest_positions.col(i + 1) << kSpacing * std::cos(angle), kSpacing * std::sin(angle),
+        0;
     edges.col(i) << 0, i + 1;
   }
   body.mesh.edge_sets.push_back({"star", edges});
   body.laws.add(forces::make_law<double>({"tension", {}, {{"stiffness", {stiffness}}}}, body.mesh));
   const reference::StaticProblem problem = reference::static_problem(body, 1.0);
-  const double area = std::sqrt(3.0) / 2 * kLatticeModuliSpacing * kLatticeModuliSpacing;
+  const double area = std::sqrt(3.0) / 2 * kSpacing * kSpacing;
   Moduli moduli;
   for (int a = 0; a < 3; ++a) {
     Matrix3X<double> force(3, springs + 1);
@@ -283,7 +283,7 @@ void add_triangular_check(const CaseInfo& info, Report& report) {
   report.checks.push_back(std::move(check));
 }
 
-constexpr std::array kLatticeModuliParameters = {
+constexpr std::array kParameters = {
     CaseParameter{"leg", "N/m", "stiffness k1 of the legs", 1.0, 1e5, 100.0},
     CaseParameter{"diagonal", "N/m", "stiffness k2 of the diagonals", 0.1, 1e5, 50.0},
     CaseParameter{"cells", "1", "along a side of the patch", 2, 60, 10, true},
@@ -292,7 +292,7 @@ constexpr std::array kLatticeModuliParameters = {
 }  // namespace
 
 std::span<const CaseParameter> lattice_moduli_parameters() {
-  return kLatticeModuliParameters;
+  return kParameters;
 }
 
 void evaluate_lattice_moduli(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
