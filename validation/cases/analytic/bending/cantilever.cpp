@@ -195,7 +195,7 @@ void add_free_sides_row(const CaseInfo& info, Report& report) {
 }
 
 /// One strip that anyone may ask for.
-struct CantileverPoint {
+struct Point {
   double gamma = 1.0;
   double angle = 0.0;  ///< of the grid to the strip [deg]
   double tilt = 0.0;   ///< of the clamp below the horizontal [deg]
@@ -213,7 +213,7 @@ struct Way {
   std::vector<ComparedValue> values = {};
 };
 
-Way way_of(const CantileverPoint& point, double rigidity_factor) {
+Way way_of(const Point& point, double rigidity_factor) {
   const double tilt = point.tilt * std::numbers::pi / 180;
   StripModel model;
   model.strip.angle = point.angle;
@@ -237,7 +237,7 @@ Way way_of(const CantileverPoint& point, double rigidity_factor) {
           {{"H / L", drop, exact.drop, "1"}, {"W / L", reach, exact.reach, "1"}}};
 }
 
-void add_point_check(const CaseInfo& info, const CantileverPoint& point, Report& report) {
+void add_point_check(const CaseInfo& info, const Point& point, Report& report) {
   const LatticeDirection direction = nearest_direction(point.angle);
   CheckResult check = check_of(
       info, fmt::format("a heavy strip hangs as the elastica, Gamma = {}, grid at {} degrees{}",
@@ -300,10 +300,9 @@ void evaluate_cantilever(const CaseInfo& info, const CaseOptions& options, const
   }
   sweeps.push_back(add_jittered_check(info, report));
   add_free_sides_row(info, report);
-  for (const CantileverPoint& point :
-       {CantileverPoint{0.05}, CantileverPoint{200}, CantileverPoint{500}, CantileverPoint{3.7, 17},
-        CantileverPoint{30, 63}, CantileverPoint{3.7, 0, 30}, CantileverPoint{3.7, 0, -40}}) {
-    CantileverPoint chosen = point;
+  for (const Point& point : {Point{0.05}, Point{200}, Point{500}, Point{3.7, 17}, Point{30, 63},
+                             Point{3.7, 0, 30}, Point{3.7, 0, -40}}) {
+    Point chosen = point;
     chosen.cells = chosen_cells(point.gamma);
     add_point_check(info, chosen, report);
   }

@@ -17,6 +17,7 @@
 namespace weft::validation {
 namespace {
 
+constexpr double kPi = std::numbers::pi;
 constexpr double kRadius = 0.02;    // r [m]
 constexpr double kRigidity = 1e-6;  // B [N m^2]
 
@@ -72,9 +73,9 @@ struct HelixTest {
 };
 
 HelixTest test_helix(const Helix& helix) {
-  const double alpha = helix.pitch * std::numbers::pi / 180;
+  const double alpha = helix.pitch * kPi / 180;
   const int nodes = 2 * helix.nodes + 1;
-  const double step = 2 * std::numbers::pi / helix.nodes;  // about the axis, per node
+  const double step = 2 * kPi / helix.nodes;  // about the axis, per node
   const double rise = kRadius * std::tan(alpha) * step;
   Matrix3X<double> places(3, nodes);
   for (int i = 0; i < nodes; ++i) {
@@ -176,14 +177,14 @@ constexpr int kRingSegments = 60;
 
 /// A straight rod whose last segment is led round to its first, from a start that is no circle but
 /// lies in its plane: without a twisting rigidity little holds the rod there.
-struct HelixRing {
+struct Ring {
   double roundness = 0.0;     ///< largest |radius / mean - 1|
   double couple_error = 0.0;  ///< of the couple that holds its ends
   ComparedValue couple = {};
 };
 
-HelixRing close_ring(int segments, double rigidity_factor, bool is_solved = true) {
-  const double spacing = 2 * std::numbers::pi * kRadius / segments;
+Ring close_ring(int segments, double rigidity_factor, bool is_solved = true) {
+  const double spacing = 2 * kPi * kRadius / segments;
   Matrix3X<double> straight = Matrix3X<double>::Zero(3, segments + 2);
   for (int i = 0; i < segments + 2; ++i) straight(0, i) = i * spacing;
   reference::Body body = make_rod(straight, spacing, rigidity_factor * kRigidity);
@@ -191,10 +192,10 @@ HelixRing close_ring(int segments, double rigidity_factor, bool is_solved = true
   body.laws.add(forces::make_law<double>(tension_law(spring), body.mesh));
   body.mesh.pinned = {0, 1, segments, segments + 1};
   // A polygon of the rod's own segments; its last segment lies on its first.
-  const double polygon = spacing / (2 * std::sin(std::numbers::pi / segments));
+  const double polygon = spacing / (2 * std::sin(kPi / segments));
   Matrix3X<double> places(3, segments + 2);
   for (int i = 0; i < segments + 2; ++i) {
-    const double angle = 2 * std::numbers::pi * i / segments;
+    const double angle = 2 * kPi * i / segments;
     const bool is_held = i < 2 || i >= segments;
     const double radius = is_held ? polygon : polygon * (1 + 0.1 * std::sin(2 * angle));
     places.col(i) << radius * std::cos(angle), radius * std::sin(angle), 0;
@@ -211,17 +212,17 @@ HelixRing close_ring(int segments, double rigidity_factor, bool is_solved = true
   problem.forces(places, force);
   const double couple =
       Vector3<double>(places.col(1) - places.col(0)).cross(Vector3<double>(force.col(1))).norm();
-  HelixRing ring;
+  Ring ring;
   for (int i = 0; i < segments; ++i) {
     ring.roundness = std::max(ring.roundness, std::abs(places.col(i).norm() / polygon - 1));
   }
-  ring.couple = {"couple", couple, 2 * std::numbers::pi * kRigidity / (segments * spacing), "N m"};
+  ring.couple = {"couple", couple, 2 * kPi * kRigidity / (segments * spacing), "N m"};
   ring.couple_error = relative_error(ring.couple);
   return ring;
 }
 
 void add_ring_check(const CaseInfo& info, int segments, Report& report) {
-  const HelixRing ring = close_ring(segments, 1.0);
+  const Ring ring = close_ring(segments, 1.0);
   CheckResult couple = judged(
       info,
       {fmt::format("a straight rod of {} segments is a ring under the couple 2 pi B / L", segments),

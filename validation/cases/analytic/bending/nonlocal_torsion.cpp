@@ -109,7 +109,7 @@ double centre_sag(double stiffness) {
   return -solver.system().bodies[0].positions(1, centre);
 }
 
-CheckResult torsion_check(const CaseInfo& info) {
+CheckResult base_check(const CaseInfo& info) {
   CheckResult check;
   check.case_id = info.id;
   check.engine = "reference";
@@ -127,7 +127,7 @@ void add_sabotage(CheckResult& check, const std::string& name, double measured) 
 
 void evaluate_nonlocal_torsion(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                                Report& report) {
-  CheckResult flap = torsion_check(info);
+  CheckResult flap = base_check(info);
   flap.claim = "a flap flipped over to its mirror image comes back";
   flap.metric = "RMS distance from the rest shape over the flap's length, after 12 s";
   flap.formula = "0: the rest shape is the one minimum";
@@ -139,7 +139,7 @@ void evaluate_nonlocal_torsion(const CaseInfo& info, const CaseOptions&, const E
   report.checks.push_back(std::move(flap));
 
   const double sag_without = centre_sag(0.0);
-  CheckResult held = torsion_check(info);
+  CheckResult held = base_check(info);
   held.claim = "a sheet whose centre is tied to all other nodes holds it up";
   held.metric = "sag of the centre with ties over the sag without";
   held.measured = centre_sag(3.0) / sag_without;

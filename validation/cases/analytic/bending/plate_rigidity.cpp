@@ -27,13 +27,13 @@ struct Shape {
 constexpr std::array<Shape, 3> kShapes = {
     {{"cylinder", 1, 0}, {"sphere", 1, 1}, {"saddle", 1, -1}}};
 
-struct PlateRigiditySheet {
+struct Sheet {
   double jitter = 0.0;  ///< of nodes, in cells
   bool cut_one_way = false;
 };
 
 /// A square grid of cells x cells; sheets of all sizes share the nodes they have in common.
-ClothMesh make_sheet(int cells, const PlateRigiditySheet& sheet) {
+ClothMesh make_sheet(int cells, const Sheet& sheet) {
   ClothGrid grid;
   grid.nodes = {cells + 1, cells + 1};
   grid.size = {kSpacing * cells, kSpacing * cells};
@@ -69,7 +69,7 @@ Matrix3X<double> curved(const ClothMesh& mesh, const Shape& shape, int angle) {
   return positions;
 }
 
-double energy(int cells, const PlateRigiditySheet& sheet, const Shape& shape, int angle) {
+double energy(int cells, const Sheet& sheet, const Shape& shape, int angle) {
   const ClothMesh mesh = make_sheet(cells, sheet);
   const auto law =
       forces::make_law<double>({"hinge_torsion", {}, {{"rigidity", {kRigidity}}}}, mesh);
@@ -80,7 +80,7 @@ double energy(int cells, const PlateRigiditySheet& sheet, const Shape& shape, in
 
 /// Energy of an inner cell over that of a cell of plate: sides and corners cancel in the second
 /// difference over sizes.
-double rigidity_ratio(const PlateRigiditySheet& sheet, const Shape& shape, int angle) {
+double rigidity_ratio(const Sheet& sheet, const Shape& shape, int angle) {
   constexpr int kCells = 12;
   const double second_difference = energy(3 * kCells, sheet, shape, angle) -
                                    2 * energy(2 * kCells, sheet, shape, angle) +
@@ -90,7 +90,7 @@ double rigidity_ratio(const PlateRigiditySheet& sheet, const Shape& shape, int a
   return per_cell / (kRigidity / 2 * squared * kCurvature * kCurvature * kSpacing * kSpacing);
 }
 
-double largest_error(const PlateRigiditySheet& sheet) {
+double largest_error(const Sheet& sheet) {
   double largest = 0.0;
   for (const Shape& shape : kShapes) {
     for (const int angle : kAngles) {
@@ -102,7 +102,7 @@ double largest_error(const PlateRigiditySheet& sheet) {
 }
 
 /// Largest force on an inner node of a cylinder, in units of moment per width: D kappa.
-double largest_inner_force(const PlateRigiditySheet& sheet) {
+double largest_inner_force(const Sheet& sheet) {
   constexpr int kCells = 12;
   const ClothMesh mesh = make_sheet(kCells, sheet);
   const auto law =
@@ -123,7 +123,7 @@ double largest_inner_force(const PlateRigiditySheet& sheet) {
   return largest / (kRigidity * kCurvature);
 }
 
-CheckResult plate_check(const CaseInfo& info) {
+CheckResult base_check(const CaseInfo& info) {
   CheckResult check;
   check.case_id = info.id;
   check.engine = "laws";
@@ -144,8 +144,8 @@ void judge_with(CheckResult& check, double measured, const Tolerance& tolerance,
 
 void evaluate_plate_rigidity(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                              Report& report) {
-  const PlateRigiditySheet one_way{0.0, true};
-  CheckResult plate = plate_check(info);
+  const Sheet one_way{0.0, true};
+  CheckResult plate = base_check(info);
   plate.claim = "a grid of hinges is an isotropic plate of rigidity D";
   plate.metric = "largest |D measured / D - 1|: cylinder, sphere, saddle at seven angles";
   plate.formula = "energy per area = D (K : K) / 2";
@@ -155,7 +155,7 @@ void evaluate_plate_rigidity(const CaseInfo& info, const CaseOptions&, const Eng
              "cells cut one way, weighted by length", largest_error(one_way));
   report.checks.push_back(std::move(plate));
 
-  CheckResult balance = plate_check(info);
+  CheckResult balance = base_check(info);
   balance.claim = "a uniformly curved sheet is in balance: no node gives way";
   balance.metric = "largest force on an inner node over D kappa, cylinders at seven angles";
   balance.formula = "0";
@@ -165,7 +165,7 @@ void evaluate_plate_rigidity(const CaseInfo& info, const CaseOptions&, const Eng
              "cells cut one way only", largest_inner_force(one_way));
   report.checks.push_back(std::move(balance));
 
-  CheckResult irregular = plate_check(info);
+  CheckResult irregular = base_check(info);
   irregular.claim = "an irregular grid of hinges is nearly the same plate";
   irregular.metric = "largest |D measured / D - 1|, nodes off by up to 20 % of a cell";
   irregular.formula = "energy per area = D (K : K) / 2";

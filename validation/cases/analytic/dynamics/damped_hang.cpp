@@ -36,7 +36,7 @@ scenes::Scene damped_scene() {
   return scenes::with_bullets_time_step(scene);
 }
 
-std::vector<EngineChoice> damped_hang_engines(bool with_bullet) {
+std::vector<EngineChoice> engines(bool with_bullet) {
   constexpr auto kDouble = scenes::StoredPrecision::kFloat64;
   std::vector<EngineChoice> choices = {{"reference", kDouble}};
   if (with_bullet) choices.push_back({"bullet_forces", kDouble});
@@ -67,7 +67,7 @@ Sabotage one_percent_more(const Damping& damping) {
 }  // namespace
 
 void plan_damped_hang(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
-  for (const EngineChoice& engine : damped_hang_engines(options.bullet)) {
+  for (const EngineChoice& engine : engines(options.bullet)) {
     runs.add({engine.label(std::string(info.id)), damped_scene(), engine.engine, engine.precision});
   }
 }
@@ -75,7 +75,7 @@ void plan_damped_hang(const CaseInfo& info, const CaseOptions& options, EngineRu
 void evaluate_damped_hang(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
                           Report& report) {
   if (!options.bullet) return;
-  const std::vector<EngineChoice> choices = damped_hang_engines(true);
+  const std::vector<EngineChoice> choices = engines(true);
   const Frames reference = load_history(runs, std::string(info.id), choices[0]).frames;
   const Frames bullet = load_history(runs, std::string(info.id), choices[1]).frames;
   const Tolerance tolerance{1e-9, Basis::kRoundoff,

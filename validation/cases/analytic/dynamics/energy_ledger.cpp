@@ -24,7 +24,7 @@ constexpr double kMass = 0.13;     // [kg]
 constexpr double kGravity = 9.81;  // [m/s^2]
 constexpr double kEndTime = 2.0;   // [s]
 
-struct EnergyLedgerSetting {
+struct Setting {
   IntegratorKind integrator = IntegratorKind::kVelocityVerlet;
   double damping = 0.01;      ///< of springs [N s/m]
   double drag = 0.3;          ///< velocity_damping [1/s]
@@ -33,7 +33,7 @@ struct EnergyLedgerSetting {
   double hidden = 0.0;        ///< sabotage: sideways acceleration that no ledger knows of [m/s^2]
 };
 
-reference::Body make_cloth(bool is_free, const EnergyLedgerSetting& setting) {
+reference::Body make_cloth(bool is_free, const Setting& setting) {
   ClothGrid grid;
   grid.nodes = {kNodes, kNodes};
   grid.size = {kSide, kSide};
@@ -72,7 +72,7 @@ struct Ledger {
   double taken = 0.0;  ///< [-]
 };
 
-Ledger keep_ledger(const EnergyLedgerSetting& setting) {
+Ledger keep_ledger(const Setting& setting) {
   reference::SpringSolver solver = make_solver(make_cloth(false, setting), setting.integrator);
   reference::Energies before = reference::energies(solver.system());
   const double start = before.total();
@@ -99,7 +99,7 @@ struct Drift {
 };
 
 Drift drift(double hidden) {
-  EnergyLedgerSetting setting;
+  Setting setting;
   setting.hidden = hidden;
   reference::Body body = make_cloth(true, setting);
   for (int node = 0; node < body.mesh.num_nodes(); ++node) {
@@ -133,8 +133,8 @@ void evaluate_energy_ledger(const CaseInfo& info, const CaseOptions&, const Engi
                             Report& report) {
   const Tolerance half_percent{5e-3, Basis::kTruncation,
                                "second order in the step of 1 ms for velocity Verlet"};
-  const auto add = [&](const std::string& claim, const EnergyLedgerSetting& right,
-                       const EnergyLedgerSetting& wrong, const std::string& mistake) {
+  const auto add = [&](const std::string& claim, const Setting& right, const Setting& wrong,
+                       const std::string& mistake) {
     const Ledger ledger = keep_ledger(right);
     CheckResult check = judged(
         info,
@@ -154,7 +154,7 @@ void evaluate_energy_ledger(const CaseInfo& info, const CaseOptions&, const Engi
       "a sideways force of 1 % of the weight that is not in the ledger");
 
   // Dampers that drive are in the ledger as well, so order is what tells whether it is more than small.
-  const EnergyLedgerSetting fine{.time_step = 5e-4};
+  const Setting fine{.time_step = 5e-4};
   const double order = std::log2(keep_ledger({}).gap / keep_ledger(fine).gap);
   CheckResult second =
       judged(info,
@@ -165,9 +165,8 @@ void evaluate_energy_ledger(const CaseInfo& info, const CaseOptions&, const Engi
               {0.3, Basis::kTruncation, "two levels only, of a largest value over time"},
               "a work that is summed at the wrong time"},
              std::abs(order - 2));
-  const EnergyLedgerSetting euler{.integrator = IntegratorKind::kModifiedEuler};
-  const EnergyLedgerSetting fine_euler{.integrator = IntegratorKind::kModifiedEuler,
-                                       .time_step = 5e-4};
+  const Setting euler{.integrator = IntegratorKind::kModifiedEuler};
+  const Setting fine_euler{.integrator = IntegratorKind::kModifiedEuler, .time_step = 5e-4};
   add_sabotage(second, "modified Euler instead",
                std::abs(std::log2(keep_ledger(euler).gap / keep_ledger(fine_euler).gap) - 2));
   report.checks.push_back(std::move(second));

@@ -19,6 +19,7 @@
 namespace weft::validation {
 namespace {
 
+constexpr double kPi = std::numbers::pi;
 constexpr int kSteps = 2000;
 constexpr double kPhase = 0.02;  ///< omega h of the mode that is watched [rad]
 
@@ -37,7 +38,7 @@ double mass_mistake(const Tolerance& tolerance) {
 }
 
 /// A row of masses on springs along x: its axial or its transverse vibration.
-struct FrequenciesRow {
+struct Row {
   int masses = 20;
   int mode = 1;
   double mass = 0.1;                       ///< of a node [kg]
@@ -49,8 +50,7 @@ struct FrequenciesRow {
   [[nodiscard]] double tension() const { return stiffness * kSpacing * strain; }
   /// 2 sqrt(stiffness along the motion / m) sin(q a / 2), q a the phase from node to node.
   [[nodiscard]] double phase() const {
-    return is_free ? (2 * mode - 1) * std::numbers::pi / (2 * masses + 1)
-                   : mode * std::numbers::pi / (masses + 1);
+    return is_free ? (2 * mode - 1) * kPi / (2 * masses + 1) : mode * kPi / (masses + 1);
   }
   [[nodiscard]] double frequency() const {
     const double k = strain > 0 ? tension() / kSpacing : stiffness;
@@ -62,10 +62,10 @@ struct FrequenciesRow {
   }
 };
 
-double measured_frequency(const FrequenciesRow& row, double mass_factor) {
+double measured_frequency(const Row& row, double mass_factor) {
   SpringRow springs;
   springs.num_springs = row.is_free ? row.masses : row.masses + 1;
-  springs.spacing = FrequenciesRow::kSpacing * (1 - row.strain);
+  springs.spacing = Row::kSpacing * (1 - row.strain);
   springs.mass = row.mass * mass_factor;
   springs.laws = {tension_law(row.stiffness)};
   const auto make = [&] {
@@ -77,11 +77,11 @@ double measured_frequency(const FrequenciesRow& row, double mass_factor) {
   Matrix3X<double> mode = Matrix3X<double>::Zero(3, springs.num_springs + 1);
   const int axis = row.strain > 0 ? 1 : 0;
   for (int i = 1; i <= row.masses; ++i) mode(axis, i) = std::sin(row.phase() * i);
-  return swing_frequency(make, mode, 1e-5 * FrequenciesRow::kSpacing, row.step(), kSteps);
+  return swing_frequency(make, mode, 1e-5 * Row::kSpacing, row.step(), kSteps);
 }
 
 void add_row_check(const CaseInfo& info, const std::string& what, const std::string& formula,
-                   const FrequenciesRow& row, Report& report) {
+                   const Row& row, Report& report) {
   const double exact = row.frequency();
   CheckResult check =
       judged(info,
@@ -94,10 +94,10 @@ void add_row_check(const CaseInfo& info, const std::string& what, const std::str
   report.checks.push_back(std::move(check));
 }
 
-void add_string_check(const CaseInfo& info, const FrequenciesRow& row, Report& report) {
-  const double length = FrequenciesRow::kSpacing * (row.masses + 1);
-  const double exact = row.mode * std::numbers::pi / length *
-                       std::sqrt(row.tension() * FrequenciesRow::kSpacing / row.mass);
+void add_string_check(const CaseInfo& info, const Row& row, Report& report) {
+  const double length = Row::kSpacing * (row.masses + 1);
+  const double exact =
+      row.mode * kPi / length * std::sqrt(row.tension() * Row::kSpacing / row.mass);
   CheckResult check = judged(
       info,
       {fmt::format("a chain of {} masses vibrates as a string, mode {}", row.masses, row.mode),
@@ -126,12 +126,12 @@ struct Net {
 
   [[nodiscard]] double spacing() const { return kSide / cells; }
   [[nodiscard]] double discrete() const {
-    const double a = std::sin(std::numbers::pi * m / (2 * cells));
-    const double b = std::sin(std::numbers::pi * n / (2 * cells));
+    const double a = std::sin(kPi * m / (2 * cells));
+    const double b = std::sin(kPi * n / (2 * cells));
     return std::sqrt(4 * kTension / (kDensity * spacing() * spacing()) * (a * a + b * b));
   }
   [[nodiscard]] double continuum() const {
-    return std::numbers::pi * std::sqrt(kTension / kDensity) * std::hypot(m, n) / kSide;
+    return kPi * std::sqrt(kTension / kDensity) * std::hypot(m, n) / kSide;
   }
   static constexpr double kStiffness =
       kTension / kStrain;  // per spring of width a: T a / (a strain)
@@ -168,8 +168,8 @@ double measured_frequency(const Net& net, double mass_factor) {
   Matrix3X<double> mode = Matrix3X<double>::Zero(3, (net.cells + 1) * (net.cells + 1));
   for (int i = 0; i <= net.cells; ++i) {
     for (int j = 0; j <= net.cells; ++j) {
-      mode(1, grid_node(grid, i, j)) = std::sin(std::numbers::pi * net.m * i / net.cells) *
-                                       std::sin(std::numbers::pi * net.n * j / net.cells);
+      mode(1, grid_node(grid, i, j)) =
+          std::sin(kPi * net.m * i / net.cells) * std::sin(kPi * net.n * j / net.cells);
     }
   }
   constexpr int kFewSteps = 600;
@@ -178,8 +178,7 @@ double measured_frequency(const Net& net, double mass_factor) {
 
 void add_net_checks(const CaseInfo& info, const Net& net, Report& report) {
   const double measured = measured_frequency(net, 1.0);
-  const double wave =
-      std::numbers::pi * std::max(net.m, net.n) / net.cells;  // from node to node [rad]
+  const double wave = kPi * std::max(net.m, net.n) / net.cells;  // from node to node [rad]
   const Tolerance continuum{std::max(1e-3, wave * wave / 16), Basis::kTruncation,
                             "second order in the spacing: at most (q a)^2 / 24"};
   const double mistake = mass_mistake(continuum);
@@ -279,7 +278,7 @@ void evaluate_frequencies(const CaseInfo& info, const CaseOptions& options, cons
     const auto whole = [&](const char* name) {
       return static_cast<int>(value_of(info, options, name));
     };
-    FrequenciesRow row{.masses = whole("masses"), .mode = std::min(whole("mode"), whole("masses"))};
+    Row row{.masses = whole("masses"), .mode = std::min(whole("mode"), whole("masses"))};
     add_row_check(info, "a chain between two walls vibrates along itself", between, row, report);
     row.strain = 0.2;
     add_row_check(info, "a beaded string vibrates across itself", beaded, row, report);

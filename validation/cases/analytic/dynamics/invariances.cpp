@@ -18,7 +18,7 @@ namespace weft::validation {
 namespace {
 
 /// A cloth held at two corners falls on a sphere. Everything that the transformations act on.
-struct InvariancesSetting {
+struct Setting {
   Matrix3<double> turn = Matrix3<double>::Identity();  ///< a mirror too
   Vector3<double> velocity{0, 0, 0};                   ///< [m/s] of everything
   bool ball_stays = false;  ///< sabotage: the sphere does not take part in the velocity
@@ -60,7 +60,7 @@ void renumber(ClothMesh& mesh, const std::vector<int>& order) {
   std::sort(mesh.pinned.begin(), mesh.pinned.end());
 }
 
-ClothMesh make_mesh(const InvariancesSetting& setting) {
+ClothMesh make_mesh(const Setting& setting) {
   ClothGrid grid;
   grid.nodes = {kNodes, kNodes};
   grid.size = {kSide, kSide};
@@ -77,7 +77,7 @@ ClothMesh make_mesh(const InvariancesSetting& setting) {
   return mesh;
 }
 
-reference::System make_system(const InvariancesSetting& s) {
+reference::System make_system(const Setting& s) {
   reference::System system;
   system.gravity = s.turn * Vector3<double>(0, -9.81, 0) * (s.meter / (s.second * s.second));
   reference::Body body;
@@ -109,7 +109,7 @@ reference::System make_system(const InvariancesSetting& s) {
 }
 
 /// Places at the end as the untransformed setting has them, 3 x n [m].
-Matrix3X<double> end_places(const InvariancesSetting& s) {
+Matrix3X<double> end_places(const Setting& s) {
   reference::SpringSolver solver(make_system(s), {});
   for (int step = 0; step < kSteps; ++step) (void)solver.step(kStep * s.second);
   const Matrix3X<double> moved = s.turn.transpose() * solver.system().bodies[0].positions / s.meter;
@@ -123,7 +123,7 @@ Matrix3X<double> end_places(const InvariancesSetting& s) {
 }
 
 /// Largest way between the two, over the cloth's side [-].
-double difference(const InvariancesSetting& setting, const Matrix3X<double>& original) {
+double difference(const Setting& setting, const Matrix3X<double>& original) {
   return (end_places(setting) - original).colwise().norm().maxCoeff() / kSide;
 }
 
@@ -144,8 +144,8 @@ std::vector<Matrix3<double>> turns() {
   return list;
 }
 
-InvariancesSetting turned(const Matrix3<double>& turn) {
-  InvariancesSetting setting;
+Setting turned(const Matrix3<double>& turn) {
+  Setting setting;
   setting.turn = turn;
   return setting;
 }
@@ -178,13 +178,13 @@ void evaluate_invariances(const CaseInfo& info, const CaseOptions&, const Engine
   for (const Matrix3<double>& turn : turns()) {
     largest = std::max(largest, difference(turned(turn), original));
   }
-  InvariancesSetting slipped = turned(turns().back());
+  Setting slipped = turned(turns().back());
   slipped.stiffness_slip = 1 + 1e-6;
   add("a cloth falls alike in 24 directions of the axes and an odd one", "x' = R x", largest,
       "spring constant +1e-6", difference(slipped, original));
 
   // Feet, pounds and minutes: no power of two, so that every rounding is another one.
-  InvariancesSetting units{.meter = 1 / 0.3048, .kilogram = 1 / 0.45359237, .second = 1.0 / 60};
+  Setting units{.meter = 1 / 0.3048, .kilogram = 1 / 0.45359237, .second = 1.0 / 60};
   const double right = difference(units, original);
   units.stiffness_slip = 1 / 0.3048;
   add("a cloth falls alike in feet, pounds and minutes", "x' = x m/ft", right,
@@ -194,7 +194,7 @@ void evaluate_invariances(const CaseInfo& info, const CaseOptions&, const Engine
   std::iota(order.begin(), order.end(), 0);
   for (std::size_t i = order.size() - 1; i > 0; --i)
     std::swap(order[i], order[(i * 7919 + 13) % (i + 1)]);
-  InvariancesSetting mixed;
+  Setting mixed;
   mixed.order = order;
   const double in_any_order = difference(mixed, original);
   mixed.crossed_left_out = true;

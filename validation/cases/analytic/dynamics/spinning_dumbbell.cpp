@@ -23,7 +23,7 @@ constexpr double kSpin = 8.0;  // W = 2 sin(p / 2) / h [rad/s], p the angle per 
 double step_angle() {
   return 2 * std::numbers::pi / kStepsPerTurn;
 }
-double dumbbell_step() {
+double time_step() {
   return 2 * std::sin(step_angle() / 2) / kSpin;
 }
 
@@ -32,7 +32,7 @@ double dumbbell_step() {
 double steady_length(double damping) {
   const double reduced = kLight * kHeavy / (kLight + kHeavy);
   return kStiffness * kLength /
-         (kStiffness + damping * dumbbell_step() * kSpin * kSpin / 2 - reduced * kSpin * kSpin);
+         (kStiffness + damping * time_step() * kSpin * kSpin / 2 - reduced * kSpin * kSpin);
 }
 
 /// Largest relative change of the length and of the angular momentum at full turns.
@@ -46,7 +46,7 @@ double change(double length, const std::vector<forces::LawSpecification>& laws, 
   springs.masses << kLight, kHeavy;
   springs.laws = laws;
   reference::Body body = make_body(springs);
-  const double h = dumbbell_step();
+  const double h = time_step();
   const std::complex<double> back = std::polar(1.0, -step_angle());
   const double light_arm = -length * kHeavy / (kLight + kHeavy);
   for (int i = 0; i < 2; ++i) {

@@ -93,20 +93,20 @@ CheckResult add_check(const CaseInfo& info, const Cable& cable, const CableShape
 }
 
 /// Tabulated H, sag and largest tension over w d.
-struct CatenaryRow {
+struct Row {
   Cable cable;
   CableShape exact;
 };
-constexpr std::array kTable = {CatenaryRow{{1.2, 1200}, {.468698, .292818, .761366}},
-                               CatenaryRow{{1.2, 120}, {.461352, .297014, .756866}},
-                               CatenaryRow{{1.2, 12}, {.405121, .333842, .723963}},
-                               CatenaryRow{{1.0, 1000}, {3.456022, .036106, 3.492004}},
-                               CatenaryRow{{1.0, 100}, {1.586167, .078190, 1.663107}},
-                               CatenaryRow{{1.0, 10}, {.699764, .172777, .860040}},
-                               CatenaryRow{{1.05, kInextensible}, {.919640, .139304, 1.058944}},
-                               CatenaryRow{{1.2, kInextensible}, {.469542, .292344, .761885}},
-                               CatenaryRow{{2.0, kInextensible}, {.229640, .796388, 1.026029}},
-                               CatenaryRow{{3.0, kInextensible}, {.176153, 1.334155, 1.510308}}};
+constexpr std::array kTable = {Row{{1.2, 1200}, {.468698, .292818, .761366}},
+                               Row{{1.2, 120}, {.461352, .297014, .756866}},
+                               Row{{1.2, 12}, {.405121, .333842, .723963}},
+                               Row{{1.0, 1000}, {3.456022, .036106, 3.492004}},
+                               Row{{1.0, 100}, {1.586167, .078190, 1.663107}},
+                               Row{{1.0, 10}, {.699764, .172777, .860040}},
+                               Row{{1.05, kInextensible}, {.919640, .139304, 1.058944}},
+                               Row{{1.2, kInextensible}, {.469542, .292344, .761885}},
+                               Row{{2.0, kInextensible}, {.229640, .796388, 1.026029}},
+                               Row{{3.0, kInextensible}, {.176153, 1.334155, 1.510308}}};
 
 constexpr std::array kParameters = {
     CaseParameter{"length", "1", "unstretched length over the span", 0.8, 5.0, 1.2},
@@ -148,7 +148,7 @@ void evaluate_catenary(const CaseInfo& info, const CaseOptions& options, const E
     add_check(info, cable, exact_cable(cable), "elastic catenary, solved on the spot", report);
     return;
   }
-  for (const CatenaryRow& row : kTable) {
+  for (const Row& row : kTable) {
     add_check(info, row.cable, row.exact, "elastic catenary, six tabulated digits", report);
   }
 }

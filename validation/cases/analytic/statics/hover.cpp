@@ -20,7 +20,7 @@ constexpr double kTimeStep = 1e-3;      // [s]: half of the stable step
 constexpr double kEndTime = 2.0;        // [s]: 25 times u / (2 g), in which the speed settles
 constexpr int kBisections = 8;          // of 0.3 m/s: to 1.2 mm/s, 0.08 %
 
-struct HoverSheet {
+struct Sheet {
   bool exactly_flat = false;  ///< masses in proportion to the drag of each node
   double density = kDensity;  ///< that the law is told [kg/m^3]
 };
@@ -31,7 +31,7 @@ double terminal_speed() {
 }
 
 /// Mean vertical velocity of the sheet's mass at the end, in an upward wind [m/s].
-double final_velocity(const HoverSheet& sheet, double wind) {
+double final_velocity(const Sheet& sheet, double wind) {
   ClothGrid grid;
   grid.nodes = {9, 9};
   grid.size = {kSide, kSide};
@@ -63,7 +63,7 @@ double final_velocity(const HoverSheet& sheet, double wind) {
 }
 
 /// The upward wind in which the sheet neither rises nor falls [m/s].
-double hover_speed(const HoverSheet& sheet) {
+double hover_speed(const Sheet& sheet) {
   double low = terminal_speed() - 0.15;
   double high = terminal_speed() + 0.15;
   for (int i = 0; i < kBisections; ++i) {
@@ -73,16 +73,16 @@ double hover_speed(const HoverSheet& sheet) {
   return 0.5 * (low + high);
 }
 
-ComparedValue fall_speed(const HoverSheet& sheet) {
+ComparedValue fall_speed(const Sheet& sheet) {
   return {"speed after 2 s", -final_velocity(sheet, 0.0), terminal_speed(), "m/s"};
 }
 
-ComparedValue hover_wind(const HoverSheet& sheet) {
+ComparedValue hover_wind(const Sheet& sheet) {
   return {"wind", hover_speed(sheet), terminal_speed(), "m/s"};
 }
 
 CheckResult check_of(const CaseInfo& info, const Tolerance& tolerance,
-                     ComparedValue (*speed)(const HoverSheet&), const HoverSheet& right) {
+                     ComparedValue (*speed)(const Sheet&), const Sheet& right) {
   CheckResult check;
   check.case_id = info.id;
   check.engine = "reference";
@@ -93,7 +93,7 @@ CheckResult check_of(const CaseInfo& info, const Tolerance& tolerance,
   check.measured = relative_error(check.values[0]);
   check.tolerance = tolerance;
   check.verdict = judge(check.measured, tolerance);
-  HoverSheet wrong = right;
+  Sheet wrong = right;
   wrong.density *= 1.1;
   const double sabotaged = relative_error(speed(wrong));
   check.sabotages.push_back(
@@ -102,7 +102,7 @@ CheckResult check_of(const CaseInfo& info, const Tolerance& tolerance,
   return check;
 }
 
-Plot velocity_plot(const HoverSheet& sheet) {
+Plot velocity_plot(const Sheet& sheet) {
   Plot plot{"Vertical velocity of the sheet against the wind from below",
             "wind [m/s]",
             "velocity after 2 s [m/s]",
@@ -121,9 +121,8 @@ Plot velocity_plot(const HoverSheet& sheet) {
 }  // namespace
 
 void evaluate_hover(const CaseInfo& info, const CaseOptions&, const EngineRuns&, Report& report) {
-  const HoverSheet flat{.exactly_flat = true};
-  const HoverSheet
-      bent;  // masses by the area of cells, drag by that of triangles: it bends a little
+  const Sheet flat{.exactly_flat = true};
+  const Sheet bent;  // masses by the area of cells, drag by that of triangles: it bends a little
 
   CheckResult fall = check_of(
       info,

@@ -37,10 +37,10 @@ LatticeDirection nearest_direction(double degrees) {
 
 namespace {
 
-using NodeNumbers = std::map<std::pair<int, int>, int>;  ///< of a node by its place in the grid
+using Numbers = std::map<std::pair<int, int>, int>;  ///< of a node by its place in the grid
 
 /// Every cell cut both ways, as far as the triangles have all corners.
-void cut_cells(const NodeNumbers& numbers, int reach, ClothMesh& mesh) {
+void cut_cells(const Numbers& numbers, int reach, ClothMesh& mesh) {
   std::array<std::vector<Eigen::Vector3i>, 2> cuts;
   const auto add = [&](std::size_t cut, std::array<std::pair<int, int>, 3> corners) {
     Eigen::Vector3i nodes;
@@ -107,7 +107,7 @@ ClothMesh make_lattice_strip(const LatticeDirection& direction, int cells, doubl
   };
   const int reach = static_cast<int>(std::ceil((length + width) / spacing)) + 4;
   ClothMesh mesh;
-  NodeNumbers numbers;
+  Numbers numbers;
   std::vector<Vector3<double>> places;
   std::vector<double> masses;
   for (int j = -reach; j <= reach; ++j) {
