@@ -164,7 +164,15 @@ void SoftBodySolver::solve_in_substeps() {
   }
 }
 
-void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_substeps) {
+void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_implicit) {
+  btScalar num_explicit = 1;
+  int last_num_implicit = 1;
+  for (const Attachment* one : group) {
+    num_explicit = std::max(num_explicit, one->fast->num_explicit_substeps(time_step_));
+    last_num_implicit = std::max(last_num_implicit, one->fast->last_num_substeps());
+  }
+  const SubstepPlan plan = plan_substeps(num_implicit, last_num_implicit, num_explicit);
+  const int num_substeps = plan.count;
   const TraceScope trace("step in parts");
   const btScalar substep_time = time_step_ / static_cast<btScalar>(num_substeps);
   std::vector<MovableObject> dynamic;
@@ -175,7 +183,7 @@ void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_
   in_parallel(bodies, [&](Attachment& one) { one.fast->begin_substeps(*one.body, time_step_); });
   for (int substep = 0; substep < num_substeps && !bodies.empty(); ++substep) {
     in_parallel(bodies, [&](Attachment& one) {
-      one.fast->begin_substep(*one.body, rigid, substep, num_substeps, substep_time);
+      one.fast->begin_substep(*one.body, rigid, substep, plan, substep_time);
     });
     rigid.begin_substep();
     detect_contacts(substep_time);

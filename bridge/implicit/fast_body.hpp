@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -94,12 +95,17 @@ class FastBody : public NodeTeam {
   void detect_contacts(const btSoftBody& body, btScalar time_step);
   /// How many substeps the step is to be divided into, after detect_contacts() (SubstepCount).
   [[nodiscard]] int num_substeps(const btSoftBody& body, btScalar time_step) const;
+  [[nodiscard]] int last_num_substeps() const { return last_num_substeps_; }
+  /// The number of explicit substeps that would be stable; the largest number if none are, as with dampers and after a tear.
+  [[nodiscard]] btScalar num_explicit_substeps(btScalar time_step) const {
+    return stable_step_ > 0 ? time_step / stable_step_ : std::numeric_limits<btScalar>::max();
+  }
   /// Appends the dynamic bodies that this one is near to or hangs on, each once.
   void list_dynamic(const btSoftBody& body, std::vector<MovableObject>& list) const;
   /// Around all substeps; each is then a step of its own, from detect_contacts() to end_solve().
   void begin_substeps(const btSoftBody& body, btScalar time_step);
-  void begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int substep, int num_substeps,
-                     btScalar substep_time);
+  void begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int substep,
+                     const SubstepPlan& plan, btScalar substep_time);
   void end_substeps(btSoftBody& body, btScalar time_step);
   /// Instead of btSoftBody::solveConstraints. prepare(), begin_solve(), solve_again() and end_solve() change only the
   /// body, so that those of several bodies may run at the same time; apply_solution() pushes and moves rigid bodies.
@@ -137,7 +143,7 @@ class FastBody : public NodeTeam {
 
  private:
   friend class FastBodyState;
-  enum class Method { kImplicitEuler, kBdf2, kForces };
+  enum class Method { kImplicitEuler, kBdf2, kForces, kExplicit };
   /// Kinetic energy of a solution, and the most that what was there and was put in leaves to it [J].
   struct EnergyBalance {
     double kinetic;
@@ -147,6 +153,12 @@ class FastBody : public NodeTeam {
              bool is_again);
   [[nodiscard]] bool take_changed_positions(const btSoftBody& body);
   void prepare_solver(const btSoftBody& body);
+  [[nodiscard]] fast::ImplicitSolver<btScalar>& active_solver() {
+    return method_ == Method::kExplicit ? *springless_ : *solver_;
+  }
+  void begin_explicit_substeps();
+  /// Where an object that the program leads, and Bullet has moved already, is at the end of the present substep.
+  [[nodiscard]] btTransform kinematic_pose(const btCollisionObject& object) const;
   void set_free(const std::vector<bool>& is_free);
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool may_use_forces(const btSoftBody& body, btScalar time_step);
@@ -183,9 +195,13 @@ class FastBody : public NodeTeam {
   fast::SpringNetwork network_;  ///< until solver_ has it
   LimitedStiffness limited_;
   VectorX<double> masses_;
-  btScalar wave_speed_;  ///< [m/s]
+  btScalar wave_speed_;   ///< [m/s]
+  btScalar stable_step_;  ///< of explicit substeps [s]; 0: none
   FastSettings settings_;
   std::unique_ptr<fast::ImplicitSolver<btScalar>> solver_;
+  std::unique_ptr<fast::ImplicitSolver<btScalar>>
+      springless_;  ///< for explicit substeps: contacts and inertia only
+  std::vector<int> springless_pins_;
   std::vector<bool> is_free_;     ///< that solver_ knows
   std::vector<int> solver_pins_;  ///< likewise
   NetworkHistory history_;
@@ -205,6 +221,8 @@ class FastBody : public NodeTeam {
   Matrix3X<btScalar> whole_starts_;   ///< [m]
   Matrix3X<btScalar> accelerations_;  ///< without springs [m/s^2]
   std::vector<btVector3> pin_ends_;   ///< of pins_, at the end [m]
+  Matrix3X<btScalar> spring_forces_;  ///< of explicit substeps, at their start [N]
+  btScalar time_left_ = 0;            ///< [s] behind the present substep
   // The step before.
   Matrix3X<btScalar> last_starts_;
   Matrix3X<btScalar> last_velocities_;
@@ -218,6 +236,7 @@ class FastBody : public NodeTeam {
   int last_num_substeps_ = 1;               ///< of the last one
   Method method_ = Method::kImplicitEuler;  ///< of the present step
   btScalar last_step_ = 0;                  ///< [s]; 0: no history
+  bool is_explicit_ = false;                ///< the substeps of the present step are
   bool is_predicted_ = false;
   bool has_normals_ = false;   ///< of the positions at the end of the present step
   bool is_written_ = false;    ///< before end_solve()

@@ -2,6 +2,8 @@
 // Tested by tests/bridge/implicit/fast_body_impact_test.cpp.
 #include <algorithm>
 
+#include <LinearMath/btTransformUtil.h>
+
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/implicit/fast_body.hpp>
 #include <weft/bridge/implicit/node_anchors.hpp>
@@ -23,6 +25,9 @@ btScalar smallest_half_extent(const btCollisionShape& shape) {
 
 int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
   SubstepCount substeps(time_step * wave_speed_, static_cast<btScalar>(masses_.sum()));
+  for (const Collider& collider : colliders_) {
+    if (MovableObject(collider.object)) substeps.include_nearby_body();
+  }
   for (const RigidContact& contact : contacts_) {
     const MovableObject object{contact.object};
     if (!object || object.is_articulated()) continue;
@@ -57,10 +62,32 @@ void FastBody::begin_substeps(const btSoftBody& body, btScalar time_step) {
   accelerations_ = (predicted_ - start_velocities_) / time_step;
   pin_ends_.clear();
   for (const int pin : pins_) pin_ends_.push_back(body.m_nodes[pin].m_x);
+  if (!bending_.empty()) bending_.begin_step(starts_);
+}
+
+// The problem that is left has no springs, whose forces are known: contacts, friction and the inertia of bodies.
+void FastBody::begin_explicit_substeps() {
+  if (!springless_ || springless_pins_ != solver_pins_) {
+    springless_ =
+        std::make_unique<fast::ImplicitSolver<btScalar>>(fast::SpringNetwork{}, masses_, is_free_);
+    springless_pins_ = solver_pins_;
+  }
+  springless_->continue_contacts(*solver_);
+}
+
+btTransform FastBody::kinematic_pose(const btCollisionObject& object) const {
+  const btTransform& end = object.getWorldTransform();
+  if (time_left_ == 0 || btRigidBody::upcast(&object) == nullptr) return end;
+  const RigidVelocity velocity = velocity_of(object);
+  if (velocity.is_zero()) return end;
+  btTransform pose;
+  btTransformUtil::integrateTransform(end, -velocity.linear, -velocity.angular, time_left_, pose);
+  return pose;
 }
 
 void FastBody::begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int substep,
-                             int num_substeps, btScalar substep_time) {
+                             const SubstepPlan& plan, btScalar substep_time) {
+  const int num_substeps = plan.count;
   if (substep > 0) {
     last_starts_ = starts_;
     last_spacing_ = substep_time;
@@ -71,7 +98,10 @@ void FastBody::begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int s
     impulses_.resize(3, 0);
   }
   last_step_ = 0;  // BDF2 knows no substeps
-  num_substeps_ = num_substeps;
+  num_substeps_ = plan.num_implicit;
+  is_explicit_ = plan.is_explicit;
+  if (is_explicit_ && substep == 0) begin_explicit_substeps();
+  time_left_ = substep_time * static_cast<btScalar>(num_substeps - substep - 1);
   const btScalar reached = static_cast<btScalar>(substep + 1) / static_cast<btScalar>(num_substeps);
   predicted_ = start_velocities_ + substep_time * accelerations_;
   for (int i = 0; i < body.m_nodes.size(); ++i) {
@@ -91,7 +121,13 @@ void FastBody::begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int s
   swept_.invalidate();
   for (Collider& collider : colliders_) {
     const MovableObject dynamic{collider.object};
-    if (!dynamic) continue;
+    if (!dynamic) {
+      if (collider.led.is_zero() || btRigidBody::upcast(collider.object) == nullptr) continue;
+      const btTransform pose = kinematic_pose(*collider.object);
+      collider.pose = pose * collider.object_pose.inverse() * collider.pose;
+      collider.object_pose = pose;
+      continue;
+    }
     const btTransform& start = rigid.start_of(dynamic);
     collider.pose = start * collider.object_pose.inverse() * collider.pose;
     collider.object_pose = start;
@@ -105,6 +141,9 @@ void FastBody::end_substeps(btSoftBody& body, btScalar time_step) {
     if (node.m_im <= 0) node.m_v = (node.m_x - node.m_q) / time_step;
   }
   starts_ = whole_starts_;
+  if (is_explicit_) solver_->continue_contacts(*springless_);
+  is_explicit_ = false;
+  time_left_ = 0;
   velocity_step_ = time_step;  // rates of damping count for the whole step
   last_step_ = 0;
 }
