@@ -164,6 +164,8 @@ class FastBody : public NodeTeam {
   [[nodiscard]] bool may_use_forces(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] Method choose_method(const btSoftBody& body, btScalar time_step);
   void set_targets(const btSoftBody& body, Method method, btScalar time_step);
+  void find_spring_forces();
+  void add_spring_forces(int begin, int count, btScalar time_step);
   void find_velocities();
   void keep_forces(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool are_positions_kept();
@@ -218,11 +220,12 @@ class FastBody : public NodeTeam {
   Matrix3X<btScalar> positions_;         ///< solution [m]
   Matrix3X<btScalar> velocities_;        ///< solution [m/s]
   // The whole step, while it is divided into substeps.
-  Matrix3X<btScalar> whole_starts_;   ///< [m]
-  Matrix3X<btScalar> accelerations_;  ///< without springs [m/s^2]
-  std::vector<btVector3> pin_ends_;   ///< of pins_, at the end [m]
-  Matrix3X<btScalar> spring_forces_;  ///< of explicit substeps, at their start [N]
-  btScalar time_left_ = 0;            ///< [s] behind the present substep
+  Matrix3X<btScalar> whole_starts_;     ///< [m]
+  Matrix3X<btScalar> accelerations_;    ///< without springs [m/s^2]
+  std::vector<btVector3> pin_ends_;     ///< of pins_, at the end [m]
+  Matrix3X<btScalar> spring_forces_;    ///< of explicit substeps, at their start [N]
+  Matrix3X<btScalar> target_rounding_;  ///< what targets_ have rounded away there [m]
+  btScalar time_left_ = 0;              ///< [s] behind the present substep
   // The step before.
   Matrix3X<btScalar> last_starts_;
   Matrix3X<btScalar> last_velocities_;
