@@ -26,7 +26,8 @@ btScalar smallest_half_extent(const btCollisionShape& shape) {
 int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
   SubstepCount substeps(time_step * wave_speed_, static_cast<btScalar>(masses_.sum()));
   for (const Collider& collider : colliders_) {
-    if (MovableObject(collider.object)) substeps.include_nearby_body();
+    const MovableObject object{collider.object};
+    if (object && !object.is_articulated()) substeps.include_nearby_body();
   }
   for (const RigidContact& contact : contacts_) {
     const MovableObject object{contact.object};

@@ -51,8 +51,9 @@ void SubstepCount::include(const RigidEncounter& encounter) {
       {most_, approach / (kApproachShare * size), (pushed - 2 * fall) / (kPushShare * size)});
   // Two masses that stick together share their momentum.
   const btScalar mass_share = mass_ * inverse_mass / (1 + mass_ * inverse_mass);
-  const btScalar impact = std::max(closing * mass_share, pushed);
-  if (impact > kLively * fall + kImpactShare * size) most_ = std::max(most_, wave_distance_ / size);
+  const btScalar least = kImpactShare * size;
+  const bool is_impact = closing * mass_share > fall + least || pushed > kLively * fall + least;
+  if (is_impact) most_ = std::max(most_, wave_distance_ / size);
 }
 
 SubstepPlan plan_substeps(int num_implicit, int last_num_implicit, btScalar num_explicit) {
