@@ -35,7 +35,7 @@ FastBody::FastBody(const ClothMesh& mesh, const std::vector<forces::LawSpecifica
     : network_(fast::make_network(mesh, laws)),
       masses_(std::move(masses)),
       wave_speed_(wave_speed(network_, masses_)),
-      stable_step_(stable_step(network_, masses_)),
+      explicit_(network_, masses_),
       settings_(settings) {
   check(settings);
   set_num_nodes(masses_.size());
@@ -54,8 +54,7 @@ void FastBody::set_rest_length(int first, int second, double rest_length) {
 void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>& is_changed,
                     VectorX<double> masses, const std::vector<int>& origins) {
   masses_ = std::move(masses);
-  stable_step_ = 0;
-  springless_.reset();
+  explicit_.forget();
   history_.is_replaced = true;
   set_num_nodes(masses_.size());
   if (solver_) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,6 +15,7 @@
 #include <weft/bridge/fast_settings.hpp>
 #include <weft/bridge/implicit/bending_forces.hpp>
 #include <weft/bridge/implicit/body_sleep.hpp>
+#include <weft/bridge/implicit/explicit_substeps.hpp>
 #include <weft/bridge/implicit/force_history.hpp>
 #include <weft/bridge/implicit/node_team.hpp>
 #include <weft/bridge/implicit/stiffness_limit.hpp>
@@ -96,9 +96,9 @@ class FastBody : public NodeTeam {
   /// How many substeps the step is to be divided into, after detect_contacts() (SubstepCount).
   [[nodiscard]] int num_substeps(const btSoftBody& body, btScalar time_step) const;
   [[nodiscard]] int last_num_substeps() const { return last_num_substeps_; }
-  /// The number of explicit substeps that would be stable; the largest number if none are, as with dampers and after a tear.
+  /// How many explicit ones would be stable.
   [[nodiscard]] btScalar num_explicit_substeps(btScalar time_step) const {
-    return stable_step_ > 0 ? time_step / stable_step_ : std::numeric_limits<btScalar>::max();
+    return explicit_.count(time_step);
   }
   /// Appends the dynamic bodies that this one is near to or hangs on, each once.
   void list_dynamic(const btSoftBody& body, std::vector<MovableObject>& list) const;
@@ -154,18 +154,13 @@ class FastBody : public NodeTeam {
   [[nodiscard]] bool take_changed_positions(const btSoftBody& body);
   void prepare_solver(const btSoftBody& body);
   [[nodiscard]] fast::ImplicitSolver<btScalar>& active_solver() {
-    return method_ == Method::kExplicit ? *springless_ : *solver_;
+    return method_ == Method::kExplicit ? explicit_.solver() : *solver_;
   }
-  void begin_explicit_substeps();
-  /// Where an object that the program leads, and Bullet has moved already, is at the end of the present substep.
-  [[nodiscard]] btTransform kinematic_pose(const btCollisionObject& object) const;
   void set_free(const std::vector<bool>& is_free);
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool may_use_forces(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] Method choose_method(const btSoftBody& body, btScalar time_step);
   void set_targets(const btSoftBody& body, Method method, btScalar time_step);
-  void find_spring_forces();
-  void add_spring_forces(int begin, int count, btScalar time_step);
   void find_velocities();
   void keep_forces(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool are_positions_kept();
@@ -197,13 +192,10 @@ class FastBody : public NodeTeam {
   fast::SpringNetwork network_;  ///< until solver_ has it
   LimitedStiffness limited_;
   VectorX<double> masses_;
-  btScalar wave_speed_;   ///< [m/s]
-  btScalar stable_step_;  ///< of explicit substeps [s]; 0: none
+  btScalar wave_speed_;  ///< [m/s]
+  ExplicitSubsteps explicit_;
   FastSettings settings_;
   std::unique_ptr<fast::ImplicitSolver<btScalar>> solver_;
-  std::unique_ptr<fast::ImplicitSolver<btScalar>>
-      springless_;  ///< for explicit substeps: contacts and inertia only
-  std::vector<int> springless_pins_;
   std::vector<bool> is_free_;     ///< that solver_ knows
   std::vector<int> solver_pins_;  ///< likewise
   NetworkHistory history_;
@@ -220,12 +212,10 @@ class FastBody : public NodeTeam {
   Matrix3X<btScalar> positions_;         ///< solution [m]
   Matrix3X<btScalar> velocities_;        ///< solution [m/s]
   // The whole step, while it is divided into substeps.
-  Matrix3X<btScalar> whole_starts_;     ///< [m]
-  Matrix3X<btScalar> accelerations_;    ///< without springs [m/s^2]
-  std::vector<btVector3> pin_ends_;     ///< of pins_, at the end [m]
-  Matrix3X<btScalar> spring_forces_;    ///< of explicit substeps, at their start [N]
-  Matrix3X<btScalar> target_rounding_;  ///< what targets_ have rounded away there [m]
-  btScalar time_left_ = 0;              ///< [s] behind the present substep
+  Matrix3X<btScalar> whole_starts_;   ///< [m]
+  Matrix3X<btScalar> accelerations_;  ///< without springs [m/s^2]
+  std::vector<btVector3> pin_ends_;   ///< of pins_, at the end [m]
+  btScalar time_left_ = 0;            ///< [s] behind the present substep
   // The step before.
   Matrix3X<btScalar> last_starts_;
   Matrix3X<btScalar> last_velocities_;

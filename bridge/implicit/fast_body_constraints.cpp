@@ -223,9 +223,9 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
                     [&](const auto& other) { return other.node == anchor.node; });
     if (is_kinematic) return;  // by an anchor before
     const bool is_movable = bool(MovableObject(anchor.object));
-    const btVector3 point =
-        (is_movable ? anchor.object->getWorldTransform() : kinematic_pose(*anchor.object)) *
-        anchor.local;
+    const btVector3 point = (is_movable ? anchor.object->getWorldTransform()
+                                        : kinematic_pose(*anchor.object, time_left_)) *
+                            anchor.local;
     fast::KinematicNode<btScalar> led;
     led.node = anchor.node;
     led.position = from_bullet<btScalar>(point) - origin_;

@@ -85,25 +85,6 @@ FastBody::Method FastBody::choose_method(const btSoftBody& body, btScalar time_s
   return may_use_forces(body, time_step) ? Method::kForces : Method::kImplicitEuler;
 }
 
-void FastBody::find_spring_forces() {
-  spring_forces_.setZero(3, starts_.cols());
-  solver_->find_spring_forces(starts_, spring_forces_, team_);
-  if (!bending_.empty()) bending_.add_forces(starts_, spring_forces_);
-  target_rounding_.resize(3, starts_.cols());
-}
-
-// In a substep nodes move by a few thousand units in the last place of their positions: velocities keep what targets round away.
-void FastBody::add_spring_forces(int begin, int count, btScalar time_step) {
-  for (int i = begin; i < begin + count; ++i) {
-    const auto mass = static_cast<btScalar>(masses_[i]);
-    const btScalar per_mass = mass > 0 ? time_step / mass : btScalar(0);
-    const Vector3<btScalar> displacement =
-        time_step * (predicted_.col(i) + per_mass * spring_forces_.col(i));
-    targets_.col(i) = starts_.col(i) + displacement;
-    target_rounding_.col(i) = displacement - (targets_.col(i) - starts_.col(i));
-  }
-}
-
 // From what Bullet has predicted, velocities v + h a: where nodes would go without springs.
 void FastBody::set_targets(const btSoftBody& body, Method method, btScalar time_step) {
   const bool uses_history = method == Method::kBdf2;
@@ -113,7 +94,7 @@ void FastBody::set_targets(const btSoftBody& body, Method method, btScalar time_
                                               : time_step;
   velocity_step_ = uses_history ? inertia_step_ : time_step;
   if (method == Method::kForces) force_history_.begin_step(time_step);
-  if (method == Method::kExplicit) find_spring_forces();
+  if (method == Method::kExplicit) explicit_.find_forces(*solver_, bending_, starts_, team_);
   for (Matrix3X<btScalar>* vectors : {&origins_, &targets_, &positions_}) {
     vectors->resize(3, starts_.cols());
   }
@@ -128,7 +109,8 @@ void FastBody::set_targets(const btSoftBody& body, Method method, btScalar time_
       of(origins_) = of(starts_);
       of(targets_) = of(origins_) + time_step * of(predicted_);
     }
-    if (method == Method::kExplicit) add_spring_forces(begin, count, time_step);
+    if (method == Method::kExplicit)
+      explicit_.set_targets(begin, count, time_step, masses_, starts_, predicted_, targets_);
     if (method == Method::kForces) {
       for (int i = begin; i < begin + count; ++i) {
         const auto mass = static_cast<btScalar>(masses_[i]);
@@ -150,7 +132,7 @@ void FastBody::find_velocities() {
     auto velocities = velocities_.middleCols(begin, count);
     velocities = positions_.middleCols(begin, count) - origins_.middleCols(begin, count);
     active_solver().add_compensation(begin, velocities);
-    if (method_ == Method::kExplicit) velocities += target_rounding_.middleCols(begin, count);
+    if (method_ == Method::kExplicit) velocities += explicit_.target_rounding(begin, count);
     velocities /= velocity_step_;
   });
 }

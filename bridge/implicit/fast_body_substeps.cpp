@@ -2,8 +2,6 @@
 // Tested by tests/bridge/implicit/fast_body_impact_test.cpp.
 #include <algorithm>
 
-#include <LinearMath/btTransformUtil.h>
-
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/implicit/fast_body.hpp>
 #include <weft/bridge/implicit/node_anchors.hpp>
@@ -66,26 +64,6 @@ void FastBody::begin_substeps(const btSoftBody& body, btScalar time_step) {
   if (!bending_.empty()) bending_.begin_step(starts_);
 }
 
-// The problem that is left has no springs, whose forces are known: contacts, friction and the inertia of bodies.
-void FastBody::begin_explicit_substeps() {
-  if (!springless_ || springless_pins_ != solver_pins_) {
-    springless_ =
-        std::make_unique<fast::ImplicitSolver<btScalar>>(fast::SpringNetwork{}, masses_, is_free_);
-    springless_pins_ = solver_pins_;
-  }
-  springless_->continue_contacts(*solver_);
-}
-
-btTransform FastBody::kinematic_pose(const btCollisionObject& object) const {
-  const btTransform& end = object.getWorldTransform();
-  if (time_left_ == 0 || btRigidBody::upcast(&object) == nullptr) return end;
-  const RigidVelocity velocity = velocity_of(object);
-  if (velocity.is_zero()) return end;
-  btTransform pose;
-  btTransformUtil::integrateTransform(end, -velocity.linear, -velocity.angular, time_left_, pose);
-  return pose;
-}
-
 void FastBody::begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int substep,
                              const SubstepPlan& plan, btScalar substep_time) {
   const int num_substeps = plan.count;
@@ -101,7 +79,7 @@ void FastBody::begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int s
   last_step_ = 0;  // BDF2 knows no substeps
   num_substeps_ = plan.num_implicit;
   is_explicit_ = plan.is_explicit;
-  if (is_explicit_ && substep == 0) begin_explicit_substeps();
+  if (is_explicit_ && substep == 0) explicit_.begin(*solver_, masses_, is_free_, solver_pins_);
   time_left_ = substep_time * static_cast<btScalar>(num_substeps - substep - 1);
   const btScalar reached = static_cast<btScalar>(substep + 1) / static_cast<btScalar>(num_substeps);
   predicted_ = start_velocities_ + substep_time * accelerations_;
@@ -124,7 +102,7 @@ void FastBody::begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int s
     const MovableObject dynamic{collider.object};
     if (!dynamic) {
       if (collider.led.is_zero() || btRigidBody::upcast(collider.object) == nullptr) continue;
-      const btTransform pose = kinematic_pose(*collider.object);
+      const btTransform pose = kinematic_pose(*collider.object, time_left_);
       collider.pose = pose * collider.object_pose.inverse() * collider.pose;
       collider.object_pose = pose;
       continue;
@@ -142,7 +120,7 @@ void FastBody::end_substeps(btSoftBody& body, btScalar time_step) {
     if (node.m_im <= 0) node.m_v = (node.m_x - node.m_q) / time_step;
   }
   starts_ = whole_starts_;
-  if (is_explicit_) solver_->continue_contacts(*springless_);
+  if (is_explicit_) solver_->continue_contacts(explicit_.solver());
   is_explicit_ = false;
   time_left_ = 0;
   velocity_step_ = time_step;  // rates of damping count for the whole step

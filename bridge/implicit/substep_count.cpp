@@ -18,8 +18,6 @@ constexpr btScalar kImpactShare = btScalar(0.01);
 constexpr btScalar kExplicitPerImplicit = 32;
 /// The mean of cos^4 over the directions of a plane [-].
 constexpr double kMeanStiffness = 3.0 / 8;
-/// The share of the longest stable step that explicit substeps take [-].
-constexpr double kStableShare = 0.9;
 
 }  // namespace
 
@@ -27,21 +25,6 @@ btScalar wave_speed(const fast::SpringNetwork& network, const VectorX<double>& m
   const double springs = (network.stiffness.array() * network.rest_lengths.array().square()).sum();
   const double mass = masses.sum();
   return mass > 0 ? static_cast<btScalar>(std::sqrt(kMeanStiffness * springs / mass)) : btScalar(0);
-}
-
-btScalar stable_step(const fast::SpringNetwork& network, const VectorX<double>& masses) {
-  if ((network.damping.array() != 0).any() || network.edges.cols() == 0) return 0;
-  VectorX<double> sums = VectorX<double>::Zero(masses.size());
-  for (Eigen::Index e = 0; e < network.edges.cols(); ++e) {
-    const double most = std::max(network.stiffness[e], network.compressed_stiffness[e]) +
-                        std::abs(network.bending[e]);
-    for (int end = 0; end < 2; ++end) sums[network.edges(end, e)] += 2 * most;
-  }
-  double square = 0;  // of the angular frequency
-  for (Eigen::Index i = 0; i < masses.size(); ++i) {
-    if (masses[i] > 0) square = std::max(square, sums[i] / masses[i]);
-  }
-  return square > 0 ? static_cast<btScalar>(kStableShare * 2 / std::sqrt(square)) : btScalar(0);
 }
 
 void SubstepCount::include(const RigidEncounter& encounter) {

@@ -15,11 +15,6 @@ inline namespace WEFT_BULLET_PRECISION {
 [[nodiscard]] btScalar wave_speed(const fast::SpringNetwork& network,
                                   const VectorX<double>& masses);
 
-/// A stable step of symplectic Euler with these springs and this bending [s]: a share of 2 over the largest angular frequency,
-/// which Gershgorin's theorem bounds. 0 with dampers, which make it shorter, and without springs.
-[[nodiscard]] btScalar stable_step(const fast::SpringNetwork& network,
-                                   const VectorX<double>& masses);
-
 /// A dynamic body and a node that it meets in a step.
 struct RigidEncounter {
   btScalar size;          ///< smallest half extent of the body [m]

@@ -104,7 +104,7 @@ TEST(FastBodyImpact, ABallLeavesASheetOfItsOwnMassAsFastAsInShortSteps) {
   }
 }
 
-// Of its stiffness, of which only bending's is in the substeps.
+// Forces of bending at the start of the step are among those that the step was predicted with: substeps must not count them anew.
 TEST(FastBodyImpact, ASheetThatBendsStifflyThrowsABallBackAlike) {
   const std::vector<forces::LawSpecification> bending = {law("hinge_torsion", "rigidity", 0.3)};
   const double limp = exit_speed(1.0 / 20000, 500);

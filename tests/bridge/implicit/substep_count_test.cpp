@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <weft/bridge/implicit/explicit_substeps.hpp>
 #include <weft/bridge/implicit/substep_count.hpp>
 #include <weft/fast_solver/network/spring_network.hpp>
 
