@@ -11,6 +11,7 @@
 
 #include <weft/bridge/bullet/bullet_guard.hpp>
 #include <weft/bridge/classic/law_attachment.hpp>
+#include <weft/core/state_archive.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -74,6 +75,10 @@ class DeformableForces : public btDeformableLagrangianForce {
   /// DeformableSolver, at the start of the next one with Bullet's own solver. It must not throw: that ends the
   /// program (std::terminate). Empty: nobody is told.
   void set_on_blow_up(std::function<void(btSoftBody&, const BodyBlowUp&)> callback);
+
+  /// What the laws know of the steps so far: time, followed masses, explosions. For bodies with the same
+  /// laws; the bodies themselves are not part of it.
+  void serialize(StateArchive& archive);
 
   /// Moves the laws' time on by time_step [s]; DeformableSolver does it after every step. With
   /// Bullet's own solver the time of laws with moving targets (drive) stands still otherwise.
