@@ -127,11 +127,11 @@ void DeformableForces::advance_time(double time_step) {
   tell_of_blow_ups();
 }
 
-void DeformableForces::serialize(StateArchive& archive) {
+void serialize(StateArchive& archive, DeformableForces& forces) {
   archive.part("deformable forces");
-  forget_deleted();
-  archive.expect(attachments_.size(), "number of bodies with laws");
-  for (const auto& attachment : attachments_) {
+  forces.forget_deleted();
+  archive.expect(forces.attachments_.size(), "number of bodies with laws");
+  for (const auto& attachment : forces.attachments_) {
     archive.expect(attachment->followed.values().size(), "number of masses");
     attachment->followed.serialize(archive);
     archive.value(attachment->time);

@@ -76,10 +76,6 @@ class DeformableForces : public btDeformableLagrangianForce {
   /// program (std::terminate). Empty: nobody is told.
   void set_on_blow_up(std::function<void(btSoftBody&, const BodyBlowUp&)> callback);
 
-  /// What the laws know of the steps so far: time, followed masses, explosions. For bodies with the same
-  /// laws; the bodies themselves are not part of it.
-  void serialize(StateArchive& archive);
-
   /// Moves the laws' time on by time_step [s]; DeformableSolver does it after every step. With
   /// Bullet's own solver the time of laws with moving targets (drive) stands still otherwise.
   void advance_time(double time_step);
@@ -113,6 +109,7 @@ class DeformableForces : public btDeformableLagrangianForce {
   }
 
  private:
+  friend void serialize(StateArchive& archive, DeformableForces& forces);
   explicit DeformableForces(const BulletLayout& caller);
   void forget_deleted();
   void tell_of_blow_ups() noexcept;
@@ -126,6 +123,10 @@ class DeformableForces : public btDeformableLagrangianForce {
   bool repairs_implicit_ = false;
   bool solve_has_failed_ = false;  ///< in this step, and the body that made it fail is known
 };
+
+/// What the laws know of the steps so far: time, followed masses, explosions. For bodies with the same
+/// laws; the bodies themselves are not part of it.
+void serialize(StateArchive& archive, DeformableForces& forces);
 
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

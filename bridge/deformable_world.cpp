@@ -114,7 +114,7 @@ void DeformableWorld::serialize(StateArchive& archive) {
     serialize_velocities(archive, *body);
   }
   for (const auto& body : parts_->rigid_bodies) bridge::serialize(archive, *body);
-  forces().serialize(archive);
+  bridge::serialize(archive, forces());
 }
 
 void DeformableWorld::step(double time_step) {

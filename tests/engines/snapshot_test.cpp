@@ -208,7 +208,7 @@ struct Branch {
   States future;
 };
 
-/// Of each run; all together WEFT_TEST_SEQUENCES where that is set.
+/// How many each run takes: WEFT_TEST_SEQUENCES in all, where that is set.
 int num_sequences(std::size_t num_runs) {
   const char* const number = std::getenv("WEFT_TEST_SEQUENCES");
   constexpr int kSequences = 8;
@@ -216,7 +216,7 @@ int num_sequences(std::size_t num_runs) {
   return std::max(1, std::atoi(number) / static_cast<int>(num_runs) + 1);
 }
 
-// From any of the latest snapshots some steps, which were taken before or are new, and often another snapshot after them.
+// Each sequence goes back to one of the latest snapshots, takes some steps, and then often another snapshot.
 void go_at_random(const Run& run, int num_sequences) {
   constexpr std::size_t kBranches = 6;
   const Scene scene = with_step_of(load_scene(run.scene), run.engine.name);
