@@ -74,8 +74,7 @@ class SolveOfFrame {
 Resumable& resumable(Simulator& simulator) {
   if (auto* const found = dynamic_cast<Resumable*>(&simulator)) return *found;
   throw InvalidArgument(
-      "record_run: the engine has no snapshots, expected reference, bullet_soft, bullet_forces or "
-      "bullet_weft");
+      "record_run: the engine has no snapshots, expected scenes::Resumable beside Simulator");
 }
 
 /// The number of steps after which the snapshot is taken; 0: never.
