@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
@@ -192,13 +191,6 @@ void FastBody::read_prediction(const btSoftBody& body) {
   }
 }
 
-void FastBody::publish_bounds(btSoftBody& body) {
-  if (btBroadphaseProxy* const proxy = body.getBroadphaseHandle()) {
-    body.m_worldInfo->m_broadphase->setAabb(proxy, body.m_bounds[0], body.m_bounds[1],
-                                            body.m_worldInfo->m_dispatcher);
-  }
-}
-
 void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& object,
                        HullTable& hulls, btScalar time_step) {
   if ((body.m_cfg.collisions & btSoftBody::fCollision::SDF_RS) == 0) return;
@@ -373,11 +365,20 @@ bool FastBody::detects_alone() const {
   return std::all_of(colliders_.begin(), colliders_.end(), is_detected_alone);
 }
 
+// Momentum goes from one body to another in the same step only if both integrate by the same formula.
 void FastBody::solve_again(btSoftBody& body, btScalar time_step,
-                           std::span<const void* const> pushed) {
+                           std::span<const void* const> pushed, bool is_moved) {
   const TraceScope trace("fast body");
   const fast::WorkerTeam::Scope scope(team_, team_size());
   pushed_.begin_solve(pushed);
+  if (is_moved) {
+    const Matrix3X<btScalar> solved = positions_;
+    if (!take_changed_positions(body)) return;
+    const Matrix3X<btScalar> displacements = positions_ - solved;
+    positions_ = solved;
+    if (method_ != Method::kImplicitEuler) set_targets(body, Method::kImplicitEuler, time_step);
+    targets_ += displacements;
+  }
   solve(body, time_step, settings_.solver, true);
 }
 

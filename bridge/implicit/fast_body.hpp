@@ -80,8 +80,6 @@ class FastBody : public NodeTeam {
   /// its entry in the broadphase: predictions of several bodies may run at the same time.
   void predict(btSoftBody& body, btScalar time_step, const Matrix3X<btScalar>& positions,
                const Matrix3X<btScalar>& velocities);
-  /// After predict(): tells the broadphase of the bounds, which hold the swept bounds of all nodes.
-  static void publish_bounds(btSoftBody& body);
   /// Instead of btSoftBody::defaultCollisionHandler: notes the object.
   void collide(const btSoftBody& body, const btCollisionObjectWrapper& object, HullTable& hulls,
                btScalar time_step);
@@ -117,7 +115,9 @@ class FastBody : public NodeTeam {
   /// whether it found any.
   void redetect_contacts(btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool is_unfinished() const { return is_contact_missing_ || is_support_missing_; }
-  void solve_again(btSoftBody& body, btScalar time_step, std::span<const void* const> pushed);
+  /// is_moved: with the impulses that have moved nodes from where write_positions() has put them.
+  void solve_again(btSoftBody& body, btScalar time_step, std::span<const void* const> pushed,
+                   bool is_moved = false);
   /// A step of the method of ForceHistory that has more energy than there was is solved by implicit Euler instead, which
   /// cannot.
   void solve_anew_if_it_gains(btSoftBody& body, btScalar time_step);
@@ -126,6 +126,7 @@ class FastBody : public NodeTeam {
   void apply_solution(btSoftBody& body, btScalar time_step, bool is_looked_at);
   void project_cloth_contacts(btSoftBody& body);
   static constexpr int kClothContactSweeps = 16;
+  void write_positions(btSoftBody& body);                ///< the solution, to m_x
   void end_solve(btSoftBody& body, btScalar time_step);  ///< velocities, from m_x
   /// The velocities that this step leaves: what differs at the start of the next one has come from outside.
   void note_velocities(const btSoftBody& body);
@@ -178,7 +179,6 @@ class FastBody : public NodeTeam {
   [[nodiscard]] bool was_changed_outside();
   void read_prediction(const btSoftBody& body);
   [[nodiscard]] btVector3 in_world(int node) const;
-  void write_positions(btSoftBody& body);
   void read_constraints(const btSoftBody& body, btScalar time_step, bool is_again);
   void exchange_impulses(btSoftBody& body, btScalar time_step);
   void project_out_of_missed_colliders(btSoftBody& body, btScalar time_step);
