@@ -158,10 +158,14 @@ void check(const ClothContactSettings& settings) {
 ClothContact::ClothContact(const btSoftBody& body, const ClothContactSettings& settings)
     : settings_(settings), outward_(outward_faces(body)) {
   check(settings);
-  if (!settings.with_itself) return;
-  const auto thickness = static_cast<btScalar>(settings.self_thickness);
+  if (settings.with_itself) note_near(body);
+}
+
+void ClothContact::note_near(const btSoftBody& body) {
+  const auto thickness = static_cast<btScalar>(settings_.self_thickness);
   refit(body);
-  near_at_rest_.resize(static_cast<std::size_t>(body.m_nodes.size()));
+  near_at_rest_.assign(static_cast<std::size_t>(body.m_nodes.size()), {});
+  num_near_faces_ = body.m_faces.size();
   for_candidates(body, thickness, *this, [&](int i, std::span<const int> slots) {
     for (const int slot : slots) {
       const btScalar squared =
@@ -212,6 +216,10 @@ void ClothContact::add_self_contacts(btSoftBody& body, btScalar time_step) {
   const ContactRules rules{static_cast<btScalar>(settings_.self_thickness),
                            static_cast<btScalar>(settings_.friction * settings_.friction),
                            time_step, body.m_cfg.piterations};
+  // Bullet has cut or refined the body: what is near now counts as near at rest.
+  const bool is_another = near_at_rest_.size() != static_cast<std::size_t>(body.m_nodes.size()) ||
+                          num_near_faces_ != body.m_faces.size();
+  if (is_another) note_near(body);
   refit(body);
   for_candidates(body, kReach * rules.thickness, *this, [&](int i, std::span<const int> slots) {
     const std::vector<int>& near = near_at_rest_[static_cast<std::size_t>(i)];

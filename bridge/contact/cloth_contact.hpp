@@ -68,6 +68,8 @@ class ClothContact {
 
  private:
   void refit(const btSoftBody& body);
+  /// Which faces are closer to a node than the thickness, and its own: they are never in contact with it.
+  void note_near(const btSoftBody& body);
   template <class Use>
   void for_candidates(const btSoftBody& body, btScalar reach, const ClothContact& faces,
                       const Use& use);
@@ -88,6 +90,7 @@ class ClothContact {
   NodeGroups groups_;
   FaceTree::Nearby nearby_;
   std::vector<std::vector<int>> near_at_rest_;  ///< per node: slots of the tree, ascending
+  int num_near_faces_ = 0;                      ///< that the body had then
 };
 
 }  // namespace WEFT_BULLET_PRECISION
