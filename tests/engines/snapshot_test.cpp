@@ -185,14 +185,18 @@ TEST(SnapshotOfALevelOfDetail, GoesOnWithTheSameBits) {
 // Other laws, as a window sets them.
 TEST(SnapshotOfOtherLaws, GoesOnWithTheSameBits) {
   const Scene scene = load_scene("hang");
+  int num_engines = 0;
   for (const EngineInfo& info : engine_table()) {
     if (!can_resume(info) || !is_for_engine(scene, info.name)) continue;
     const std::unique_ptr<Simulator> engine = info.make();
+    auto* const live = dynamic_cast<LiveLaws*>(engine.get());
+    if (live == nullptr) continue;  // Bullet's deformable world keeps the laws that it was made with
+    ++num_engines;
     engine->load(scene);
     (void)go_on(*engine, scene, 5);
     std::vector<forces::LawSpecification> laws = scene.cloths[0].laws;
     laws.push_back({"velocity_damping", {}, {{"rate", {2.0}}}});
-    dynamic_cast<LiveLaws&>(*engine).replace_laws(0, laws);
+    live->replace_laws(0, laws);
     (void)go_on(*engine, scene, 5);
     const Snapshot snapshot = resumable(*engine).save();
     const std::unique_ptr<Simulator> fresh = info.make();
@@ -200,6 +204,7 @@ TEST(SnapshotOfOtherLaws, GoesOnWithTheSameBits) {
     resumable(*fresh).restore(snapshot);
     EXPECT_EQ(first_difference(go_on(*engine, scene, 5), go_on(*fresh, scene, 5)), -1) << info.name;
   }
+  EXPECT_GE(num_engines, 4);
 }
 
 /// A snapshot, and the states that followed it when it was first gone on from.
