@@ -190,7 +190,8 @@ TEST(SnapshotOfOtherLaws, GoesOnWithTheSameBits) {
     if (!can_resume(info) || !is_for_engine(scene, info.name)) continue;
     const std::unique_ptr<Simulator> engine = info.make();
     auto* const live = dynamic_cast<LiveLaws*>(engine.get());
-    if (live == nullptr) continue;  // Bullet's deformable world keeps the laws that it was made with
+    if (live == nullptr)
+      continue;  // Bullet's deformable world keeps the laws that it was made with
     ++num_engines;
     engine->load(scene);
     (void)go_on(*engine, scene, 5);
