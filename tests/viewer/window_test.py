@@ -68,7 +68,7 @@ friction = 0.8
 law = "gravity"
 [[cloth.law]]
 law = "tension"
-stiffness = "20 N/m"
+stiffness = "10 N/m"
 [[cloth.law]]
 law = "velocity_damping"
 rate = "2 1/s"

@@ -156,7 +156,10 @@ class WindowFollower {
 };
 
 bool begins_as_state(std::string_view beginning) {
-  return beginning.starts_with("{\n  \"camera\": {");
+  // A blow-up comes before the camera, by name.
+  return beginning.starts_with("{\n  \"camera\": {") ||
+         (beginning.starts_with("{\n  \"blow_up\": \"") &&
+          beginning.find("\n  \"camera\": {") != std::string_view::npos);
 }
 
 constexpr output::FileKind kStateKind{"the state of a window", begins_as_state};
