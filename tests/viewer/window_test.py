@@ -94,7 +94,7 @@ class Display:
     def __enter__(self):
         read, write = os.pipe()
         self.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write), "-screen", "0", "2000x1300x24", "-nolisten", "tcp",
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", "2000x1300x24", "-noreset", "-nolisten", "tcp",
              "-r"],  # a key that a busy machine lets go late is still one key
             pass_fds=[write], stderr=subprocess.DEVNULL)
         os.close(write)
