@@ -1,5 +1,6 @@
 #include <weft/bridge/contact/outward_faces.hpp>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
