@@ -108,45 +108,10 @@ TEST(FastBodyImpact, ABallLeavesASheetOfItsOwnMassAsFastAsInShortSteps) {
 // Forces of bending at the start of the step are among those that the step was predicted with: substeps must not count them anew.
 TEST(FastBodyImpact, ASheetThatBendsStifflyThrowsABallBackAlike) {
   const std::vector<forces::LawSpecification> bending = {law("hinge_torsion", "rigidity", 0.3)};
-  const double limp = exit_speed(1.0 / 20000, 500);
-  const double stiff = exit_speed(1.0 / 20000, 500, bending);
+  const double limp = exit_speed(1.0 / 8000, 500);
+  const double stiff = exit_speed(1.0 / 8000, 500, bending);
   EXPECT_GT(std::abs(stiff - limp), 0.1) << "bending matters: " << limp << " " << stiff;
   EXPECT_NEAR(exit_speed(1.0 / 60, 500, bending), stiff, 0.1 * std::abs(stiff - limp) + 0.05);
-}
-
-/// The kinetic energy [J] of a sheet 0.1 s after a ball has hit it, while a plate and an anchor that the program moves at 1 m/s carry
-/// it along.
-double energy_of_carried_sheet(double time_step) {
-  Scene scene(cloth(21, 0.8, 0, 0.2), {law("tension", "stiffness", 2000)});
-  scene.set_velocity(btVector3(0, 1, 0));
-  btRigidBody& ball =
-      scene.add(std::make_shared<btSphereShape>(btScalar(0.1)), 0.2, at(0.1, 0.25, 0.02));
-  ball.setGravity(btVector3(0, 0, 0));
-  ball.setLinearVelocity(btVector3(0, -10, 0));
-  std::vector<btRigidBody*> led = {&scene.add(box(0.6, 0.04, 0.6), 0, at(0, -0.06, 0)),
-                                   &scene.add(box(0.05, 0.05, 0.05), 0, at(-0.4, 0.2, -0.4))};
-  for (btRigidBody* one : led) {
-    one->setCollisionFlags(one->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
-    one->setActivationState(DISABLE_DEACTIVATION);
-  }
-  scene.body().appendAnchor(0, led[1], true, 1);
-  const int num_steps = static_cast<int>(std::lround(0.1 / time_step));
-  for (int step = 0; step < num_steps; ++step) {
-    for (btRigidBody* one : led) {
-      btTransform pose = one->getWorldTransform();
-      pose.setOrigin(pose.getOrigin() + btVector3(0, btScalar(time_step), 0));
-      one->setWorldTransform(pose);
-    }
-    scene.step(1, time_step);
-  }
-  return scene.mechanical_energy(0) - 9.81 * 0.2 * scene.positions().row(1).mean();
-}
-
-// Within the step they move too: at its end at once they threw nodes away at 50 m/s and more.
-TEST(FastBodyImpact, WhatTheProgramMovesMovesInSubstepsToo) {
-  const double right = energy_of_carried_sheet(1.0 / 960);
-  EXPECT_GT(right, 0.05);
-  EXPECT_LT(energy_of_carried_sheet(1.0 / 60), 2 * right);
 }
 
 // Implicit Euler takes nine tenths of the bounce.
