@@ -124,7 +124,7 @@ class DeformableForces : public btDeformableLagrangianForce {
   bool solve_has_failed_ = false;  ///< in this step, and the body that made it fail is known
 };
 
-/// What the laws know of the steps so far: time, followed masses, explosions. For bodies with the same
+/// The memory that the laws have of the steps so far: time, followed masses, explosions. For bodies with the same
 /// laws; the bodies themselves are not part of it.
 void serialize(StateArchive& archive, DeformableForces& forces);
 

@@ -41,7 +41,7 @@ class AdoptingSolver : public SoftBodySolver {
   void optimize(btAlignedObjectArray<btSoftBody*>& bodies, bool force_update = false) override;
 
  private:
-  /// What the springs of an adopted body were made of.
+  /// The properties that the springs of an adopted body were made of.
   struct Source {
     int num_nodes = 0;
     int num_links = 0;

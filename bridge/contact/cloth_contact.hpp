@@ -21,7 +21,7 @@ struct ClothContactSettings {
   double friction = 0.5;         ///< Coulomb coefficient [-]; with another body: the product, >= 0
 };
 
-/// What all contacts of two bodies in a step have in common.
+/// The properties that all contacts of two bodies in a step share.
 struct ContactRules {
   btScalar thickness;  ///< [m]
   btScalar friction;   ///< Coulomb [-]

@@ -41,7 +41,7 @@ class ExplicitSubsteps {
   void set_targets(int begin, int count, btScalar time_step, const VectorX<double>& masses,
                    const Matrix3X<btScalar>& starts, const Matrix3X<btScalar>& velocities,
                    Matrix3X<btScalar>& targets);
-  /// What these positions have rounded away, 3 x count [m]. In a substep nodes move by a few thousand units in the last place of
+  /// The rounding of these positions, 3 x count [m]. In a substep nodes move by a few thousand units in the last place of
   /// their positions, and velocities keep that.
   [[nodiscard]] auto target_rounding(int begin, int count) const {
     return target_rounding_.middleCols(begin, count);

@@ -77,7 +77,7 @@ void DeformableSimulator::serialize(StateArchive& archive) {
   world_->serialize(archive);
 }
 
-// What the world has beside this state is only the same in two worlds that have just been made: this run gets a new one, too.
+// A world has more than this state, and only new worlds agree in that: this run gets a new one, too.
 Snapshot DeformableSimulator::save() {
   StateArchive archive = StateArchive::writer();
   Snapshot snapshot{std::string(engine_name()),

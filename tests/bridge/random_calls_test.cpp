@@ -357,7 +357,7 @@ class Player {
     }
     (void)solver_.rigid_contacts(*body->soft);
   }
-  // What needs Bullet's own step, and back.
+  // The body needs Bullet's own step, and later not any more.
   void change_kind() {
     Body* const body = any();
     if (body == nullptr) return;

@@ -1,4 +1,4 @@
-// What a Bullet program does to its bodies at run time, done to bodies that AdoptingSolver has taken over: the next steps show it.
+// The changes that a Bullet program makes to its bodies at run time show in the next steps of adopted ones.
 #include <weft/bridge/adoption/adopting_solver.hpp>
 
 #include <algorithm>
