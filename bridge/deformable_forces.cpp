@@ -127,6 +127,23 @@ void DeformableForces::advance_time(double time_step) {
   tell_of_blow_ups();
 }
 
+void serialize(StateArchive& archive, DeformableForces& forces) {
+  archive.part("deformable forces");
+  forces.forget_deleted();
+  archive.expect(forces.attachments_.size(), "number of bodies with laws");
+  for (const auto& attachment : forces.attachments_) {
+    archive.expect(attachment->followed.values().size(), "number of masses");
+    attachment->followed.serialize(archive);
+    archive.value(attachment->time);
+    archive.value(attachment->is_reported);
+    archive.optional(attachment->blow_up, [&](BodyBlowUp& blow_up) {
+      archive.value(blow_up.node);
+      archive.value(blow_up.reason);
+    });
+    if (archive.is_reading()) attachment->still_positions.resize(3, 0);
+  }
+}
+
 void DeformableForces::set_on_blow_up(
     std::function<void(btSoftBody&, const BodyBlowUp&)> callback) {
   on_blow_up_ = std::move(callback);

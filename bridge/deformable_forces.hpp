@@ -11,6 +11,7 @@
 
 #include <weft/bridge/bullet/bullet_guard.hpp>
 #include <weft/bridge/classic/law_attachment.hpp>
+#include <weft/core/state_archive.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -108,6 +109,7 @@ class DeformableForces : public btDeformableLagrangianForce {
   }
 
  private:
+  friend void serialize(StateArchive& archive, DeformableForces& forces);
   explicit DeformableForces(const BulletLayout& caller);
   void forget_deleted();
   void tell_of_blow_ups() noexcept;
@@ -121,6 +123,10 @@ class DeformableForces : public btDeformableLagrangianForce {
   bool repairs_implicit_ = false;
   bool solve_has_failed_ = false;  ///< in this step, and the body that made it fail is known
 };
+
+/// The memory that the laws have of the steps so far: time, followed masses, explosions. For bodies with the same
+/// laws; the bodies themselves are not part of it.
+void serialize(StateArchive& archive, DeformableForces& forces);
 
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

@@ -6,6 +6,7 @@
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
 #include <btBulletDynamicsCommon.h>
 
+#include <weft/bridge/snapshot/bullet_state.hpp>
 #include <weft/core/error.hpp>
 
 namespace weft::bridge {
@@ -66,6 +67,54 @@ btRigidBody& DeformableWorld::add(std::unique_ptr<btRigidBody> body,
   world_->addRigidBody(body.get());
   parts_->rigid_bodies.push_back(std::move(body));
   return *parts_->rigid_bodies.back();
+}
+
+namespace {
+
+/// Velocities that only the deformable world has: that of the step before, and that which pushed the node out.
+void serialize_velocities(StateArchive& archive, btSoftBody& body) {
+  using Node = btSoftBody::Node;
+  const auto serialize_if = [&](bool is_stored, btVector3 Node::*vector, const auto& otherwise) {
+    archive.value(is_stored);
+    for (int i = 0; i < body.m_nodes.size(); ++i) {
+      Node& node = body.m_nodes[i];
+      if (is_stored) {
+        serialize(archive, node.*vector);
+      } else if (archive.is_reading()) {
+        node.*vector = otherwise(node);
+      }
+    }
+  };
+  bool has_last = false;
+  bool has_push = false;
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    has_last = has_last || body.m_nodes[i].m_vn != body.m_nodes[i].m_v;
+    has_push = has_push || !body.m_nodes[i].m_splitv.isZero();
+  }
+  serialize_if(has_last, &Node::m_vn, [](const Node& node) { return node.m_v; });
+  serialize_if(has_push, &Node::m_splitv, [](const Node&) { return btVector3(0, 0, 0); });
+}
+
+bool starts_elsewhere(const btSoftBody& body) {
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    if (body.m_nodes[i].m_q != body.m_nodes[i].m_x) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void DeformableWorld::serialize(StateArchive& archive) {
+  archive.part("deformable world");
+  archive.expect(static_cast<int>(sizeof(btScalar)), "bytes of a number");
+  archive.expect(parts_->soft_bodies.size(), "number of soft bodies");
+  archive.expect(parts_->rigid_bodies.size(), "number of rigid bodies");
+  for (const auto& body : parts_->soft_bodies) {
+    bridge::serialize(archive, starts_elsewhere(*body), *body);
+    serialize_velocities(archive, *body);
+  }
+  for (const auto& body : parts_->rigid_bodies) bridge::serialize(archive, *body);
+  bridge::serialize(archive, forces());
 }
 
 void DeformableWorld::step(double time_step) {

@@ -8,6 +8,7 @@
 
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/deformable_solver.hpp>
+#include <weft/core/state_archive.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -48,6 +49,12 @@ class DeformableWorld {
   btSoftBody& add(std::unique_ptr<btSoftBody> body);
   /// A shape that needs others, or arrays, to live as long owns them: shared_ptr's aliasing.
   btRigidBody& add(std::unique_ptr<btRigidBody> body, std::shared_ptr<btCollisionShape> shape);
+
+  /// The state between two steps, written or read back: soft and rigid bodies, and what the laws know.
+  /// Bullet keeps the order of its trees, pairs and contact points from step to step and does not let one save
+  /// it, so that only a world that has just been made, with the same bodies, goes on with the same bits as another
+  /// one that was just made and read the same state.
+  void serialize(StateArchive& archive);
 
   /// One step of time_step [s], without Bullet's interpolation, in the precision of btScalar.
   void step(double time_step);

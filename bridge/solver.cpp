@@ -313,7 +313,7 @@ ClothContact* SoftBodySolver::find_contact(const btSoftBody& body) const {
 }
 
 void SoftBodySolver::add_copies(const btSoftBody& body, const std::vector<int>& origins) {
-  if (ClothContact* contact = find_contact(body)) contact->add_copies(origins);
+  if (ClothContact* contact = find_contact(body)) contact->add_copies(body, origins);
 }
 
 void SoftBodySolver::set_deferred(bool is_deferred) {
@@ -438,6 +438,7 @@ void SoftBodySolver::notify_cloth(btSoftBody& body, btSoftBody& other) {
   }
   ClothContact& contact = by_flag ? contact_by_flag(body).contact : *find_contact(body);
   ClothContact& other_contact = by_flag ? contact_by_flag(other).contact : *find_contact(other);
+  if (attachments_->add_pair(find(body), contact, find(other), other_contact)) return;
   contact.add_contacts(body, other, other_contact, time_step_);
   other_contact.add_contacts(other, body, contact, time_step_);
 }

@@ -223,7 +223,7 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   void solve_fast_bodies();
   void detect_contacts(btScalar time_step);
   void solve_in_substeps();
-  void solve_group(const std::vector<Attachment*>& group, int num_substeps);
+  void solve_group(const std::vector<Attachment*>& group, int num_implicit);
   void solve_listed_bodies(btScalar time_step);
   void solve_other_body(btSoftBody& body, Attachment* attachment);
   void tell_of_blow_ups() noexcept;

@@ -30,6 +30,8 @@ if(TARGET weft_bridge OR TARGET weft_bridge_float64)
   install(FILES "${PROJECT_SOURCE_DIR}/bridge/weft.hpp" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/weft")
 endif()
 
+include("${PROJECT_SOURCE_DIR}/cmake/weft_pkg_config.cmake")
+
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/weftConfig.cmake.in"
   "${PROJECT_BINARY_DIR}/weftConfig.cmake" INSTALL_DESTINATION "${weft_package_dir}"
   NO_SET_AND_CHECK_MACRO)

@@ -437,6 +437,23 @@ double ImplicitSolver<Scalar>::spring_energy(ConstMatrix3XRef<Scalar> positions,
   return energy;
 }
 
+template <class Scalar>
+void ImplicitSolver<Scalar>::find_spring_forces(ConstMatrix3XRef<Scalar> positions,
+                                                Matrix3XRef<Scalar> forces, WorkerTeam& team) {
+  team_ = &team;
+  for_each_part([&](NodeRange nodes) {
+    to_arrays<Scalar>(positions, nodes, unmoved_);
+    residual_forces_.middleRows(nodes.begin, nodes.end - nodes.begin).setZero();
+  });
+  for_each_part([&](NodeRange nodes) {
+    forces_.add_forces(nodes, unmoved_, residual_forces_, false);
+    for (int i = nodes.begin; i < std::min(nodes.end, num_nodes()); ++i) {
+      forces.col(i) += at_node(residual_forces_, i);
+    }
+  });
+  team_ = nullptr;
+}
+
 #ifndef WEFT_SOLVER_IS_ONE_UNIT
 template class ImplicitSolver<float>;
 template class ImplicitSolver<double>;

@@ -91,6 +91,11 @@ class ImplicitSolver : TeamLoops {
   [[nodiscard]] double step_energy() const { return step_energy_; }
   /// The energy that springs store at these positions plus what dampers dissipate on the way there from the start of the step [J].
   [[nodiscard]] double spring_energy(ConstMatrix3XRef<Scalar> positions, WorkerTeam& team);
+  /// forces += those of the network without dampers at these positions [N]; both 3 x n.
+  void find_spring_forces(ConstMatrix3XRef<Scalar> positions, Matrix3XRef<Scalar> forces,
+                          WorkerTeam& team);
+  /// The next solve() goes on with the contact states that another solver of the same nodes has ended with.
+  void continue_contacts(const ImplicitSolver& other);
   /// After solve(): whether a node was projected onto a plane that was not part of the last linear system.
   [[nodiscard]] bool was_clamped() const { return was_clamped_; }
   /// After solve().

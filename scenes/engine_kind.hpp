@@ -17,7 +17,6 @@ struct EngineKind {
   bool has_links = false;      ///< Bullet's links stand for springs
   bool is_implicit = false;    ///< springs are solved for, at any time step
   bool is_deformable = false;  ///< in Bullet's deformable world
-  bool can_resume = true;      ///< has snapshots
 };
 
 inline constexpr EngineKind kBulletSoft{
@@ -34,13 +33,11 @@ inline constexpr EngineKind kBulletWeft{
 inline constexpr EngineKind kBulletDeformable{
     .name = "bullet_deformable",
     .summary = "Weft's laws in Bullet's deformable world: forces explicit, dampers implicit",
-    .is_deformable = true,
-    .can_resume = false};
+    .is_deformable = true};
 inline constexpr EngineKind kBulletDeformableImplicit{
     .name = "bullet_deformable_implicit",
     .summary = "Weft's laws in Bullet's deformable world, all of them implicit",
-    .is_deformable = true,
-    .can_resume = false};
+    .is_deformable = true};
 inline constexpr EngineKind kReferenceEngine{
     .name = "reference",
     .summary = "Weft's own spring solver, double precision, no Bullet",

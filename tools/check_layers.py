@@ -29,7 +29,7 @@ MAY_INCLUDE = {
     "apps": ("validation", "viewer", "engines", "playback", "scenes", "characters", "custom_forces", "mesh", "core"),
     "python": ("validation", "recorder", "engines", "scenes", "bridge", "custom_forces", "mesh", "core"),
     # Programs of their own, which nothing of the above includes.
-    "bench": ("validation", "engines", "scenes", "bridge", "fast_solver", "custom_forces", "mesh", "core"),
+    "bench": ("validation", "recorder", "engines", "playback", "scenes", "bridge", "fast_solver", "custom_forces", "mesh", "core"),
     "fuzz": ("playback", "scenes", "characters", "mesh", "core"),
     "tests": ("bench", "apps", "validation", "viewer", "recorder", "engines", "playback", "scenes", "characters", "reference", "bridge",
               "fast_solver", "custom_forces", "mesh", "core"),

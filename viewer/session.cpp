@@ -64,6 +64,7 @@ void Session::show(const std::string& name) {
     tell("recorded so far: " + live_->simulation().unfinished_recording());
   }
   pull_.reset();
+  carry_.reset();
   drag_ = MouseDrag::kNone;
   source_ = std::move(source);
   live_ = live;
@@ -139,9 +140,22 @@ void Session::perform(Action action) {
     source_->set_speed(next_speed(source_->speed(), action == Action::kFaster ? 1 : -1));
     return;
   }
+  if (action == Action::kContacts && !view_.shows_contacts) tell_of_contacts();
   if (viewer::perform(view_, action, source_->drawn_scene().camera)) return;
   tell(std::string(info_of(action).id) +
        (live_ != nullptr ? ": is for recordings" : ": is for scenes that are simulated"));
+}
+
+void Session::tell_of_contacts() {
+  const SnapshotPtr shown = source_->shown();
+  if (live_ == nullptr) return tell("a recording has no contacts, expected a scene");
+  if (shown && !shown->touches) {
+    tell(live_->engine() + ": does not tell its contacts, expected bullet_forces or bullet_weft");
+  } else if (live_->engine() == "bullet_soft") {
+    tell(
+        "bullet_soft: contacts are Bullet's, which does not tell their forces; expected "
+        "bullet_forces or bullet_weft");
+  }
 }
 
 bool Session::press(const std::string& key) {
@@ -157,7 +171,7 @@ void Session::update(double seconds) {
   if (live_ != nullptr && watch_.was_saved()) live_->reload();
   source_->update(seconds);
   if (std::string message = source_->take_message(); !message.empty()) tell(std::move(message));
-  if (pull_) {
+  if (pull_ || carry_) {
     if (const SnapshotPtr shown = source_->shown())
       largest_pull_force_ = std::max(largest_pull_force_, shown->pull_force);
   }
@@ -167,13 +181,36 @@ void Session::begin_drag(MouseDrag drag, const Place& place, double aspect) {
   end_drag();
   last_place_ = place;
   drag_ = drag;
-  if (drag != MouseDrag::kPull) return;
+  if (drag != MouseDrag::kPull && drag != MouseDrag::kCarry) return;
   drag_ = MouseDrag::kNone;
   if (live_ == nullptr || !live_->simulation().can_pull()) {
     tell(live_ == nullptr ? "a recording cannot be pulled, expected a scene"
                           : live_->engine() + ": takes no forces of the mouse");
     return;
   }
+  if (drag == MouseDrag::kPull) {
+    begin_pull(place, aspect);
+  } else {
+    begin_carry(place, aspect);
+  }
+}
+
+void Session::begin_carry(const Place& place, double aspect) {
+  const SnapshotPtr shown = source_->shown();
+  if (!shown) return;
+  const scenes::Scene& scene = source_->drawn_scene();
+  const scenes::Camera camera = followed(scene, view_.camera, shown->state);
+  const auto seen = pick_collider(camera, aspect, place, scene, shown->state);
+  if (!seen) return tell("there is no collider under the mouse that could be moved");
+  grabbed_ = seen->point;
+  const Vector3<double> center = shown->state.rigids[seen->collider].position;
+  carry_offset_ = center - grabbed_;
+  carry_ = Carry{seen->collider, center};
+  live_->simulation().set_carry(carry_);
+  drag_ = MouseDrag::kCarry;
+}
+
+void Session::begin_pull(const Place& place, double aspect) {
   const SnapshotPtr shown = source_->shown();
   if (!shown) return;
   const scenes::Camera camera = followed(source_->drawn_scene(), view_.camera, shown->state);
@@ -194,17 +231,27 @@ void Session::drag_to(const Place& place, double aspect) {
   } else if (drag_ == MouseDrag::kPan) {
     pan(view_.camera, -aspect * right, down);
   } else if (drag_ == MouseDrag::kPull && pull_ && live_ != nullptr) {
-    const SnapshotPtr shown = source_->shown();
-    if (!shown) return;
-    const scenes::Camera camera = followed(source_->drawn_scene(), view_.camera, shown->state);
-    pull_->target = point_at(camera, aspect, place, grabbed_);
+    pull_->target = dragged_to(place, aspect).value_or(pull_->target);
     live_->simulation().set_pull(pull_);
+  } else if (drag_ == MouseDrag::kCarry && carry_ && live_ != nullptr) {
+    const auto point = dragged_to(place, aspect);
+    if (point) carry_->target = *point + carry_offset_;
+    live_->simulation().set_carry(carry_);
   }
+}
+
+std::optional<Vector3<double>> Session::dragged_to(const Place& place, double aspect) {
+  const SnapshotPtr shown = source_->shown();
+  if (!shown) return std::nullopt;
+  const scenes::Camera camera = followed(source_->drawn_scene(), view_.camera, shown->state);
+  return point_at(camera, aspect, place, grabbed_);
 }
 
 void Session::end_drag() {
   if (pull_ && live_ != nullptr) live_->simulation().set_pull(std::nullopt);
+  if (carry_ && live_ != nullptr) live_->simulation().set_carry(std::nullopt);
   pull_.reset();
+  carry_.reset();
   drag_ = MouseDrag::kNone;
 }
 
@@ -227,6 +274,8 @@ std::string Session::describe() {
                     {"target", numbers(view_.camera.target)}};
   json["shadow"] = view_.has_shadow;
   json["worst_shown"] = view_.shows_worst;
+  json["contacts_shown"] = view_.shows_contacts;
+  json["filming"] = view_.is_filming;
   json["panels"] = view_.shows_panels;
   json["laws_shown"] = view_.shows_laws;
   json["plots"] = view_.shows_plots;
@@ -245,6 +294,15 @@ std::string Session::describe() {
     json["parts"] = shown->num_parts;
     json["kinetic_energy"] = shown->measures.kinetic_energy;
     json["largest_strain"] = shown->measures.largest_strain;
+    nlohmann::json& rigids = json["rigids"] = nlohmann::json::object();
+    for (const scenes::RigidState& rigid : shown->state.rigids) {
+      rigids[rigid.name] = numbers(rigid.position);
+    }
+    if (shown->touches) {
+      const auto sticks = [](const scenes::NodeTouch& touch) { return touch.is_sticking; };
+      json["touches"] = shown->touches->size();
+      json["sticking"] = std::count_if(shown->touches->begin(), shown->touches->end(), sticks);
+    }
     if (shown->measures.worst) json["worst_node"] = shown->measures.worst->id.node;
     if (shown->blow_up) json["blow_up"] = shown->blow_up->reason;
   }

@@ -20,7 +20,7 @@ struct SessionSettings {
 };
 
 /// The effect of a button of the mouse while it is down.
-enum class MouseDrag { kNone, kRotate, kPan, kPull };
+enum class MouseDrag { kNone, kRotate, kPan, kPull, kCarry };
 
 /// Everything behind the window: what is shown and how, and what keys and mouse do with it. Needs no
 /// window itself.
@@ -44,6 +44,8 @@ class Session {
   [[nodiscard]] MouseDrag drag() const { return drag_; }
   /// The node that is pulled.
   [[nodiscard]] const std::optional<Pull>& pull() const { return pull_; }
+  /// The collider that is moved.
+  [[nodiscard]] const std::optional<Carry>& carry() const { return carry_; }
 
   [[nodiscard]] Source& source() { return *source_; }
   /// The source if it is a live run, else nullptr.
@@ -70,6 +72,12 @@ class Session {
  private:
   void show(const std::string& name);
   bool perform_list(Action action);
+  /// What is to be said of contacts that are shown from now on.
+  void tell_of_contacts();
+  void begin_pull(const Place& place, double aspect);
+  void begin_carry(const Place& place, double aspect);
+  /// The point under the mouse, as far away as what was grabbed; none without a picture.
+  [[nodiscard]] std::optional<Vector3<double>> dragged_to(const Place& place, double aspect);
   bool perform_parameter(Action action);
 
   SessionSettings settings_;
@@ -85,7 +93,9 @@ class Session {
   Place last_place_;
   Vector3<double> grabbed_{0, 0, 0};  ///< [m] where the pulled node was
   std::optional<Pull> pull_;
-  double largest_pull_force_ = 0.0;  ///< [N] so far
+  std::optional<Carry> carry_;
+  Vector3<double> carry_offset_{0, 0, 0};  ///< [m] from the grabbed point to the collider's center
+  double largest_pull_force_ = 0.0;        ///< [N] so far
   std::string message_;
   double message_age_ = 0.0;  ///< [s]
 };

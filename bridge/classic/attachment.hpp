@@ -15,6 +15,7 @@
 #include <weft/bridge/adoption/followed_links.hpp>
 #include <weft/bridge/classic/body_life.hpp>
 #include <weft/bridge/cloth.hpp>
+#include <weft/bridge/contact/cloth_pairs.hpp>
 #include <weft/bridge/contact/rigid_response.hpp>
 #include <weft/bridge/implicit/fast_body.hpp>
 #include <weft/bridge/solver.hpp>
@@ -124,8 +125,15 @@ struct SoftBodySolver::Attachments {
   std::vector<Attachment*> asked;    ///< of those, that contacts are still looked for
   std::vector<const void*> pushed;   ///< owners of inertia, once for each cloth that may push it
   std::vector<std::unique_ptr<ContactEntry>> contacts;
+  ClothPairs pairs;  ///< of the present step, that are solved together
   std::function<void(btSoftBody&, const BodyBlowUp&)> on_blow_up;
   HullTable hulls;  ///< of rigid objects that bodies have met
+
+  /// Has two bodies solved together in this step. False if one of them has no implicit springs, or is not stepped.
+  bool add_pair(const Attachment* one, ClothContact& contact, const Attachment* other,
+                ClothContact& other_contact);
+  /// Solves the pairs again, with the impulses that they give each other.
+  void share_cloth_impulses(btScalar time_step);
 };
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -10,8 +10,6 @@
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
-namespace {}  // namespace
-
 // Bullet has no mark for a change of topology (nodes that move in memory, faces that are cut): corners are compared.
 bool NodeNormals::cross_edges(btSoftBody& body, fast::WorkerTeam& team) {
   const int num_faces = body.m_faces.size();

@@ -12,8 +12,10 @@
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/classic/attachment.hpp>
+#include <weft/bridge/classic/body_lists.hpp>
 #include <weft/bridge/classic/position_limits.hpp>
 #include <weft/bridge/cloth.hpp>
+#include <weft/bridge/implicit/node_prediction.hpp>
 #include <weft/bridge/rigid/rigid_substeps.hpp>
 #include <weft/core/trace.hpp>
 
@@ -25,6 +27,7 @@ void SoftBodySolver::predictMotion(btScalar time_step) {
   time_step_ = time_step;
   attachments_->hulls.begin_step();
   for (const auto& entry : attachments_->contacts) entry->contact.begin_step();
+  attachments_->pairs.clear();
   for (const auto& attachment : attachments_->list) {
     attachment->concave_met.clear();
     if (attachment->fast && attachment->was_in_world) attachment->begin_fast_step();
@@ -39,7 +42,7 @@ void SoftBodySolver::predictMotion(btScalar time_step) {
     if (!body.isActive() || is_still(body)) continue;  // the forces may have exploded
     Attachment* const attachment = find(body);
     if (attachment && attachment->fast) {
-      FastBody::publish_bounds(body);
+      publish_bounds(body);
     } else {
       body.predictMotion(time_step);
     }
@@ -59,35 +62,6 @@ void SoftBodySolver::for_bodies(const std::function<void(btSoftBody&, Attachment
   if (m_softBodySet.size() == 1) return work_on(0);
   tbb::parallel_for(0, m_softBodySet.size(), work_on);
 }
-
-namespace {
-
-template <class Entry>
-void drop_stopped(std::vector<Entry*>& list) {
-  std::erase_if(list, [](const Entry* one) { return one->blow_up.has_value(); });
-}
-
-/// work(one) for each that it does not stop; those that it stops leave the list. A single one by the calling thread: its
-/// team may be open, which must not wait for tasks.
-template <class Entry, class Work>
-void in_parallel(std::vector<Entry*>& list, const Work& work) {
-  const auto work_on = [&](Entry& one) { one.guard([&] { work(one); }); };
-  if (list.size() == 1) {
-    work_on(*list[0]);
-  } else {
-    tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) { work_on(*list[i]); });
-  }
-  drop_stopped(list);
-}
-
-/// The same for those that must not work at the same time.
-template <class Entry, class Work>
-void in_turn(std::vector<Entry*>& list, const Work& work) {
-  for (Entry* one : list) one->guard([&] { work(*one); });
-  drop_stopped(list);
-}
-
-}  // namespace
 
 void SoftBodySolver::solve_fast_bodies() {
   std::vector<Attachment*>& bodies = attachments_->stepped;
@@ -112,6 +86,7 @@ void SoftBodySolver::solve_fast_bodies() {
   solve_listed_bodies(time_step_);
   const bool may_meet = may_meet_cloth();
   if (may_meet) threads.reset();  // cloth on cloth takes long, and one thread
+  attachments_->share_cloth_impulses(time_step_);
   apply_listed_solutions(time_step_, may_meet);
   const bool is_final = single && !may_meet && single->limits.is_empty() &&
                         m_softBodySet.size() == 1 && !single->blow_up;
@@ -164,7 +139,15 @@ void SoftBodySolver::solve_in_substeps() {
   }
 }
 
-void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_substeps) {
+void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_implicit) {
+  btScalar num_explicit = 1;
+  int last_num_implicit = 1;
+  for (const Attachment* one : group) {
+    num_explicit = std::max(num_explicit, one->fast->num_explicit_substeps(time_step_));
+    last_num_implicit = std::max(last_num_implicit, one->fast->last_num_substeps());
+  }
+  const SubstepPlan plan = plan_substeps(num_implicit, last_num_implicit, num_explicit);
+  const int num_substeps = plan.count;
   const TraceScope trace("step in parts");
   const btScalar substep_time = time_step_ / static_cast<btScalar>(num_substeps);
   std::vector<MovableObject> dynamic;
@@ -175,7 +158,7 @@ void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_
   in_parallel(bodies, [&](Attachment& one) { one.fast->begin_substeps(*one.body, time_step_); });
   for (int substep = 0; substep < num_substeps && !bodies.empty(); ++substep) {
     in_parallel(bodies, [&](Attachment& one) {
-      one.fast->begin_substep(*one.body, rigid, substep, num_substeps, substep_time);
+      one.fast->begin_substep(*one.body, rigid, substep, plan, substep_time);
     });
     rigid.begin_substep();
     detect_contacts(substep_time);
@@ -235,6 +218,7 @@ void SoftBodySolver::apply_listed_solutions(btScalar time_step, bool may_meet) {
       contact->add_self_contacts(*one.body, time_step);
     }
   });
+  attachments_->pairs.add_contacts(time_step);
   const bool meet = std::any_of(bodies.begin(), bodies.end(), [](const Attachment* one) {
     return one->body->m_scontacts.size() > 0;
   });

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include <weft/bridge/contact/outward_faces.hpp>
 #include <weft/core/error.hpp>
 
 namespace weft::bridge {
@@ -23,13 +24,6 @@ constexpr btScalar kOverlap = btScalar(0.1);
 constexpr btScalar kReach = btScalar(1.1);
 /// How fast layers that are closer than their thickness part, while they are pressed together [1/s].
 constexpr btScalar kRecoveryRate = 5;
-
-struct Rules {
-  btScalar thickness;  // [m]
-  btScalar friction;   // Coulomb [-]
-  btScalar time_step;  // [s]
-  int iterations;
-};
 
 btVector3 at(const btVector3& weights, const btVector3& a, const btVector3& b, const btVector3& c) {
   return weights.x() * a + weights.y() * b + weights.z() * c;
@@ -51,7 +45,7 @@ std::optional<btVector3> weights_below(const Face& face, const Node& node,
 
 /// Bullet removes this share of the sliding at each of its iterations; together what Coulomb's law
 /// allows for the normal correction.
-btScalar friction_share(const btVector3& sliding, btScalar correction, const Rules& rules) {
+btScalar friction_share(const btVector3& sliding, btScalar correction, const ContactRules& rules) {
   const btScalar distance = sliding.length();
   if (!(distance > 0)) return 0;
   const btScalar all = std::min(btScalar(1), rules.friction * correction / distance);
@@ -76,7 +70,15 @@ bool share_out(const Node& node, const Face& face, btSoftBody::SContact& contact
   return true;
 }
 
-void try_contact(btSoftBody& body, Node& node, Face& face, const Rules& rules) {
+/// The side of a face on which a node belongs.
+enum class FaceSide {
+  kOfStart,   ///< where it began the step
+  kPositive,  ///< that of its normal
+  kNegative
+};
+
+void try_contact(btSoftBody& body, Node& node, Face& face, const ContactRules& rules,
+                 FaceSide side = FaceSide::kOfStart) {
   const Node &a = *face.m_n[0], &b = *face.m_n[1], &c = *face.m_n[2];
   const btVector3 normal = btCross(b.m_x - a.m_x, c.m_x - a.m_x);
   const btVector3 start_normal = btCross(b.m_q - a.m_q, c.m_q - a.m_q);
@@ -87,8 +89,10 @@ void try_contact(btSoftBody& body, Node& node, Face& face, const Rules& rules) {
   const btVector3 start_point = at(*weights, a.m_q, b.m_q, c.m_q);
   // The side on which the step began: a node that would pass the face is held back.
   const btScalar start_height = btDot(node.m_q - start_point, start_normal.normalized());
-  const btVector3 outward = normal.normalized() * (start_height < 0 ? btScalar(-1) : btScalar(1));
-  const btScalar start_gap = btFabs(start_height);
+  const bool is_negative =
+      side == FaceSide::kOfStart ? start_height < 0 : side == FaceSide::kNegative;
+  const btVector3 outward = normal.normalized() * (is_negative ? btScalar(-1) : btScalar(1));
+  const btScalar start_gap = is_negative ? -start_height : start_height;
   const btScalar gap = btDot(node.m_x - point, outward);
   const btScalar recovery = std::min(btScalar(1), kRecoveryRate * rules.time_step);
   const btScalar wanted =
@@ -152,12 +156,16 @@ void check(const ClothContactSettings& settings) {
 }  // namespace
 
 ClothContact::ClothContact(const btSoftBody& body, const ClothContactSettings& settings)
-    : settings_(settings) {
+    : settings_(settings), outward_(outward_faces(body)) {
   check(settings);
-  if (!settings.with_itself) return;
-  const auto thickness = static_cast<btScalar>(settings.self_thickness);
+  if (settings.with_itself) note_near(body);
+}
+
+void ClothContact::note_near(const btSoftBody& body) {
+  const auto thickness = static_cast<btScalar>(settings_.self_thickness);
   refit(body);
-  near_at_rest_.resize(static_cast<std::size_t>(body.m_nodes.size()));
+  near_at_rest_.assign(static_cast<std::size_t>(body.m_nodes.size()), {});
+  num_near_faces_ = body.m_faces.size();
   for_candidates(body, thickness, *this, [&](int i, std::span<const int> slots) {
     for (const int slot : slots) {
       const btScalar squared =
@@ -187,13 +195,16 @@ void ClothContact::for_candidates(const btSoftBody& body, btScalar reach, const 
 }
 
 void ClothContact::refit(const btSoftBody& body) {
+  const auto num_faces = static_cast<std::size_t>(body.m_faces.size());
+  if (!outward_.empty() && outward_.size() != num_faces) outward_ = outward_faces(body);
   motion_ = mean_motion(body);
   tree_.refit(body, motion_);
   is_tree_of_this_step_ = true;
 }
 
 // What was near the whole node at rest is near both of its halves.
-void ClothContact::add_copies(const std::vector<int>& origins) {
+void ClothContact::add_copies(const btSoftBody& body, const std::vector<int>& origins) {
+  outward_ = outward_faces(body);
   if (!settings_.with_itself) return;
   for (const int origin : origins) {
     near_at_rest_.push_back(std::vector<int>(near_at_rest_.at(static_cast<std::size_t>(origin))));
@@ -202,9 +213,13 @@ void ClothContact::add_copies(const std::vector<int>& origins) {
 
 void ClothContact::add_self_contacts(btSoftBody& body, btScalar time_step) {
   if (!settings_.with_itself) return;
-  const Rules rules{static_cast<btScalar>(settings_.self_thickness),
-                    static_cast<btScalar>(settings_.friction * settings_.friction), time_step,
-                    body.m_cfg.piterations};
+  const ContactRules rules{static_cast<btScalar>(settings_.self_thickness),
+                           static_cast<btScalar>(settings_.friction * settings_.friction),
+                           time_step, body.m_cfg.piterations};
+  // Bullet has cut or refined the body: what is near now counts as near at rest.
+  const bool is_another = near_at_rest_.size() != static_cast<std::size_t>(body.m_nodes.size()) ||
+                          num_near_faces_ != body.m_faces.size();
+  if (is_another) note_near(body);
   refit(body);
   for_candidates(body, kReach * rules.thickness, *this, [&](int i, std::span<const int> slots) {
     const std::vector<int>& near = near_at_rest_[static_cast<std::size_t>(i)];
@@ -218,23 +233,77 @@ void ClothContact::add_self_contacts(btSoftBody& body, btScalar time_step) {
   });
 }
 
+// The height of a point over the plane of a face of the body [m], negative on the inside.
+btScalar ClothContact::height_over(const btVector3& point, const btSoftBody& body, int face) const {
+  const auto& n = body.m_faces[face].m_n;
+  const btVector3 normal = btCross(n[1]->m_x - n[0]->m_x, n[2]->m_x - n[0]->m_x);
+  const btScalar size = normal.length();
+  if (!(size > 0)) return 0;
+  const auto sign = btScalar(outward_[static_cast<std::size_t>(face)]);
+  return sign * btDot(point - n[0]->m_x, normal) / size;
+}
+
+// If several are as near, because an edge or a corner is, the one whose plane is farthest from the node says on which side of the
+// surface the node is.
+int ClothContact::nearest_face(const btVector3& point, const btSoftBody& body,
+                               std::span<const int> slots) const {
+  constexpr btScalar kSame = btScalar(1e-4);  // of a squared distance [-]
+  int nearest = -1;
+  btScalar least = SIMD_INFINITY;
+  btScalar height_of_nearest = 0;
+  for (const int slot : slots) {
+    const int face = tree_.face(slot);
+    const btScalar squared = squared_distance(point, body.m_faces[face]);
+    if (squared > least * (1 + kSame)) continue;
+    const btScalar height = btFabs(height_over(point, body, face));
+    if (squared >= least * (1 - kSame) && height <= height_of_nearest) continue;
+    nearest = face;
+    least = squared;
+    height_of_nearest = height;
+  }
+  return nearest;
+}
+
+// Faces that enclose a volume have an outside. A node that comes over an edge was behind the plane of the face that it comes to,
+// and one that has got in must come out again: where the step began says nothing of either.
+void ClothContact::add_contacts_outside(btSoftBody& body, Node& node, btSoftBody& other,
+                                        std::span<const int> slots,
+                                        const ContactRules& rules) const {
+  const int nearest = nearest_face(node.m_x, other, slots);
+  if (nearest < 0) return;
+  const auto add = [&](int face) {
+    const bool is_out = outward_[static_cast<std::size_t>(face)] > 0;
+    try_contact(body, node, other.m_faces[face], rules,
+                is_out ? FaceSide::kPositive : FaceSide::kNegative);
+  };
+  if (height_over(node.m_x, other, nearest) < 0) return add(nearest);
+  for (const int slot : slots) {
+    const int face = tree_.face(slot);
+    if (!tree_.may_be_over(slot, node.m_x, kOverlap)) continue;
+    if (height_over(node.m_x, other, face) >= 0) add(face);
+  }
+}
+
 void ClothContact::add_contacts(btSoftBody& body, btSoftBody& other, ClothContact& other_contact,
                                 btScalar time_step) {
   const ClothContactSettings& theirs = other_contact.settings_;
-  const Rules rules{static_cast<btScalar>(settings_.margin + theirs.margin),
-                    static_cast<btScalar>(settings_.friction * theirs.friction), time_step,
-                    body.m_cfg.piterations};
+  const ContactRules rules{static_cast<btScalar>(settings_.margin + theirs.margin),
+                           static_cast<btScalar>(settings_.friction * theirs.friction), time_step,
+                           body.m_cfg.piterations};
   if (!other_contact.is_tree_of_this_step_) other_contact.refit(other);
-  for_candidates(body, kReach * rules.thickness, other_contact,
-                 [&](int i, std::span<const int> slots) {
-                   for (const int slot : slots) {
-                     if (!other_contact.tree_.may_be_over(slot, body.m_nodes[i].m_x, kOverlap)) {
-                       continue;
-                     }
-                     btSoftBody::Face& face = other.m_faces[other_contact.tree_.face(slot)];
-                     try_contact(body, body.m_nodes[i], face, rules);
-                   }
-                 });
+  for_candidates(
+      body, kReach * rules.thickness, other_contact, [&](int i, std::span<const int> slots) {
+        if (!other_contact.outward_.empty()) {
+          return other_contact.add_contacts_outside(body, body.m_nodes[i], other, slots, rules);
+        }
+        for (const int slot : slots) {
+          if (!other_contact.tree_.may_be_over(slot, body.m_nodes[i].m_x, kOverlap)) {
+            continue;
+          }
+          btSoftBody::Face& face = other.m_faces[other_contact.tree_.face(slot)];
+          try_contact(body, body.m_nodes[i], face, rules);
+        }
+      });
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <BulletSoftBody/btSoftBody.h>
@@ -20,12 +21,20 @@ struct ClothContactSettings {
   double friction = 0.5;         ///< Coulomb coefficient [-]; with another body: the product, >= 0
 };
 
+/// The properties that all contacts of two bodies in a step share.
+struct ContactRules {
+  btScalar thickness;  ///< [m]
+  btScalar friction;   ///< Coulomb [-]
+  btScalar time_step;  ///< [s]
+  int iterations;
+};
+
 /// Contact of cloth with cloth: nodes against faces, found here and solved by Bullet.
 ///
 /// Bullet's own (VF_SS) leaves a body's own faces out, takes the side from where the step would end,
 /// and solves one body after the other, so that what a later body gives an earlier one moves it and
 /// is lost: of two free cloths that meet, a tenth of the momentum is left. Here the side is that of
-/// the start of the step, a contact takes away the approach, and what is left of the thickness
+/// the start of the step, or the outside of a body whose faces enclose a volume, a contact takes away the approach, and what is left of the thickness
 /// slowly, and SoftBodySolver derives all velocities once all are solved. It goes into
 /// btSoftBody::m_scontacts, so that Bullet's own iterations solve it together with its links.
 /// Edges against edges are not looked at: let the thickness be half the spacing of the nodes or
@@ -44,7 +53,7 @@ class ClothContact {
     settings_.friction = friction;
   }
   /// Nodes of the body were split (tearing.hpp): origins are the nodes that those appended were.
-  void add_copies(const std::vector<int>& origins);
+  void add_copies(const btSoftBody& body, const std::vector<int>& origins);
   /// Before btSoftBody::predictMotion: the body will be elsewhere.
   void begin_step() { is_tree_of_this_step_ = false; }
   /// After btSoftBody::predictMotion, before contacts with cloth are projected: where nodes are then is where contacts are
@@ -59,17 +68,29 @@ class ClothContact {
 
  private:
   void refit(const btSoftBody& body);
+  /// Which faces are closer to a node than the thickness, and its own: they are never in contact with it.
+  void note_near(const btSoftBody& body);
   template <class Use>
   void for_candidates(const btSoftBody& body, btScalar reach, const ClothContact& faces,
                       const Use& use);
 
+  /// For faces that enclose a volume: the contacts of another body's node with them. slots: of those that it may meet.
+  void add_contacts_outside(btSoftBody& body, btSoftBody::Node& node, btSoftBody& other,
+                            std::span<const int> slots, const ContactRules& rules) const;
+  [[nodiscard]] int nearest_face(const btVector3& point, const btSoftBody& body,
+                                 std::span<const int> slots) const;
+  [[nodiscard]] btScalar height_over(const btVector3& point, const btSoftBody& body,
+                                     int face) const;
+
   ClothContactSettings settings_;
+  std::vector<signed char> outward_;  ///< outward_faces() of the body
   FaceTree tree_;
   btVector3 motion_;  ///< [m] mean of the body's nodes, of the step that the tree is of
   bool is_tree_of_this_step_ = false;
   NodeGroups groups_;
   FaceTree::Nearby nearby_;
   std::vector<std::vector<int>> near_at_rest_;  ///< per node: slots of the tree, ascending
+  int num_near_faces_ = 0;                      ///< that the body had then
 };
 
 }  // namespace WEFT_BULLET_PRECISION

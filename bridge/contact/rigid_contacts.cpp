@@ -281,7 +281,7 @@ Collider make_collider(const btCollisionObjectWrapper& object, const HullFacets*
     collider.object_pose = movable.pose();
     collider.motion = end * collider.object_pose.inverse();
   } else {
-    if (link_of(collider.object)) collider.object_pose = collider.object->getWorldTransform();
+    collider.object_pose = collider.object->getWorldTransform();
     collider.led = velocity_of(*collider.object);
   }
   return collider;

@@ -7,8 +7,6 @@
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
-namespace {}  // namespace
-
 void BodySleep::wake() {
   is_asleep_ = false;
   rest_time_ = 0;

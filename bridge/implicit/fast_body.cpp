@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
@@ -35,6 +34,7 @@ FastBody::FastBody(const ClothMesh& mesh, const std::vector<forces::LawSpecifica
     : network_(fast::make_network(mesh, laws)),
       masses_(std::move(masses)),
       wave_speed_(wave_speed(network_, masses_)),
+      explicit_(network_, masses_),
       settings_(settings) {
   check(settings);
   set_num_nodes(masses_.size());
@@ -53,6 +53,7 @@ void FastBody::set_rest_length(int first, int second, double rest_length) {
 void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>& is_changed,
                     VectorX<double> masses, const std::vector<int>& origins) {
   masses_ = std::move(masses);
+  explicit_.forget();
   history_.is_replaced = true;
   set_num_nodes(masses_.size());
   if (solver_) {
@@ -190,13 +191,6 @@ void FastBody::read_prediction(const btSoftBody& body) {
   }
 }
 
-void FastBody::publish_bounds(btSoftBody& body) {
-  if (btBroadphaseProxy* const proxy = body.getBroadphaseHandle()) {
-    body.m_worldInfo->m_broadphase->setAabb(proxy, body.m_bounds[0], body.m_bounds[1],
-                                            body.m_worldInfo->m_dispatcher);
-  }
-}
-
 void FastBody::collide(const btSoftBody& body, const btCollisionObjectWrapper& object,
                        HullTable& hulls, btScalar time_step) {
   if ((body.m_cfg.collisions & btSoftBody::fCollision::SDF_RS) == 0) return;
@@ -237,7 +231,7 @@ void FastBody::set_free(const std::vector<bool>& is_free) {
 }
 
 void FastBody::apply_solution(btSoftBody& body, btScalar time_step, bool is_looked_at) {
-  is_projected_ = solver_->was_clamped();
+  is_projected_ = active_solver().was_clamped();
   project_out_of_missed_colliders(body, time_step);
   project_out_of_planes();
   exchange_impulses(body, time_step);
@@ -278,7 +272,7 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
   const bool is_pushed = is_written_ && take_changed_positions(body);
   const bool meets_cloth = body.m_scontacts.size() > 0 || is_pushed;
   find_velocities();
-  step_error_.include(solver_->report(), static_cast<double>(inertia_step_), masses_.sum());
+  step_error_.include(active_solver().report(), static_cast<double>(inertia_step_), masses_.sum());
   keep_forces(body, time_step);
   if (meets_cloth) {
     excess_ = 0;
@@ -315,11 +309,12 @@ void FastBody::update_normals(btSoftBody& body) {
 void FastBody::solve(btSoftBody& body, btScalar time_step,
                      const fast::SolverSettings& solver_settings, bool is_again) {
   read_constraints(body, time_step, is_again);
-  solver_->solve(
+  const bool is_bending = method_ != Method::kExplicit && !bending_.empty();
+  active_solver().solve(
       {targets_, starts_, time_step, inertia_step_, plane_contacts_, kinematic_, pushed_.inertias(),
-       bending_.empty() ? nullptr : &bending_, is_again, pushed_.couplings()},
+       is_bending ? &bending_ : nullptr, is_again, pushed_.couplings()},
       solver_settings, positions_, team_);
-  pushed_.read_displacements(*solver_, time_step);
+  pushed_.read_displacements(active_solver(), time_step);
 }
 
 void FastBody::prepare(const btSoftBody& body) {
@@ -342,7 +337,8 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
   pushed_.begin_solve(pushed);
   if (excess_ > 0 && (was_changed_outside() || !are_positions_kept())) excess_ = 0;
   set_targets(body, choose_method(body, time_step), time_step);
-  if (!bending_.empty()) bending_.begin_step(starts_);
+  // Forces of bending at the start of the whole step are among those that the step was predicted with.
+  if (!bending_.empty() && num_substeps_ == 1) bending_.begin_step(starts_);
   solve(body, time_step, settings_.solver, false);
 }
 
@@ -369,11 +365,20 @@ bool FastBody::detects_alone() const {
   return std::all_of(colliders_.begin(), colliders_.end(), is_detected_alone);
 }
 
+// Momentum goes from one body to another in the same step only if both integrate by the same formula.
 void FastBody::solve_again(btSoftBody& body, btScalar time_step,
-                           std::span<const void* const> pushed) {
+                           std::span<const void* const> pushed, bool is_moved) {
   const TraceScope trace("fast body");
   const fast::WorkerTeam::Scope scope(team_, team_size());
   pushed_.begin_solve(pushed);
+  if (is_moved) {
+    const Matrix3X<btScalar> solved = positions_;
+    if (!take_changed_positions(body)) return;
+    const Matrix3X<btScalar> displacements = positions_ - solved;
+    positions_ = solved;
+    if (method_ != Method::kImplicitEuler) set_targets(body, Method::kImplicitEuler, time_step);
+    targets_ += displacements;
+  }
   solve(body, time_step, settings_.solver, true);
 }
 

@@ -15,6 +15,7 @@
 #include <weft/bridge/fast_settings.hpp>
 #include <weft/bridge/implicit/bending_forces.hpp>
 #include <weft/bridge/implicit/body_sleep.hpp>
+#include <weft/bridge/implicit/explicit_substeps.hpp>
 #include <weft/bridge/implicit/force_history.hpp>
 #include <weft/bridge/implicit/node_team.hpp>
 #include <weft/bridge/implicit/stiffness_limit.hpp>
@@ -79,8 +80,6 @@ class FastBody : public NodeTeam {
   /// its entry in the broadphase: predictions of several bodies may run at the same time.
   void predict(btSoftBody& body, btScalar time_step, const Matrix3X<btScalar>& positions,
                const Matrix3X<btScalar>& velocities);
-  /// After predict(): tells the broadphase of the bounds, which hold the swept bounds of all nodes.
-  static void publish_bounds(btSoftBody& body);
   /// Instead of btSoftBody::defaultCollisionHandler: notes the object.
   void collide(const btSoftBody& body, const btCollisionObjectWrapper& object, HullTable& hulls,
                btScalar time_step);
@@ -94,12 +93,17 @@ class FastBody : public NodeTeam {
   void detect_contacts(const btSoftBody& body, btScalar time_step);
   /// How many substeps the step is to be divided into, after detect_contacts() (SubstepCount).
   [[nodiscard]] int num_substeps(const btSoftBody& body, btScalar time_step) const;
+  [[nodiscard]] int last_num_substeps() const { return last_num_substeps_; }
+  /// How many explicit ones would be stable.
+  [[nodiscard]] btScalar num_explicit_substeps(btScalar time_step) const {
+    return explicit_.count(time_step);
+  }
   /// Appends the dynamic bodies that this one is near to or hangs on, each once.
   void list_dynamic(const btSoftBody& body, std::vector<MovableObject>& list) const;
   /// Around all substeps; each is then a step of its own, from detect_contacts() to end_solve().
   void begin_substeps(const btSoftBody& body, btScalar time_step);
-  void begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int substep, int num_substeps,
-                     btScalar substep_time);
+  void begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int substep,
+                     const SubstepPlan& plan, btScalar substep_time);
   void end_substeps(btSoftBody& body, btScalar time_step);
   /// Instead of btSoftBody::solveConstraints. prepare(), begin_solve(), solve_again() and end_solve() change only the
   /// body, so that those of several bodies may run at the same time; apply_solution() pushes and moves rigid bodies.
@@ -111,7 +115,9 @@ class FastBody : public NodeTeam {
   /// whether it found any.
   void redetect_contacts(btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool is_unfinished() const { return is_contact_missing_ || is_support_missing_; }
-  void solve_again(btSoftBody& body, btScalar time_step, std::span<const void* const> pushed);
+  /// is_moved: with the impulses that have moved nodes from where write_positions() has put them.
+  void solve_again(btSoftBody& body, btScalar time_step, std::span<const void* const> pushed,
+                   bool is_moved = false);
   /// A step of the method of ForceHistory that has more energy than there was is solved by implicit Euler instead, which
   /// cannot.
   void solve_anew_if_it_gains(btSoftBody& body, btScalar time_step);
@@ -120,6 +126,7 @@ class FastBody : public NodeTeam {
   void apply_solution(btSoftBody& body, btScalar time_step, bool is_looked_at);
   void project_cloth_contacts(btSoftBody& body);
   static constexpr int kClothContactSweeps = 16;
+  void write_positions(btSoftBody& body);                ///< the solution, to m_x
   void end_solve(btSoftBody& body, btScalar time_step);  ///< velocities, from m_x
   /// The velocities that this step leaves: what differs at the start of the next one has come from outside.
   void note_velocities(const btSoftBody& body);
@@ -137,7 +144,7 @@ class FastBody : public NodeTeam {
 
  private:
   friend class FastBodyState;
-  enum class Method { kImplicitEuler, kBdf2, kForces };
+  enum class Method { kImplicitEuler, kBdf2, kForces, kExplicit };
   /// Kinetic energy of a solution, and the most that what was there and was put in leaves to it [J].
   struct EnergyBalance {
     double kinetic;
@@ -147,6 +154,9 @@ class FastBody : public NodeTeam {
              bool is_again);
   [[nodiscard]] bool take_changed_positions(const btSoftBody& body);
   void prepare_solver(const btSoftBody& body);
+  [[nodiscard]] fast::ImplicitSolver<btScalar>& active_solver() {
+    return method_ == Method::kExplicit ? explicit_.solver() : *solver_;
+  }
   void set_free(const std::vector<bool>& is_free);
   [[nodiscard]] bool may_use_history(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool may_use_forces(const btSoftBody& body, btScalar time_step);
@@ -169,7 +179,6 @@ class FastBody : public NodeTeam {
   [[nodiscard]] bool was_changed_outside();
   void read_prediction(const btSoftBody& body);
   [[nodiscard]] btVector3 in_world(int node) const;
-  void write_positions(btSoftBody& body);
   void read_constraints(const btSoftBody& body, btScalar time_step, bool is_again);
   void exchange_impulses(btSoftBody& body, btScalar time_step);
   void project_out_of_missed_colliders(btSoftBody& body, btScalar time_step);
@@ -184,6 +193,7 @@ class FastBody : public NodeTeam {
   LimitedStiffness limited_;
   VectorX<double> masses_;
   btScalar wave_speed_;  ///< [m/s]
+  ExplicitSubsteps explicit_;
   FastSettings settings_;
   std::unique_ptr<fast::ImplicitSolver<btScalar>> solver_;
   std::vector<bool> is_free_;     ///< that solver_ knows
@@ -205,6 +215,7 @@ class FastBody : public NodeTeam {
   Matrix3X<btScalar> whole_starts_;   ///< [m]
   Matrix3X<btScalar> accelerations_;  ///< without springs [m/s^2]
   std::vector<btVector3> pin_ends_;   ///< of pins_, at the end [m]
+  btScalar time_left_ = 0;            ///< [s] behind the present substep
   // The step before.
   Matrix3X<btScalar> last_starts_;
   Matrix3X<btScalar> last_velocities_;
@@ -218,6 +229,7 @@ class FastBody : public NodeTeam {
   int last_num_substeps_ = 1;               ///< of the last one
   Method method_ = Method::kImplicitEuler;  ///< of the present step
   btScalar last_step_ = 0;                  ///< [s]; 0: no history
+  bool is_explicit_ = false;                ///< the substeps of the present step are
   bool is_predicted_ = false;
   bool has_normals_ = false;   ///< of the positions at the end of the present step
   bool is_written_ = false;    ///< before end_solve()

@@ -222,7 +222,10 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
         std::any_of(kinematic_.begin(), kinematic_.end(),
                     [&](const auto& other) { return other.node == anchor.node; });
     if (is_kinematic) return;  // by an anchor before
-    const btVector3 point = anchor.object->getWorldTransform() * anchor.local;
+    const bool is_movable = bool(MovableObject(anchor.object));
+    const btVector3 point = (is_movable ? anchor.object->getWorldTransform()
+                                        : kinematic_pose(*anchor.object, time_left_)) *
+                            anchor.local;
     fast::KinematicNode<btScalar> led;
     led.node = anchor.node;
     led.position = from_bullet<btScalar>(point) - origin_;
@@ -242,9 +245,10 @@ void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
   for (std::size_t c = 0; c < plane_contacts_.size(); ++c) {
     RigidContact& contact = contacts_[c];
     const MovableObject object{contact.object};
-    const auto [active, state] = solver_->contact_of(static_cast<std::size_t>(contacts_[c].node));
+    const auto [active, state] =
+        active_solver().contact_of(static_cast<std::size_t>(contacts_[c].node));
     if (active != static_cast<int>(c)) continue;
-    contact.impulse = whole_step * to_bullet(solver_->constraint_force(contact.node));
+    contact.impulse = whole_step * to_bullet(active_solver().constraint_force(contact.node));
     contact.is_sticking = state == fast::ContactState::kFixed;
     if (plane_contacts_[c].body < 0) continue;
     sticking_points_.add(contacts_[c].node, object, state == fast::ContactState::kFixed,
@@ -253,7 +257,9 @@ void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
   sticking_points_.end_update();
   pinches_.push_back(
       contacts_,
-      [&](int node) -> btVector3 { return time_step * to_bullet(solver_->constraint_force(node)); },
+      [&](int node) -> btVector3 {
+        return time_step * to_bullet(active_solver().constraint_force(node));
+      },
       [&](int node) { return in_world(node); });
   given_to_bodies_ = -pushed_.kinetic_energy();
   pushed_.exchange_impulses(time_step);
@@ -264,7 +270,7 @@ void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
     const auto node = static_cast<int>(anchor.m_node - &body.m_nodes[0]);
     // A force that acts with the whole step.
     const btScalar share = inertia_step_ * inertia_step_ / (time_step * time_step);
-    const btVector3 impulse = share * time_step * to_bullet(solver_->constraint_force(node));
+    const btVector3 impulse = share * time_step * to_bullet(active_solver().constraint_force(node));
     object.activate();
     object.rigid()->applyImpulse((1 - anchor.m_influence) * impulse,
                                  in_world(node) - object.center());

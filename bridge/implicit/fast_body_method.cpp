@@ -80,6 +80,7 @@ bool FastBody::are_positions_kept() {
 }
 
 FastBody::Method FastBody::choose_method(const btSoftBody& body, btScalar time_step) {
+  if (is_explicit_) return Method::kExplicit;
   if (may_use_history(body, time_step)) return Method::kBdf2;
   return may_use_forces(body, time_step) ? Method::kForces : Method::kImplicitEuler;
 }
@@ -93,6 +94,7 @@ void FastBody::set_targets(const btSoftBody& body, Method method, btScalar time_
                                               : time_step;
   velocity_step_ = uses_history ? inertia_step_ : time_step;
   if (method == Method::kForces) force_history_.begin_step(time_step);
+  if (method == Method::kExplicit) explicit_.find_forces(*solver_, bending_, starts_, team_);
   for (Matrix3X<btScalar>* vectors : {&origins_, &targets_, &positions_}) {
     vectors->resize(3, starts_.cols());
   }
@@ -107,6 +109,8 @@ void FastBody::set_targets(const btSoftBody& body, Method method, btScalar time_
       of(origins_) = of(starts_);
       of(targets_) = of(origins_) + time_step * of(predicted_);
     }
+    if (method == Method::kExplicit)
+      explicit_.set_targets(begin, count, time_step, masses_, starts_, predicted_, targets_);
     if (method == Method::kForces) {
       for (int i = begin; i < begin + count; ++i) {
         const auto mass = static_cast<btScalar>(masses_[i]);
@@ -127,7 +131,8 @@ void FastBody::find_velocities() {
   for_nodes([&](int begin, int count) {
     auto velocities = velocities_.middleCols(begin, count);
     velocities = positions_.middleCols(begin, count) - origins_.middleCols(begin, count);
-    solver_->add_compensation(begin, velocities);
+    active_solver().add_compensation(begin, velocities);
+    if (method_ == Method::kExplicit) velocities += explicit_.target_rounding(begin, count);
     velocities /= velocity_step_;
   });
 }
@@ -152,7 +157,7 @@ void FastBody::keep_forces(const btSoftBody& body, btScalar time_step) {
       leads_movable(body) ||
       std::any_of(colliders_.begin(), colliders_.end(),
                   [](const Collider& collider) { return bool(MovableObject(collider.object)); });
-  if (!is_any_near) return force_history_.forget();
+  if (!is_any_near || method_ == Method::kExplicit) return force_history_.forget();
   force_history_.resize(positions_.cols(), time_step);
   for_nodes([&](int begin, int count) {
     solver_->get_forces(begin, force_history_.coming(begin, count));
@@ -168,7 +173,7 @@ FastBody::EnergyBalance FastBody::energy_balance(btScalar time_step, double for_
       {weights_, starts_, start_velocities_, predicted_, positions_, time_step}, team_);
   const double start = solver_->spring_energy(starts_, team_);
   const double end = solver_->spring_energy(positions_, team_);
-  const bool is_between = method_ == Method::kForces;
+  const bool is_between = method_ == Method::kForces || method_ == Method::kExplicit;
   // Where velocities are those of the middle of a step, what springs store from middle to middle counts.
   double stored = end - start;
   if (is_between) {
@@ -177,7 +182,7 @@ FastBody::EnergyBalance FastBody::energy_balance(btScalar time_step, double for_
     stored /= 2;
   }
   const double slack =
-      !is_between ? kEnergySlack * solver_->step_energy() : kBalanceSlack * (given + start);
+      !is_between ? kEnergySlack * active_solver().step_energy() : kBalanceSlack * (given + start);
   return {kinetic_energy(weights_, velocities_, team_),
           given - for_bodies - stored - excess_ + slack};
 }
@@ -187,12 +192,12 @@ FastBody::EnergyBalance FastBody::energy_balance(btScalar time_step, double for_
 // until it comes out as motion. Solutions without contacts that stay as they are gain nothing and are not looked at; a plane may
 // have a node's start behind it, where the surface is curved and the node fast.
 void FastBody::limit_kinetic_energy(btScalar time_step) {
-  if (gets_work_from_outside()) {
+  if (method_ == Method::kExplicit || gets_work_from_outside()) {
     excess_ = 0;
     return;
   }
   const bool is_free = contacts_.empty() && pushed_.empty() && !is_projected_;
-  if (solver_->report().is_converged && is_free && excess_ == 0) return;
+  if (active_solver().report().is_converged && is_free && excess_ == 0) return;
   const EnergyBalance balance = energy_balance(time_step, given_to_bodies_);
   if (balance.kinetic > balance.most) {
     limit_energy(weights_, balance.most, pins_.empty(), velocities_, team_);

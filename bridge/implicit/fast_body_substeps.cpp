@@ -23,6 +23,10 @@ btScalar smallest_half_extent(const btCollisionShape& shape) {
 
 int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
   SubstepCount substeps(time_step * wave_speed_, static_cast<btScalar>(masses_.sum()));
+  for (const Collider& collider : colliders_) {
+    const MovableObject object{collider.object};
+    if (object && !object.is_articulated()) substeps.include_nearby_body();
+  }
   for (const RigidContact& contact : contacts_) {
     const MovableObject object{contact.object};
     if (!object || object.is_articulated()) continue;
@@ -57,10 +61,12 @@ void FastBody::begin_substeps(const btSoftBody& body, btScalar time_step) {
   accelerations_ = (predicted_ - start_velocities_) / time_step;
   pin_ends_.clear();
   for (const int pin : pins_) pin_ends_.push_back(body.m_nodes[pin].m_x);
+  if (!bending_.empty()) bending_.begin_step(starts_);
 }
 
 void FastBody::begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int substep,
-                             int num_substeps, btScalar substep_time) {
+                             const SubstepPlan& plan, btScalar substep_time) {
+  const int num_substeps = plan.count;
   if (substep > 0) {
     last_starts_ = starts_;
     last_spacing_ = substep_time;
@@ -71,7 +77,10 @@ void FastBody::begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int s
     impulses_.resize(3, 0);
   }
   last_step_ = 0;  // BDF2 knows no substeps
-  num_substeps_ = num_substeps;
+  num_substeps_ = plan.num_implicit;
+  is_explicit_ = plan.is_explicit;
+  if (is_explicit_ && substep == 0) explicit_.begin(*solver_, masses_, is_free_, solver_pins_);
+  time_left_ = substep_time * static_cast<btScalar>(num_substeps - substep - 1);
   const btScalar reached = static_cast<btScalar>(substep + 1) / static_cast<btScalar>(num_substeps);
   predicted_ = start_velocities_ + substep_time * accelerations_;
   for (int i = 0; i < body.m_nodes.size(); ++i) {
@@ -91,7 +100,13 @@ void FastBody::begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int s
   swept_.invalidate();
   for (Collider& collider : colliders_) {
     const MovableObject dynamic{collider.object};
-    if (!dynamic) continue;
+    if (!dynamic) {
+      if (collider.led.is_zero() || btRigidBody::upcast(collider.object) == nullptr) continue;
+      const btTransform pose = kinematic_pose(*collider.object, time_left_);
+      collider.pose = pose * collider.object_pose.inverse() * collider.pose;
+      collider.object_pose = pose;
+      continue;
+    }
     const btTransform& start = rigid.start_of(dynamic);
     collider.pose = start * collider.object_pose.inverse() * collider.pose;
     collider.object_pose = start;
@@ -105,6 +120,9 @@ void FastBody::end_substeps(btSoftBody& body, btScalar time_step) {
     if (node.m_im <= 0) node.m_v = (node.m_x - node.m_q) / time_step;
   }
   starts_ = whole_starts_;
+  if (is_explicit_) solver_->continue_contacts(explicit_.solver());
+  is_explicit_ = false;
+  time_left_ = 0;
   velocity_step_ = time_step;  // rates of damping count for the whole step
   last_step_ = 0;
 }

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <numeric>
 
+#include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
+
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/fast_solver/threads/node_partition.hpp>
 
@@ -200,6 +202,13 @@ void predict_nodes(btSoftBody& body, btScalar time_step, ConstMatrix3XRef<btScal
   body.m_scontacts.resizeNoInitialize(0);
   body.m_ndbvt.optimizeIncremental(1);
   body.m_fdbvt.optimizeIncremental(1);
+}
+
+void publish_bounds(btSoftBody& body) {
+  if (btBroadphaseProxy* const proxy = body.getBroadphaseHandle()) {
+    body.m_worldInfo->m_broadphase->setAabb(proxy, body.m_bounds[0], body.m_bounds[1],
+                                            body.m_worldInfo->m_dispatcher);
+  }
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -26,5 +26,8 @@ inline namespace WEFT_BULLET_PRECISION {
 void predict_nodes(btSoftBody& body, btScalar time_step, ConstMatrix3XRef<btScalar> last_velocities,
                    std::vector<int>& scratch, fast::WorkerTeam& team);
 
+/// Tells the broadphase of m_bounds, after the prediction of a body.
+void publish_bounds(btSoftBody& body);
+
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

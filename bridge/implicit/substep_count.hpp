@@ -34,6 +34,9 @@ class SubstepCount {
   SubstepCount(btScalar wave_distance, btScalar mass)
       : wave_distance_(wave_distance), mass_(mass) {}
   void include(const RigidEncounter& encounter);
+  /// A dynamic body is near: what short steps have begun goes on, with half as many in each step. Waves throw nodes about that have
+  /// been hit; to expect them at the end of a long step where they would fly puts them into the body.
+  void include_nearby_body() { is_any_ = true; }
   /// last: of the step before.
   [[nodiscard]] int count(int last) const;
 
@@ -48,6 +51,19 @@ class SubstepCount {
   btScalar most_ = 1;
   bool is_any_ = false;
 };
+
+/// The substeps of all bodies that meet the same dynamic bodies.
+struct SubstepPlan {
+  int count = 1;
+  bool is_explicit = false;
+  int num_implicit = 1;  ///< the largest SubstepCount of a body
+};
+
+/// Explicit substeps, if so many as are stable do not cost too much. A wave that has not come farther than from node to node is no
+/// error of theirs; implicit ones accelerate at once, and without giving it back, all that a wave would reach in a substep.
+/// last_num_implicit: of the step before, because an impact that is resolved goes on in the next step. num_explicit: that are stable.
+[[nodiscard]] SubstepPlan plan_substeps(int num_implicit, int last_num_implicit,
+                                        btScalar num_explicit);
 
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

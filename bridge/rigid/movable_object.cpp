@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <LinearMath/btTransformUtil.h>
+
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/rigid/multibody_inertia.hpp>
 
@@ -11,6 +13,16 @@ btMultiBodyLinkCollider* link_of(const btCollisionObject* object) {
   if (object == nullptr) return nullptr;
   auto* link = btMultiBodyLinkCollider::upcast(const_cast<btCollisionObject*>(object));
   return link != nullptr && link->m_multiBody != nullptr ? link : nullptr;
+}
+
+btTransform kinematic_pose(const btCollisionObject& object, btScalar time_left) {
+  const btTransform& end = object.getWorldTransform();
+  if (time_left == 0 || btRigidBody::upcast(&object) == nullptr) return end;
+  const RigidVelocity velocity = velocity_of(object);
+  if (velocity.is_zero()) return end;
+  btTransform pose;
+  btTransformUtil::integrateTransform(end, -velocity.linear, -velocity.angular, time_left, pose);
+  return pose;
 }
 
 RigidVelocity velocity_of(const btCollisionObject& object) {

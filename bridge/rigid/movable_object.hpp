@@ -29,6 +29,9 @@ struct RigidVelocity {
 
 /// The velocity of a rigid body or a link; zero for other objects.
 [[nodiscard]] RigidVelocity velocity_of(const btCollisionObject& object);
+/// Where a kinematic rigid body, which Bullet has moved already, was time_left [s] before the end of the step; of other objects the
+/// present pose.
+[[nodiscard]] btTransform kinematic_pose(const btCollisionObject& object, btScalar time_left);
 
 /// The mean velocity from one pose to another, less than half a turn away, in time [s]; zero for equal poses, to the bit.
 [[nodiscard]] RigidVelocity mean_velocity(const btTransform& from, const btTransform& to,

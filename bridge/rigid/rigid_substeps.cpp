@@ -1,6 +1,7 @@
 #include <weft/bridge/rigid/rigid_substeps.hpp>
 
 #include <algorithm>
+#include <limits>
 
 #include <LinearMath/btTransformUtil.h>
 
@@ -13,6 +14,19 @@ btTransform moved(const btTransform& start, const MovableObject& body, btScalar 
   btTransform result;
   btTransformUtil::integrateTransform(start, velocity.linear, velocity.angular, time, result);
   return result;
+}
+
+/// Whether poses differ by more than rounding: in a short substep an impulse may move a body by less than that.
+bool differ(const btTransform& a, const btTransform& b) {
+  constexpr btScalar kRounding = 8 * std::numeric_limits<btScalar>::epsilon();
+  const auto is_far = [](const btVector3& one, const btVector3& other) {
+    const btVector3 sizes = one.absolute() + other.absolute();
+    const btScalar size = std::max(btScalar(1), sizes[sizes.maxAxis()]);
+    const btVector3 difference = (one - other).absolute();
+    return !(difference[difference.maxAxis()] <= kRounding * size);
+  };
+  return is_far(a.getOrigin(), b.getOrigin()) || is_far(a.getBasis()[0], b.getBasis()[0]) ||
+         is_far(a.getBasis()[1], b.getBasis()[1]) || is_far(a.getBasis()[2], b.getBasis()[2]);
 }
 
 }  // namespace
@@ -37,7 +51,7 @@ void RigidSubsteps::end_substep() {
   for (Entry& one : entries_) {
     const btTransform going_on = moved(one.start, one.body, substep_time_);
     const bool is_moved = !(one.body.pose() == one.alone);
-    one.is_held = one.is_held || (!is_moved && !(going_on == one.alone));
+    one.is_held = one.is_held || (!is_moved && differ(going_on, one.alone));
     one.start = is_moved ? one.body.pose() : going_on;
   }
 }

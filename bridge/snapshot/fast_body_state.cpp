@@ -114,6 +114,7 @@ void FastBodyState::serialize(StateArchive& archive, const ObjectTable& objects,
   archive.value(body.velocity_step_);
   archive.value(body.excess_);
   archive.value(body.num_substeps_);
+  body.explicit_.serialize(archive);
   archive.value(body.step_error_.distance);
   archive.value(body.step_error_.newton_iterations);
   archive.value(body.step_error_.is_within_tolerance);

@@ -18,11 +18,12 @@ using bridge::from_bullet;
 using bridge::to_bullet;
 
 void lead_collider(const Pose& pose, const Vector3<double>& offset, btRigidBody& body) {
-  if (!body.isKinematicObject()) {
+  if (!body.isStaticOrKinematicObject()) {
     throw InvalidArgument(
-        "step commands: a collider that is led has a mass or stands still, expected one with a "
-        "path");
+        "step commands: a collider that is led has a mass, expected one without");
   }
+  // One that stood still so far: led by a hand, and not by the scene.
+  body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
   const Eigen::Quaternion<btScalar> q = pose.orientation.cast<btScalar>();
   const btVector3 place = to_bullet(pose.position + pose.orientation * offset);
   // Bullet derives the velocity that friction needs from the last two of these.

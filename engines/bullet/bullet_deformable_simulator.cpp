@@ -8,24 +8,33 @@
 #include <weft/engines/blow_up_check.hpp>
 #include <weft/engines/bullet/bullet_bodies.hpp>
 #include <weft/engines/bullet/bullet_shapes.hpp>
+#include <weft/engines/bullet/bullet_simulator.hpp>
+#include <weft/engines/engine_state.hpp>
+#include <weft/engines/engine_table.hpp>
 #include <weft/scenes/controllers/controller_manager.hpp>
 
 namespace weft::scenes {
 namespace {
 
-class DeformableSimulator final : public Simulator {
+class DeformableSimulator final : public Simulator, public Resumable {
  public:
   explicit DeformableSimulator(bridge::DeformableScheme scheme) : scheme_(scheme) {}
 
   void load(const Scene& scene) override;
   [[nodiscard]] StepReport step(double time_step) override;
   [[nodiscard]] const SceneState& state() const override { return bodies_.state(); }
+  [[nodiscard]] Snapshot save() override;
+  void restore(const Snapshot& snapshot) override;
 
  private:
+  [[nodiscard]] std::string_view engine_name() const;
+  void make_world(const Scene& scene);
+  void serialize(StateArchive& archive);
   void add_cloth(const Cloth& cloth);
   [[nodiscard]] std::optional<BlowUp> find_blow_up() const;
 
   bridge::DeformableScheme scheme_;
+  LoadedScene loaded_;
   std::unique_ptr<bridge::DeformableWorld> world_;
   BulletBodies bodies_;
   StepReport report_;
@@ -33,6 +42,11 @@ class DeformableSimulator final : public Simulator {
 };
 
 void DeformableSimulator::load(const Scene& scene) {
+  loaded_ = LoadedScene(scene);
+  make_world(scene);
+}
+
+void DeformableSimulator::make_world(const Scene& scene) {
   bodies_ = {};
   report_ = {};
   reach_ = distance_field_reach(scene);
@@ -51,6 +65,40 @@ void DeformableSimulator::load(const Scene& scene) {
     throw InvalidArgument("bullet_deformable: scene '" + scene.name +
                           "' has paths or controllers, expected none, or another engine");
   }
+}
+
+std::string_view DeformableSimulator::engine_name() const {
+  return scheme_ == bridge::DeformableScheme::kImplicit ? "bullet_deformable_implicit"
+                                                        : "bullet_deformable";
+}
+
+void DeformableSimulator::serialize(StateArchive& archive) {
+  scenes::serialize(archive, report_);
+  world_->serialize(archive);
+}
+
+// A world has more than this state, and only new worlds agree in that: this run gets a new one, too.
+Snapshot DeformableSimulator::save() {
+  StateArchive archive = StateArchive::writer();
+  Snapshot snapshot{std::string(engine_name()),
+                    std::string(to_string(bullet_precision())),
+                    report_.step,
+                    report_.time,
+                    loaded_.text(),
+                    {}};
+  serialize(archive);
+  snapshot.state = archive.take();
+  restore(snapshot);
+  return snapshot;
+}
+
+void DeformableSimulator::restore(const Snapshot& snapshot) {
+  loaded_.check(snapshot, engine_name(), to_string(bullet_precision()));
+  make_world(loaded_.scene());
+  StateArchive archive = StateArchive::reader(snapshot.state);
+  serialize(archive);
+  archive.end();
+  bodies_.read_state(snapshot.time);
 }
 
 void DeformableSimulator::add_cloth(const Cloth& cloth) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Tested by tests/engines/blow_up_engines_test.cpp, tests/engines/body_engines_test.cpp.
+// Tested by tests/engines/blow_up_engines_test.cpp, tests/engines/body_engines_test.cpp, tests/engines/snapshot_test.cpp.
 
 #include <memory>
 

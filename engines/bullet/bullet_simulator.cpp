@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/snapshot.hpp>
 #include <weft/bridge/soft_world.hpp>
@@ -14,6 +15,7 @@
 #include <weft/engines/bullet/bullet_tears.hpp>
 #include <weft/engines/engine_state.hpp>
 #include <weft/engines/engine_table.hpp>
+#include <weft/scenes/contact_view.hpp>
 #include <weft/scenes/controllers/controller_manager.hpp>
 #include <weft/scenes/engine_kind.hpp>
 #include <weft/scenes/live_laws.hpp>
@@ -23,7 +25,10 @@ namespace {
 
 enum class Tension { kLinks, kLaws, kImplicit };
 
-class BulletSimulator final : public Simulator, public LiveLaws, public Resumable {
+class BulletSimulator final : public Simulator,
+                              public LiveLaws,
+                              public Resumable,
+                              public ContactView {
  public:
   explicit BulletSimulator(Tension tension) : tension_(tension) {}
 
@@ -33,6 +38,7 @@ class BulletSimulator final : public Simulator, public LiveLaws, public Resumabl
   void replace_laws(std::size_t cloth, const std::vector<forces::LawSpecification>& laws) override;
   [[nodiscard]] Snapshot save() override;
   void restore(const Snapshot& snapshot) override;
+  [[nodiscard]] std::vector<NodeTouch> touches() const override;
 
  private:
   [[nodiscard]] std::string_view engine_name() const;
@@ -238,6 +244,21 @@ void BulletSimulator::restore(const Snapshot& snapshot) {
   serialize(archive);
   archive.end();
   bodies_.read_state(snapshot.time);
+}
+
+std::vector<NodeTouch> BulletSimulator::touches() const {
+  std::vector<NodeTouch> touches;
+  if (!(report_.time_step > 0)) return touches;
+  for (std::size_t c = 0; c < bodies_.cloths().size(); ++c) {
+    for (const bridge::NodeContact& contact :
+         world_->solver().rigid_contacts(*bodies_.cloths()[c])) {
+      if (contact.impulse.isZero()) continue;
+      touches.push_back({c, contact.node, bridge::from_bullet(contact.normal),
+                         bridge::from_bullet(contact.impulse) / report_.time_step,
+                         contact.is_sticking});
+    }
+  }
+  return touches;
 }
 
 void BulletSimulator::set_freedom(const StepCommands& commands) {

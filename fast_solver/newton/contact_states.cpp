@@ -92,6 +92,13 @@ void ImplicitSolver<Scalar>::decide_contact_states(const StepProblem<Scalar>& pr
   have_contact_states_changed_ = contact_states_ != contact_states_before_;
 }
 
+template <class Scalar>
+void ImplicitSolver<Scalar>::continue_contacts(const ImplicitSolver& other) {
+  contact_states_ = other.contact_states_;
+  std::fill(contact_of_.begin(), contact_of_.end(), -1);
+  list_constrained();
+}
+
 // Most nodes are free: eight are looked at together.
 template <class Scalar>
 void ImplicitSolver<Scalar>::list_constrained() {

@@ -103,11 +103,16 @@ void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
     unmoved_.row(kinematic.node) = position.transpose();
   }
   for (const PlaneContact<Scalar>& contact : problem.contacts) {
-    if (!is_free_[at(contact.node)] || contact.body >= 0) continue;
-    if (contact_states_[at(contact.node)] == ContactState::kFixed) {
+    // Nodes between the fingers of a robot are held by both: out of one they would be in the other.
+    if (!is_free_[at(contact.node)] || is_on_link(contact)) continue;
+    if (contact.body < 0 && contact_states_[at(contact.node)] == ContactState::kFixed) {
       unmoved_.row(contact.node) = start_positions_.row(contact.node) + contact.motion.transpose();
     }
-    const Scalar gap = contact.normal.dot(at_node(unmoved_, contact.node)) - contact.offset;
+    Vector3<Scalar> position = at_node(unmoved_, contact.node);
+    if (contact.body >= 0) {
+      position -= motion_at(bodies_[at(contact.body)].unmoved, contact.lever_arm);
+    }
+    const Scalar gap = contact.normal.dot(position) - contact.offset;
     if (gap < 0) unmoved_.row(contact.node) -= gap * contact.normal.transpose();
   }
 }

@@ -7,8 +7,6 @@
 #include <weft/core/index.hpp>
 
 namespace weft::fast {
-namespace {}  // namespace
-
 template <class Scalar>
 void ImplicitSolver<Scalar>::load_bodies(const StepProblem<Scalar>& problem) {
   bodies_.resize(problem.bodies.size());

@@ -6,10 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 
 #include <weft/core/error.hpp>
-#include <weft/scenes/engine_kind.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -74,9 +73,8 @@ class SolveOfFrame {
 
 Resumable& resumable(Simulator& simulator) {
   if (auto* const found = dynamic_cast<Resumable*>(&simulator)) return *found;
-  throw InvalidArgument(fmt::format(
-      "record_run: the engine has no snapshots, expected one of: {}",
-      fmt::join(engine_names([](const EngineKind& kind) { return kind.can_resume; }), ", ")));
+  throw InvalidArgument(
+      "record_run: the engine has no snapshots, expected scenes::Resumable beside Simulator");
 }
 
 /// The number of steps after which the snapshot is taken; 0: never.

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <memory>
 #include <ostream>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -99,6 +100,10 @@ std::vector<Run> runs() {
 
 class EveryRun : public testing::TestWithParam<Run> {};
 
+TEST(Snapshot, IsTakenByEveryEngine) {
+  for (const EngineInfo& info : engine_table()) EXPECT_TRUE(can_resume(info)) << info.name;
+}
+
 // Each snapshot is taken in a run that went on from the one before.
 TEST_P(EveryRun, GoesOnWithTheSameBits) {
   const auto& [info, name] = GetParam();
@@ -180,14 +185,19 @@ TEST(SnapshotOfALevelOfDetail, GoesOnWithTheSameBits) {
 // Other laws, as a window sets them.
 TEST(SnapshotOfOtherLaws, GoesOnWithTheSameBits) {
   const Scene scene = load_scene("hang");
+  int num_engines = 0;
   for (const EngineInfo& info : engine_table()) {
     if (!can_resume(info) || !is_for_engine(scene, info.name)) continue;
     const std::unique_ptr<Simulator> engine = info.make();
+    auto* const live = dynamic_cast<LiveLaws*>(engine.get());
+    if (live == nullptr)
+      continue;  // Bullet's deformable world keeps the laws that it was made with
+    ++num_engines;
     engine->load(scene);
     (void)go_on(*engine, scene, 5);
     std::vector<forces::LawSpecification> laws = scene.cloths[0].laws;
     laws.push_back({"velocity_damping", {}, {{"rate", {2.0}}}});
-    dynamic_cast<LiveLaws&>(*engine).replace_laws(0, laws);
+    live->replace_laws(0, laws);
     (void)go_on(*engine, scene, 5);
     const Snapshot snapshot = resumable(*engine).save();
     const std::unique_ptr<Simulator> fresh = info.make();
@@ -195,6 +205,69 @@ TEST(SnapshotOfOtherLaws, GoesOnWithTheSameBits) {
     resumable(*fresh).restore(snapshot);
     EXPECT_EQ(first_difference(go_on(*engine, scene, 5), go_on(*fresh, scene, 5)), -1) << info.name;
   }
+  const bool has_bullet = engine_table().size() > 1;
+  EXPECT_GE(num_engines, has_bullet ? 4 : 1);
+}
+
+/// A snapshot, and the states that followed it when it was first gone on from.
+struct Branch {
+  Snapshot snapshot;
+  States future;
+};
+
+/// How many each run takes: WEFT_TEST_SEQUENCES in all, where that is set.
+int num_sequences(std::size_t num_runs) {
+  const char* const number = std::getenv("WEFT_TEST_SEQUENCES");
+  constexpr int kSequences = 8;
+  if (number == nullptr) return kSequences;
+  return std::max(1, std::atoi(number) / static_cast<int>(num_runs) + 1);
+}
+
+// Each sequence goes back to one of the latest snapshots, takes some steps, and then often another snapshot.
+void go_at_random(const Run& run, int num_sequences) {
+  constexpr std::size_t kBranches = 6;
+  const Scene scene = with_step_of(load_scene(run.scene), run.engine.name);
+  std::mt19937 random(11);
+  const auto below = [&](std::size_t end) { return static_cast<std::size_t>(random() % end); };
+  const std::unique_ptr<Simulator> engine = run.engine.make();
+  engine->load(scene);
+  std::vector<Branch> branches;
+  branches.push_back({resumable(*engine).save(), {}});
+  for (int s = 0; s < num_sequences; ++s) {
+    Branch& branch = branches[below(branches.size())];
+    resumable(*engine).restore(branch.snapshot);
+    const std::size_t num_steps = 1 + below(12);
+    for (std::size_t i = 0; i < num_steps; ++i) {
+      (void)engine->step(scene.world.time_step);
+      const std::vector<unsigned char> state = bytes_of(engine->state());
+      if (i == branch.future.size()) branch.future.push_back(state);
+      ASSERT_TRUE(branch.future[i] == state)
+          << "sequence " << s << ", step " << i + 1 << " after step " << branch.snapshot.step;
+    }
+    if (below(3) == 0) continue;
+    if (branches.size() == kBranches) {
+      branches.erase(branches.begin() + static_cast<std::ptrdiff_t>(below(kBranches)));
+    }
+    branches.push_back({resumable(*engine).save(), {}});
+  }
+}
+
+void go_at_random() {
+  std::vector<Run> list;
+  for (const Run& run : runs()) {
+    const bool is_chosen = run.scene == "hang" || run.scene == "ball_on_cloth" ||
+                           run.scene == "tear" || run.scene == "flying_carpet";
+    if (is_chosen) list.push_back(run);
+  }
+  for (const Run& run : list) {
+    SCOPED_TRACE(std::string(run.engine.name) + " " + run.scene);
+    go_at_random(run, num_sequences(list.size()));
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+TEST(SnapshotOfRandomSequences, GoOnWithTheSameBits) {
+  go_at_random();
 }
 
 TEST(Snapshot, OfAnotherSceneOrEngineIsRefused) {

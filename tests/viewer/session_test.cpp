@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <set>
 #include <thread>
 
@@ -156,6 +158,79 @@ TEST(LiveSessions, TheMousePullsAtANode) {
   EXPECT_EQ(session.drag(), MouseDrag::kNone) << "there is no node";
 }
 
+TEST(LiveSessions, TheMouseMovesACollider) {
+  for (const std::string& engine : {std::string("reference"), std::string("bullet_forces")}) {
+    SessionSettings settings;
+    settings.files = {"drape_sphere"};
+    settings.live.engine = engine;
+    settings.live.is_running = true;
+    std::optional<Session> opened;
+    try {
+      opened.emplace(settings);
+    } catch (const InvalidArgument&) {
+      continue;  // a build without Bullet
+    }
+    Session& session = *opened;
+    ASSERT_TRUE(comes(session, [&] {
+      const SnapshotPtr shown = session.source().shown();
+      return shown && shown->step > 10;
+    }));
+    const auto center = [&] { return session.source().shown()->state.rigids[0].position; };
+    const Vector3<double> before = center();
+    const auto place = project(session.view().camera, kAspect, before);
+    session.begin_drag(MouseDrag::kCarry, *place, kAspect);
+    ASSERT_EQ(session.drag(), MouseDrag::kCarry) << session.message();
+    session.drag_to({place->x + 0.1, place->y}, kAspect);
+    const Vector3<double> target = session.carry()->target;
+    EXPECT_GT((target - before).norm(), 0.3);
+    EXPECT_TRUE(comes(session, [&] { return (center() - target).norm() < 1e-5; })) << engine;
+    session.end_drag();
+    EXPECT_FALSE(session.carry());
+    const int step = session.source().shown()->step;
+    EXPECT_TRUE(comes(session, [&] { return session.source().shown()->step > step + 20; }));
+    EXPECT_LT((center() - target).norm(), 1e-5) << "it stays where it was let go";
+    session.begin_drag(MouseDrag::kCarry, {0.01, 0.01}, kAspect);
+    EXPECT_EQ(session.drag(), MouseDrag::kNone) << "there is no collider";
+    EXPECT_THAT(session.message(), HasSubstr("no collider under the mouse"));
+  }
+}
+
+TEST(LiveSessions, ABallWithAMassIsPulledWithAtMostThreeTimesItsWeight) {
+  Session session = session_of({"ball_on_cloth"}, true);
+  ASSERT_TRUE(comes(session, [&] { return session.source().shown() != nullptr; }));
+  const auto ball = [&] { return session.source().shown()->state.rigids[0]; };
+  const double mass = *session.source().drawn_scene().colliders[0].mass;
+  const auto place = project(session.view().camera, kAspect, ball().position);
+  session.begin_drag(MouseDrag::kCarry, *place, kAspect);
+  ASSERT_EQ(session.drag(), MouseDrag::kCarry) << session.message();
+  session.drag_to({place->x, place->y - 0.5}, kAspect);
+  EXPECT_TRUE(comes(session, [&] { return ball().velocity.y() > 0.05; }));
+  EXPECT_NEAR(session.source().shown()->pull_force, 3.0 * 9.81 * mass, 1e-6 * mass);
+}
+
+TEST(LiveSessions, ContactsAreShownWhereTheEngineTellsThem) {
+  Session session = session_of({"drape_sphere"}, true);
+  const auto& engines = session.live()->engines();
+  if (std::find(engines.begin(), engines.end(), "bullet_forces") == engines.end()) {
+    GTEST_SKIP() << "a build without Bullet";
+  }
+  session.live()->set_engine("reference");
+  session.update(0.01);
+  ASSERT_TRUE(comes(session, [&] { return session.source().shown() != nullptr; }));
+  (void)session.press("A");
+  EXPECT_THAT(session.message(), HasSubstr("reference: does not tell its contacts"));
+  EXPECT_TRUE(described(session)["contacts_shown"]);
+  for (const char* engine : {"bullet_weft", "bullet_forces"}) {
+    session.live()->set_engine(engine);
+    session.source().set_speed(1e6);
+    ASSERT_TRUE(comes(session, [&] { return described(session).value("touches", 0) > 20; }))
+        << engine;
+    EXPECT_LE(described(session)["sticking"], described(session)["touches"]);
+  }
+  (void)session.press("A");
+  EXPECT_FALSE(described(session)["contacts_shown"]);
+}
+
 TEST(LiveSessions, EnginesGoRound) {
   Session session = session_of({"hang"});
   std::set<std::string> seen;
@@ -228,6 +303,42 @@ TEST(RecordedSessions, PlayScrubAndLoop) {
   EXPECT_NEAR(session.source().shown()->state.time, 0.7, 1e-12);
 }
 
+TEST(RecordedSessions, ARecordingThatIsWrittenIsFollowedToItsEnd) {
+  const std::filesystem::path whole = testing::TempDir() + "weft_viewer_grows.weftrec";
+  const std::filesystem::path partial = testing::TempDir() + "weft_viewer_grows.partial.weftrec";
+  std::filesystem::remove(whole);
+  FallingSheet sheet(partial, 1.0, 200);
+  sheet.add_frames(70);
+  const int first = sheet.num_committed();
+  ASSERT_GT(first, 0);
+  Session session = session_of({partial.string()});
+  session.update(0.01);
+  EXPECT_THAT(session.message(), HasSubstr("new frames are shown as they come"));
+  EXPECT_EQ(session.source().num_frames(), first);
+  (void)session.press("End");
+  sheet.add_frames(70);
+  const int second = sheet.num_committed();
+  ASSERT_GT(second, first);
+  EXPECT_TRUE(comes(session, [&] { return session.source().frame() == second - 1; }));
+  EXPECT_NEAR(session.source().shown()->state.time, 0.1 * (second - 1), 1e-12);
+  // One who looks at an earlier frame keeps looking at it; one who plays waits at the end and goes on.
+  (void)session.press("Home");
+  sheet.add_frames(64);
+  EXPECT_TRUE(comes(session, [&] { return session.source().num_frames() > second; }));
+  EXPECT_EQ(session.source().frame(), 0);
+  session.source().seek(session.source().num_frames() - 2);
+  (void)session.press("Space");
+  session.update(5.0);
+  EXPECT_TRUE(session.source().is_playing());
+  sheet.finish();
+  std::filesystem::rename(partial, whole);
+  EXPECT_TRUE(comes(session, [&] { return session.source().num_frames() == 204; }));
+  EXPECT_FALSE(described(session)["may_grow"]);
+  EXPECT_EQ(described(session)["solid"], whole.filename().string());
+  EXPECT_THAT(session.message(), HasSubstr("is whole now"));
+  EXPECT_TRUE(comes(session, [&] { return session.source().frame() >= 200; }));
+}
+
 TEST(RecordedSessions, GhostsAndTheSolidOneHaveKeys) {
   Session session =
       session_of({write_recording("ga", 1.0, 5).string(), write_recording("gb", 2.0, 5).string()});
@@ -253,6 +364,8 @@ TEST(RecordedSessions, WhatIsForScenesIsTold) {
   EXPECT_THAT(session.message(), HasSubstr("expected a scene"));
   session.begin_drag(MouseDrag::kPull, {0.5, 0.5}, kAspect);
   EXPECT_THAT(session.message(), HasSubstr("cannot be pulled"));
+  (void)session.press("A");
+  EXPECT_THAT(session.message(), HasSubstr("a recording has no contacts"));
 }
 
 TEST(Sessions, EveryActionDoesSomethingThatIsSeen) {

@@ -51,7 +51,7 @@ struct MotionScene {
 [[nodiscard]] std::vector<MotionScene> judged_impacts();
 
 /// Figures that other scenes need too.
-/// Largest total energy after the start above that at the start [J], never below 0.
+/// Largest total energy after the start above that at the start [J], never below 0. The scene says with which step it was run.
 [[nodiscard]] double energy_gained(const scenes::Scene& scene, const MotionFrames& frames);
 /// Largest change of the momentum of everything that moves, over that at the start [-].
 [[nodiscard]] double momentum_changed(const scenes::Scene& scene, const MotionFrames& frames);

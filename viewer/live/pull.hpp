@@ -16,7 +16,13 @@ struct Pull {
   Vector3<double> target{0, 0, 0};  ///< [m]
 };
 
-/// Influence of the window on a run beside its laws: the pull of the mouse, and a change of the gravity of
+/// A collider that the mouse moves: its center goes to a point.
+struct Carry {
+  std::size_t collider = 0;
+  Vector3<double> target{0, 0, 0};  ///< [m]
+};
+
+/// Influence of the window on a run beside its laws: the pull of the mouse, colliders that it moves, and a change of the gravity of
 /// rigid bodies. Without either it asks for nothing, so that the run keeps its bits.
 class WindowForces final : public scenes::Controller {
  public:
@@ -24,6 +30,10 @@ class WindowForces final : public scenes::Controller {
   WindowForces(const scenes::Scene& scene, double time_step);
 
   void set_pull(const std::optional<Pull>& pull);
+  /// A collider without a mass goes there with at most kCarrySpeed, and stays where it is let go; one with a mass is pulled by a
+  /// spring with at most three times its weight.
+  void set_carry(const std::optional<Carry>& carry);
+  static constexpr double kCarrySpeed = 3.0;  ///< [m/s]
   /// [m/s^2] beyond that of the scene as it was loaded.
   void set_added_gravity(const Vector3<double>& acceleration);
   /// [N] with which the last step was pulled.
@@ -33,17 +43,22 @@ class WindowForces final : public scenes::Controller {
 
   void steer(const scenes::SceneState& state, double end_time,
              scenes::StepCommands& commands) override;
-  /// Nothing: what the window asks for is not part of a run.
-  void serialize(StateArchive& /*archive*/) override {}
+  /// Where colliders have been moved to; nothing else of what the window asks for is part of a run.
+  void serialize(StateArchive& archive) override;
 
  private:
   void pull(const Pull& pull, const scenes::SceneState& state, scenes::StepCommands& commands);
+  void carry(std::size_t collider, double time_step, const scenes::SceneState& state,
+             scenes::StepCommands& commands);
 
   std::vector<ClothMesh> meshes_;
-  std::vector<double> rigid_masses_;  ///< [kg]; 0 for those without
+  std::vector<double> rigid_masses_;    ///< [kg]; 0 for those without
+  std::vector<scenes::Pose> at_rest_;   ///< of the colliders
+  std::vector<Vector3<double>> moved_;  ///< [m] by which colliders without a mass are elsewhere
   double time_step_;
   mutable std::mutex mutex_;
   std::optional<Pull> pull_;
+  std::optional<Carry> carry_;
   Vector3<double> added_gravity_{0, 0, 0};
   double pull_force_ = 0.0;
 };

@@ -50,6 +50,10 @@ void Simulation::set_pull(const std::optional<Pull>& pull) {
   worker_->forces_->set_pull(pull);
 }
 
+void Simulation::set_carry(const std::optional<Carry>& carry) {
+  worker_->forces_->set_carry(carry);
+}
+
 SnapshotPtr Simulation::latest() const {
   return worker_->read<SnapshotPtr>([](Worker& w) { return w.latest_; });
 }

@@ -51,6 +51,7 @@ class Simulation {
   /// The gravity of rigid bodies [m/s^2]; that of cloth is a law.
   void set_gravity(const Vector3<double>& acceleration);
   void set_pull(const std::optional<Pull>& pull);
+  void set_carry(const std::optional<Carry>& carry);
 
   /// The newest state; none before the scene is loaded.
   [[nodiscard]] SnapshotPtr latest() const;

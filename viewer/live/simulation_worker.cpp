@@ -204,6 +204,9 @@ void Simulation::Worker::publish(bool is_frame) {
   snapshot->step_time = step_time_;
   snapshot->pull_force = forces_->pull_force();
   snapshot->blow_up = report_.blow_up;
+  if (const auto* view = dynamic_cast<const scenes::ContactView*>(simulator_.get())) {
+    snapshot->touches = view->touches();
+  }
   published_ = Clock::now();
   const std::lock_guard lock(mutex_);
   latest_ = snapshot;

@@ -27,6 +27,7 @@ enum class Action {
   kStrain,
   kShadow,
   kWorstNode,
+  kContacts,
   kNextGhost,
   kGhosts,
   kNextCloth,
@@ -75,6 +76,7 @@ enum class Action {
   kHelp,
   kClose,
   kScreenshot,
+  kFilm,
   kQuit,
 };
 

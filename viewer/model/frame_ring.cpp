@@ -11,6 +11,7 @@ std::size_t bytes_of(const Snapshot& frame) {
     const Eigen::Index numbers = cloth.positions.size() + cloth.velocities.size();
     bytes += sizeof(cloth) + static_cast<std::size_t>(numbers) * sizeof(double);
   }
+  if (frame.touches) bytes += frame.touches->size() * sizeof(scenes::NodeTouch);
   return bytes;
 }
 

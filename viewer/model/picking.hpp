@@ -40,4 +40,16 @@ struct NodeId {
                                          const Place& place, const scenes::SceneState& state,
                                          std::size_t num_cloths);
 
+/// A collider, and the point of its surface that is seen at a place [m].
+struct SeenCollider {
+  std::size_t collider = 0;
+  Vector3<double> point{0, 0, 0};
+};
+
+/// The collider at a place that is nearest to the camera. Planes and what is not drawn do not count; cloth hides nothing.
+[[nodiscard]] std::optional<SeenCollider> pick_collider(const scenes::Camera& camera, double aspect,
+                                                        const Place& place,
+                                                        const scenes::Scene& scene,
+                                                        const scenes::SceneState& state);
+
 }  // namespace weft::viewer

@@ -13,6 +13,7 @@ MouseDrag drag_named(const std::string& name) {
   if (name == "rotate") return MouseDrag::kRotate;
   if (name == "pan") return MouseDrag::kPan;
   if (name == "pull") return MouseDrag::kPull;
+  if (name == "carry") return MouseDrag::kCarry;
   return MouseDrag::kNone;
 }
 
@@ -53,7 +54,7 @@ Script::Line Script::parse(const std::string& line) {
     throw InvalidArgument("action '" + parsed.text + "' is unknown");
   }
   if (word == "drag" && drag_named(parsed.text) == MouseDrag::kNone) {
-    throw InvalidArgument("drag '" + parsed.text + "', expected rotate, pan or pull");
+    throw InvalidArgument("drag '" + parsed.text + "', expected rotate, pan, pull or carry");
   }
   return parsed;
 }

@@ -14,7 +14,7 @@ namespace weft::viewer {
 ///
 ///   key Ctrl+X                       the key of the input map
 ///   do wind_x_more                   the action with this id
-///   drag rotate 0.5 0.5 0.6 0.5 1    rotate, pan or pull, from and to as parts of the picture, [s]
+///   drag rotate 0.5 0.5 0.6 0.5 1    rotate, pan, pull or carry, from and to as parts of the picture, [s]
 ///   scroll 3                         notches of the wheel
 ///   wait 0.5                         [s]
 ///   wait_time 1.5                    until so much is simulated or played [s]

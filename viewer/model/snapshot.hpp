@@ -4,7 +4,9 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
+#include <weft/scenes/contact_view.hpp>
 #include <weft/scenes/simulator.hpp>
 #include <weft/viewer/model/measures.hpp>
 
@@ -18,6 +20,8 @@ struct Snapshot {
   int num_parts = 1;        ///< into which the last step was divided
   double step_time = 0.0;   ///< [s] wall time that a step took lately; 0 for a recording
   double pull_force = 0.0;  ///< [N] with which the mouse pulls
+  /// Of the last step; none: the engine, or a recording, does not tell.
+  std::optional<std::vector<scenes::NodeTouch>> touches;
   std::optional<scenes::BlowUp> blow_up;
 };
 

@@ -73,6 +73,10 @@ bool* shown_flag(ViewState& view, Action action) {
       return &view.has_shadow;
     case Action::kWorstNode:
       return &view.shows_worst;
+    case Action::kContacts:
+      return &view.shows_contacts;
+    case Action::kFilm:
+      return &view.is_filming;
     case Action::kPanels:
       return &view.shows_panels;
     case Action::kLaws:

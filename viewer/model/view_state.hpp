@@ -25,6 +25,7 @@ struct ViewState {
   scenes::Camera camera;
   bool has_shadow = true;
   bool shows_worst = false;
+  bool shows_contacts = false;
   bool shows_panels = true;
   bool shows_laws = true;
   bool shows_plots = true;
@@ -35,6 +36,7 @@ struct ViewState {
   WindowSize size = kWindowSizes[2];
   bool wants_screenshot = false;
   std::string screenshot_path = {};  ///< empty: a name that is free, in the current folder
+  bool is_filming = false;
   bool wants_to_quit = false;
 };
 

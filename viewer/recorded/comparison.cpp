@@ -2,6 +2,7 @@
 
 #include <array>
 #include <chrono>
+#include <system_error>
 #include <utility>
 
 #include <weft/core/error.hpp>
@@ -28,6 +29,14 @@ void make_ghost(scenes::Appearance& appearance, const scenes::Rgb& color) {
   appearance.back_color = color;
 }
 
+/// The name that a partial recording gets when its run has ended: without ".partial" or ".partial-2".
+std::filesystem::path whole_name(const std::filesystem::path& partial) {
+  const std::filesystem::path stem = partial.stem();  // x.partial
+  const std::string kind = stem.extension().string();
+  if (kind != ".partial" && !kind.starts_with(".partial-")) return partial;
+  return partial.parent_path() / (stem.stem().string() + partial.extension().string());
+}
+
 int last_not_after(const scenes::RecordingReader& reader, double time) {
   // Times of two engines may differ by a rounding.
   const double limit = time + 1e-9;
@@ -47,7 +56,9 @@ int last_not_after(const scenes::RecordingReader& reader, double time) {
 }  // namespace
 
 Comparison::Comparison(std::vector<std::filesystem::path> paths) : paths_(std::move(paths)) {
+  are_gone_.assign(paths_.size(), 0);
   for (const std::filesystem::path& path : paths_) {
+    stamps_.push_back(stamp_of(path));
     readers_.push_back(std::make_unique<scenes::RecordingReader>(path));
     if (readers_.back()->num_frames() == 0) {
       throw Error(path.string() + ": has no frame, expected a recording with at least one");
@@ -59,6 +70,68 @@ Comparison::Comparison(std::vector<std::filesystem::path> paths) : paths_(std::m
     }
   }
   rebuild();
+}
+
+Comparison::Stamp Comparison::stamp_of(const std::filesystem::path& path) {
+  Stamp stamp;
+  const std::filesystem::path files[] = {path, path.string() + "-wal"};
+  for (std::size_t i = 0; i < 2; ++i) {
+    std::error_code none;  // no log: nothing to compare
+    stamp.times[i] = std::filesystem::last_write_time(files[i], none);
+    if (none) stamp.times[i] = {};
+    stamp.sizes[i] = std::filesystem::file_size(files[i], none);
+    if (none) stamp.sizes[i] = 0;
+  }
+  return stamp;
+}
+
+bool Comparison::may_grow() const {
+  for (std::size_t r = 0; r < readers_.size(); ++r) {
+    if (!readers_[r]->finished() && !readers_[r]->blow_up() && are_gone_[r] == 0) return true;
+  }
+  return false;
+}
+
+bool Comparison::follow() {
+  bool has_grown = false;
+  for (std::size_t r = 0; r < readers_.size(); ++r) {
+    if (!readers_[r]->finished() && are_gone_[r] == 0) has_grown = follow(r) || has_grown;
+  }
+  if (!has_grown) return false;
+  measures_.resize(static_cast<std::size_t>(num_frames()));
+  last_frame_ = -1;
+  return true;
+}
+
+bool Comparison::follow(std::size_t recording) {
+  std::filesystem::path path = paths_[recording];
+  std::error_code none;
+  if (!std::filesystem::exists(path, none)) {
+    path = whole_name(path);
+    if (path == paths_[recording] || !std::filesystem::exists(path, none)) {
+      are_gone_[recording] = 1;
+      return false;
+    }
+  }
+  const Stamp stamp = stamp_of(path);
+  if (path == paths_[recording] && stamp == stamps_[recording]) return false;
+  try {
+    auto reader = std::make_unique<scenes::RecordingReader>(path);
+    const scenes::RecordingReader& old = *readers_[recording];
+    const bool is_the_same =
+        reader->scene_text() == old.scene_text() && reader->num_frames() >= old.num_frames();
+    if (!is_the_same) {
+      are_gone_[recording] = 1;
+      return false;
+    }
+    stamps_[recording] = stamp;
+    const bool has_more = reader->num_frames() > old.num_frames() || reader->finished();
+    paths_[recording] = path;
+    readers_[recording] = std::move(reader);
+    return has_more;
+  } catch (const Error&) {
+    return false;  // in the middle of a change: the next look reads it whole
+  }
 }
 
 scenes::Rgb Comparison::ghost_color(std::size_t recording) {

@@ -2,6 +2,8 @@
 
 // Tested by tests/viewer/recorded/comparison_test.cpp.
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -43,6 +45,10 @@ class Comparison {
   [[nodiscard]] double frame_time(int frame) const { return reader().frame_time(frame); }
   /// The last frame that is not after a time [s].
   [[nodiscard]] int frame_at(double time) const;
+  /// Whether a run may still be writing one of the recordings.
+  [[nodiscard]] bool may_grow() const;
+  /// Reads what has been written since, also from the file whose name a run has made whole has got. True if something has come.
+  bool follow();
   /// The state that is drawn, and the measures of the solid recording. Frames that were read last are
   /// kept.
   [[nodiscard]] SnapshotPtr frame(int frame);
@@ -53,9 +59,19 @@ class Comparison {
   [[nodiscard]] const std::vector<std::optional<Measures>>& measures() const { return measures_; }
 
  private:
+  /// When a file and its log were changed last, and their sizes.
+  struct Stamp {
+    std::array<std::filesystem::file_time_type, 2> times{};
+    std::array<std::uintmax_t, 2> sizes{};
+    friend bool operator==(const Stamp&, const Stamp&) = default;
+  };
+  [[nodiscard]] static Stamp stamp_of(const std::filesystem::path& path);
   void rebuild();
+  bool follow(std::size_t recording);
 
   std::vector<std::filesystem::path> paths_;
+  std::vector<Stamp> stamps_;
+  std::vector<char> are_gone_;  ///< flags: neither the partial recording is there nor the whole one
   std::vector<std::unique_ptr<scenes::RecordingReader>> readers_;
   std::size_t solid_ = 0;
   bool are_shown_ = true;

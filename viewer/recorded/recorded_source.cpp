@@ -1,6 +1,7 @@
 #include <weft/viewer/recorded/recorded_source.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -10,13 +11,16 @@ namespace {
 
 /// Wall time for the plots between two pictures [s].
 constexpr double kMeasureTime = 0.004;
+/// Between two looks at a recording that may grow [s]; it is opened anew, which takes at most a fifth of the time.
+constexpr double kLookInterval = 0.25;
+constexpr double kIdleShare = 4.0;
 
 }  // namespace
 
 RecordedSource::RecordedSource(const std::vector<std::filesystem::path>& paths)
     : comparison_(paths), time_(comparison_.frame_time(0)) {
   if (!comparison_.reader().finished()) {
-    message_ = comparison_.path().string() + ": is partial; it is shown as far as it goes";
+    message_ = comparison_.path().string() + ": is partial; new frames are shown as they come";
   }
 }
 
@@ -42,17 +46,36 @@ double RecordedSource::frame_time(int frame) const {
   return comparison_.frame_time(frame);
 }
 
+// Who stands at the last frame, or has played up to it, goes on with the new ones.
+void RecordedSource::follow(double seconds) {
+  look_age_ += seconds;
+  if (!comparison_.may_grow() || look_age_ < look_interval_) return;
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const bool is_last = frame_ == num_frames() - 1;
+  if (comparison_.follow() && is_last && !is_playing_) seek(num_frames() - 1);
+  if (!comparison_.may_grow()) {
+    message_ = comparison_.path().string() +
+               (comparison_.reader().finished() ? ": is whole now" : ": does not grow any more");
+  }
+  const double taken = std::chrono::duration<double>(Clock::now() - start).count();
+  look_interval_ = std::max(kLookInterval, kIdleShare * taken);
+  look_age_ = 0.0;
+}
+
 void RecordedSource::update(double seconds) {
+  follow(seconds);
   (void)comparison_.measure_more(kMeasureTime);
   if (!is_playing_) return;
   const double end = frame_time(num_frames() - 1);
   time_ += speed_ * seconds;
   if (time_ > end) {
-    if (is_looping_ && num_frames() > 1) {
+    const bool may_grow = comparison_.may_grow();
+    if (is_looping_ && num_frames() > 1 && !may_grow) {
       time_ = frame_time(0);
     } else {
       time_ = end;
-      is_playing_ = false;
+      is_playing_ = may_grow;
     }
   }
   frame_ = comparison_.frame_at(time_);
@@ -128,6 +151,7 @@ void RecordedSource::describe(nlohmann::json& json) const {
   json["ghosts"] = comparison_.has_ghosts();
   json["drawn_cloths"] = drawn_scene().cloths.size();
   json["loop"] = is_looping_;
+  json["may_grow"] = comparison_.may_grow();
 }
 
 }  // namespace weft::viewer

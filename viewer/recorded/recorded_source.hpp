@@ -32,6 +32,7 @@ class RecordedSource final : public Source {
 
  private:
   void rebuilt();
+  void follow(double seconds);
 
   Comparison comparison_;
   int version_ = 0;
@@ -40,6 +41,8 @@ class RecordedSource final : public Source {
   double speed_ = 1.0;
   double time_ = 0.0;  ///< [s]
   int frame_ = 0;
+  double look_age_ = 0.0;       ///< [s] since the last look at files that grow
+  double look_interval_ = 0.0;  ///< [s]
   std::string message_;
 };
 

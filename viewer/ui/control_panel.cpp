@@ -133,6 +133,7 @@ void draw_control_panel(const PanelFrame& frame) {
   if (is_live) {
     ImGui::SameLine(0.5f * width);
     toggle(session, Action::kLaws, "laws", session.view().shows_laws);
+    toggle(session, Action::kContacts, "contacts", session.view().shows_contacts);
     ImGui::Separator();
     live_controls(session, *session.live(), width);
   } else {
@@ -143,12 +144,12 @@ void draw_control_panel(const PanelFrame& frame) {
     recording_names(session.source().recordings());
   }
   ImGui::Separator();
-  const float third = (width - 2.0f * gap) / 3.0f;
-  action_button(session, Action::kResetView, "View", third);
+  action_button(session, Action::kResetView, "View", half);
   ImGui::SameLine();
-  action_button(session, Action::kScreenshot, "Picture", third);
+  action_button(session, Action::kHelp, "Help", half);
+  action_button(session, Action::kScreenshot, "Picture", half);
   ImGui::SameLine();
-  action_button(session, Action::kHelp, "Help", third);
+  action_button(session, Action::kFilm, session.view().is_filming ? "End film" : "Film", half);
   ImGui::End();
 }
 

@@ -2,6 +2,8 @@
 
 #include <imgui.h>
 
+#include <cstdint>
+
 #include <weft/viewer/ui/panels.hpp>
 
 namespace weft::viewer {
@@ -40,6 +42,38 @@ void draw_column(const PanelFrame& frame, float left, float text_width, std::siz
   }
 }
 
+/// Picture, name and summary of an entry of the list; true if it is chosen.
+bool draw_row(const PanelFrame& frame, std::size_t row) {
+  const std::string& name = frame.session.list()[row];
+  const float s = frame.scale;
+  const ImVec2 size(0.75f * Thumbnails::kWidth * s, 0.75f * Thumbnails::kHeight * s);
+  ImGui::PushID(static_cast<int>(row));
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const bool is_chosen =
+      ImGui::Selectable("##row", row == frame.session.row(), 0, ImVec2(0.0f, size.y + 2.0f * s));
+  tip(Action::kListOpen);
+  const bool is_visible = ImGui::IsItemVisible();
+  if (is_visible) {
+    const Thumbnails::Entry& entry = frame.thumbnails.get(name);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 end(corner.x + size.x, corner.y + size.y);
+    if (entry.texture != 0) {
+      // OpenGL counts rows from below.
+      list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(entry.texture)),
+                    corner, end, ImVec2(0.0f, 1.0f), ImVec2(1.0f, 0.0f));
+    } else {
+      list.AddRect(corner, end, ImGui::GetColorU32(ImGuiCol_Border));
+    }
+    const ImVec2 text(end.x + 10.0f * s, corner.y + 2.0f * s);
+    list.AddText(text, ImGui::GetColorU32(ImGuiCol_Text), name.c_str());
+    const float wrap = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x - text.x;
+    list.AddText(nullptr, 0.0f, ImVec2(text.x, text.y + ImGui::GetTextLineHeightWithSpacing()),
+                 ImGui::GetColorU32(ImGuiCol_TextDisabled), entry.summary.c_str(), nullptr, wrap);
+  }
+  ImGui::PopID();
+  return is_chosen;
+}
+
 }  // namespace
 
 void draw_help(const PanelFrame& frame) {
@@ -59,7 +93,8 @@ void draw_help(const PanelFrame& frame) {
   ImGui::TextDisabled(
       "Drag: turn.  Right drag: move.  Wheel: nearer, farther.  Ctrl and drag, or the middle "
       "button: "
-      "pull at a node of the cloth.  Every control says its key when the mouse rests on it.");
+      "pull at a node of the cloth.  Shift and drag: move a collider.  Every control says its key "
+      "when the mouse rests on it.");
   ImGui::PopTextWrapPos();
   ImGui::Separator();
   const float gap = 1.5f * kMargin * s;
@@ -89,7 +124,8 @@ void draw_scene_list(const PanelFrame& frame) {
   ImGui::SetNextWindowPos(ImVec2(0.5f * frame.width, 0.5f * frame.height), ImGuiCond_Always,
                           ImVec2(0.5f, 0.5f));
   ImGui::SetNextWindowSize(
-      ImVec2(320.0f * s, std::min(560.0f * s, frame.height - 8.0f * kMargin * s)));
+      ImVec2(520.0f * s, std::min(640.0f * s, frame.height - 8.0f * kMargin * s)));
+  ImGui::SetNextWindowBgAlpha(0.97f);
   ImGui::Begin("scenes", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
@@ -97,13 +133,17 @@ void draw_scene_list(const PanelFrame& frame) {
               info_of(Action::kListDown).key.data(), info_of(Action::kListOpen).key.data());
   ImGui::Separator();
   ImGui::BeginChild("rows");
+  frame.thumbnails.begin_picture();
+  static std::size_t last_row = 0;
   for (std::size_t i = 0; i < session.list().size(); ++i) {
-    if (ImGui::Selectable(session.list()[i].c_str(), i == session.row())) {
+    if (draw_row(frame, i)) {
       session.open(i);
       break;
     }
-    tip(Action::kListOpen);
-    if (i == session.row()) ImGui::SetScrollHereY(0.5f);
+    if (i == session.row() && i != last_row) {
+      last_row = i;
+      ImGui::SetScrollHereY(0.5f);
+    }
   }
   ImGui::EndChild();
   ImGui::End();

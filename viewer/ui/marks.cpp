@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include <weft/playback/rendering/paint/color_map.hpp>
+#include <weft/viewer/ui/contact_marks.hpp>
 #include <weft/viewer/ui/panels.hpp>
 
 namespace weft::viewer {
@@ -90,6 +91,29 @@ void draw_pull(const PanelFrame& frame, ImDrawList& list, const Snapshot& shown,
   label(list, ImVec2(to.x + 14.0f * s, to.y + 8.0f * s), text, s);
 }
 
+void draw_carry(const PanelFrame& frame, ImDrawList& list, const Snapshot& shown,
+                const scenes::Camera& camera, double aspect) {
+  const auto& carry = frame.session.carry();
+  if (!carry) return;
+  const scenes::RigidState& rigid = shown.state.rigids.at(carry->collider);
+  const auto center = project(camera, aspect, rigid.position);
+  const auto target = project(camera, aspect, carry->target);
+  if (!center || !target) return;
+  const float s = frame.scale;
+  const ImVec2 from = on_screen(frame, *center);
+  const ImVec2 to = on_screen(frame, *target);
+  list.AddLine(from, to, kPaper, 5.0f * s);
+  list.AddLine(from, to, IM_COL32(25, 110, 200, 255), 2.5f * s);
+  char text[160];
+  if (shown.pull_force > 0.0) {
+    std::snprintf(text, sizeof(text), "%s: %.3g N", rigid.name.c_str(), shown.pull_force);
+  } else {
+    std::snprintf(text, sizeof(text), "%s: (%.3g, %.3g, %.3g) m", rigid.name.c_str(),
+                  rigid.position.x(), rigid.position.y(), rigid.position.z());
+  }
+  label(list, ImVec2(to.x + 14.0f * s, to.y + 8.0f * s), text, s);
+}
+
 }  // namespace
 
 void draw_marks(const PanelFrame& frame) {
@@ -99,11 +123,16 @@ void draw_marks(const PanelFrame& frame) {
   if (!shown) return;
   const double aspect = static_cast<double>(frame.width / frame.height);
   if (view.style == scenes::SurfaceStyle::kScalar) draw_legend(frame, list);
-  if (!view.shows_worst && !frame.session.pull()) return;
+  if (!view.shows_worst && !view.shows_contacts && !frame.session.pull() &&
+      !frame.session.carry()) {
+    return;
+  }
   const scenes::Camera camera =
       followed(frame.session.source().drawn_scene(), view.camera, shown->state);
   if (view.shows_worst) draw_worst(frame, list, *shown, camera, aspect);
+  if (view.shows_contacts) draw_contacts(frame, *shown, camera, aspect);
   draw_pull(frame, list, *shown, camera, aspect);
+  draw_carry(frame, list, *shown, camera, aspect);
 }
 
 }  // namespace weft::viewer

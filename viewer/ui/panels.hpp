@@ -4,6 +4,7 @@
 
 #include <weft/viewer/session.hpp>
 #include <weft/viewer/ui/stage.hpp>
+#include <weft/viewer/ui/thumbnails.hpp>
 
 namespace weft::viewer {
 
@@ -12,6 +13,7 @@ namespace weft::viewer {
 struct PanelFrame {
   Session& session;
   const Stage& stage;
+  Thumbnails& thumbnails;
   float scale = 1.0f;
   float width = 0.0f;  ///< of the window
   float height = 0.0f;

@@ -14,6 +14,8 @@
 #include <weft/scenes/output/output_file.hpp>
 #include <weft/viewer/ui/panels.hpp>
 #include <weft/viewer/ui/theme.hpp>
+#include <weft/viewer/ui/thumbnails.hpp>
+#include <weft/viewer/ui/window_film.hpp>
 
 namespace weft::viewer {
 namespace {
@@ -81,7 +83,9 @@ void handle_mouse(Session& session) {
     if (!ImGui::IsMouseClicked(pressed)) continue;
     button = pressed;
     const bool pulls = pressed == ImGuiMouseButton_Middle || (pressed == 0 && io.KeyCtrl);
+    const bool carries = pressed == 0 && io.KeyShift && !pulls;
     session.begin_drag(pulls                               ? MouseDrag::kPull
+                       : carries                           ? MouseDrag::kCarry
                        : pressed == ImGuiMouseButton_Right ? MouseDrag::kPan
                                                            : MouseDrag::kRotate,
                        place, aspect);
@@ -89,10 +93,10 @@ void handle_mouse(Session& session) {
   }
 }
 
-void draw_panels(Session& session, const Stage& stage, double scale) {
+void draw_panels(Session& session, const Stage& stage, Thumbnails& thumbnails, double scale) {
   const ImGuiIO& io = ImGui::GetIO();
-  const PanelFrame frame{session, stage, static_cast<float>(scale), io.DisplaySize.x,
-                         io.DisplaySize.y};
+  const PanelFrame frame{session,          stage,           thumbnails, static_cast<float>(scale),
+                         io.DisplaySize.x, io.DisplaySize.y};
   const ViewState& view = session.view();
   draw_marks(frame);
   if (view.shows_panels) {
@@ -152,7 +156,10 @@ class WindowFollower {
 };
 
 bool begins_as_state(std::string_view beginning) {
-  return beginning.starts_with("{\n  \"camera\": {");
+  // A blow-up comes before the camera, by name.
+  return beginning.starts_with("{\n  \"camera\": {") ||
+         (beginning.starts_with("{\n  \"blow_up\": \"") &&
+          beginning.find("\n  \"camera\": {") != std::string_view::npos);
 }
 
 constexpr output::FileKind kStateKind{"the state of a window", begins_as_state};
@@ -196,6 +203,8 @@ void run_viewer(ViewerSettings settings) {
   // In a small window they would leave no room for the picture.
   session.view().shows_laws = session.view().shows_plots =
       settings.size.width >= kRoomForPanels * first_scale;
+  Thumbnails thumbnails(window);
+  WindowFilm film;
   WindowFollower follower(session.view());
   using Clock = std::chrono::steady_clock;
   Clock::time_point last = Clock::now();
@@ -213,13 +222,15 @@ void run_viewer(ViewerSettings settings) {
     const double scale = base * session.view().text_scale;
     panels.begin(scale);
     handle_mouse(session);
-    draw_panels(session, stage, scale);
+    draw_panels(session, stage, thumbnails, scale);
     PanelContext::end();
+    film.follow(session, stage, seconds);
     if (session.view().wants_screenshot) save_screenshot(session, stage);
     window.present();
     if (!std::filesystem::exists(settings.state_file)) write_state(settings, session);
     if (settings.exits_at_end && has_ended(session)) break;
   }
+  film.finish(session);
   write_state(settings, session);
   check_run(session);
 }

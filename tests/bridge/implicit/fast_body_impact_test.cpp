@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
@@ -79,8 +80,11 @@ TEST(FastBodyImpact, KeepsMomentumAndGainsNoEnergy) {
 }
 
 /// [m/s] of a ball of 0.2 kg at 10 m/s after it has met a free sheet of the same mass.
-double exit_speed(double time_step) {
-  Scene scene(cloth(21, 0.8, 0, 0.2), {law("tension", "stiffness", 2000)});
+double exit_speed(double time_step, double stiffness = 2000,
+                  const std::vector<forces::LawSpecification>& others = {}) {
+  std::vector<forces::LawSpecification> laws = others;
+  laws.push_back(law("tension", "stiffness", stiffness));
+  Scene scene(cloth(21, 0.8, 0, 0.2), laws);
   btRigidBody& ball =
       scene.add(std::make_shared<btSphereShape>(btScalar(0.1)), 0.2, at(0.03, 0.3, 0.02));
   ball.setGravity(btVector3(0, 0, 0));
@@ -90,14 +94,24 @@ double exit_speed(double time_step) {
   return static_cast<double>(-ball.getLinearVelocity().y());
 }
 
-// Waves that cross the ball in a quarter of a millisecond carry energy away from it.
+// Waves that cross the ball in a quarter of a millisecond carry energy away from it. Implicit substeps, of which there were 56, left
+// it 4 to 9 % too fast.
 TEST(FastBodyImpact, ABallLeavesASheetOfItsOwnMassAsFastAsInShortSteps) {
-  const double right = exit_speed(1.0 / 8000);
+  const double right = exit_speed(1.0 / 40000);
   EXPECT_GT(right, 2);
   EXPECT_LT(right, 6);
   for (const double time_step : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
-    EXPECT_NEAR(exit_speed(time_step) / right, 1, 0.1) << time_step;
+    EXPECT_NEAR(exit_speed(time_step) / right, 1, 0.02) << time_step;
   }
+}
+
+// Forces of bending at the start of the step are among those that the step was predicted with: substeps must not count them anew.
+TEST(FastBodyImpact, ASheetThatBendsStifflyThrowsABallBackAlike) {
+  const std::vector<forces::LawSpecification> bending = {law("hinge_torsion", "rigidity", 0.3)};
+  const double limp = exit_speed(1.0 / 8000, 500);
+  const double stiff = exit_speed(1.0 / 8000, 500, bending);
+  EXPECT_GT(std::abs(stiff - limp), 0.1) << "bending matters: " << limp << " " << stiff;
+  EXPECT_NEAR(exit_speed(1.0 / 60, 500, bending), stiff, 0.1 * std::abs(stiff - limp) + 0.05);
 }
 
 // Implicit Euler takes nine tenths of the bounce.
@@ -117,8 +131,32 @@ TEST(FastBodyImpact, ABallIsThrownBackByATrampoline) {
     highest = std::max(highest, height);
   }
   EXPECT_LT(lowest, 0.06);
-  EXPECT_GT(highest, 0.29);  // 0.32 in short steps
+  EXPECT_GT(highest, 0.315);  // 0.32 in short steps
   EXPECT_LT(highest, 0.335);
+}
+
+// Bullet presses the lowest box of a tower into the sheet. A step that may not have more energy than staying there, inside the
+// box, stayed there: the sheet stood still for ever, and the tower went through it.
+TEST(FastBodyImpact, ASheetUnderATowerOfBoxesKeepsMoving) {
+  ClothMesh mesh = cloth(21, 1, 0, 0.5);
+  mesh.pinned = {0, 20, 420, 440};
+  Scene scene(mesh, {kGravity, law("tension", "stiffness", 1e4)});
+  std::vector<btRigidBody*> tower;
+  for (int k = 0; k < 5; ++k) {
+    tower.push_back(&scene.add(box(0.25, 0.06, 0.06), 0.5, at(0, 0.1 + 0.25 * k, 0)));
+  }
+  int num_frozen = 0;
+  for (int step = 0; step < 120; ++step) {
+    scene.step();
+    if (scene.velocities().cwiseAbs().maxCoeff() == 0) ++num_frozen;
+  }
+  EXPECT_EQ(num_frozen, 0);
+  const double lowest = scene.positions().row(1).minCoeff();
+  for (const btRigidBody* one : tower) {
+    const btVector3 center = one->getCenterOfMassPosition();
+    const bool is_over = std::abs(center.x()) < 0.4 && std::abs(center.z()) < 0.4;
+    EXPECT_TRUE(!is_over || center.y() > lowest - 0.05) << center.y() << ' ' << lowest;
+  }
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
 // Into how many substeps a step is divided that meets dynamic bodies.
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
+#include <weft/bridge/implicit/explicit_substeps.hpp>
 #include <weft/bridge/implicit/substep_count.hpp>
 #include <weft/fast_solver/network/spring_network.hpp>
 
@@ -53,7 +55,10 @@ TEST(SubstepCount, IsNoGreaterForABodyThatClothCannotStop) {
 
 TEST(SubstepCount, DecreasesByHalfAndIsLimited) {
   EXPECT_EQ(substeps_of(kStill, 10), 5);
-  EXPECT_EQ(SubstepCount(btScalar(1.0), btScalar(0.2)).count(10), 1);  // nothing is met any more
+  SubstepCount substeps(btScalar(1.0), btScalar(0.2));
+  EXPECT_EQ(substeps.count(10), 1);  // nothing is near any more
+  substeps.include_nearby_body();
+  EXPECT_EQ(substeps.count(10), 5);
   RigidEncounter encounter = kStill;
   encounter.closing = 1000;
   encounter.approach = 1000;
@@ -69,6 +74,37 @@ TEST(SubstepCount, WaveSpeedIsThatOfTheGridsModuli) {
   EXPECT_NEAR(speed, std::sqrt(12.8 / (1 - 0.488 * 0.488) * 2000 / 0.2), 0.05 * speed);
   EXPECT_EQ(wave_speed({}, masses), 0);
   EXPECT_EQ(wave_speed({}, {}), 0);
+}
+
+// Two nodes of mass m on one spring swing at sqrt(2 k / m), and symplectic Euler is stable up to 2 over that.
+TEST(SubstepCount, StableStepIsShorterThanThePeriodAllows) {
+  fast::SpringNetwork network;
+  network.edges.resize(2, 1);
+  network.edges << 0, 1;
+  network.rest_lengths = network.stiffness = network.compressed_stiffness =
+      VectorX<double>::Ones(1);
+  network.stiffness *= 200;
+  network.damping = network.bending = VectorX<double>::Zero(1);
+  const VectorX<double> masses = VectorX<double>::Constant(2, 0.01);
+  const double longest = 2 / std::sqrt(2 * 200 / 0.01);
+  EXPECT_NEAR(static_cast<double>(stable_step(network, masses)), 0.9 * longest, 1e-6 * longest);
+  network.bending[0] = -600;  // what couples second neighbors may be negative
+  EXPECT_NEAR(static_cast<double>(stable_step(network, masses)), 0.45 * longest, 1e-6 * longest);
+  network.damping[0] = 1;
+  EXPECT_EQ(stable_step(network, masses), 0);
+  EXPECT_EQ(stable_step({}, masses), 0);
+}
+
+TEST(SubstepCount, SubstepsAreExplicitWhereThatCostsLittleMore) {
+  const SubstepPlan cheap = plan_substeps(10, 1, btScalar(249.5));
+  EXPECT_TRUE(cheap.is_explicit);
+  EXPECT_EQ(cheap.count, 250);
+  EXPECT_EQ(cheap.num_implicit, 10);
+  const SubstepPlan dear = plan_substeps(10, 1, 400);
+  EXPECT_FALSE(dear.is_explicit);
+  EXPECT_EQ(dear.count, 10);
+  EXPECT_TRUE(plan_substeps(10, 20, 400).is_explicit) << "an impact is resolved to its end";
+  EXPECT_FALSE(plan_substeps(56, 56, std::numeric_limits<btScalar>::max()).is_explicit);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 // compares what they show with what Weft says of the recordings.
 import assert from "node:assert/strict";
 import { execFileSync, spawn } from "node:child_process";
-import { copyFileSync, existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
@@ -101,6 +101,42 @@ async function drop(page, files) {
     before,
     { timeout: 60_000 },
   );
+}
+
+/** Drops files or folders of the disk, as a hand does: the page can read them again. */
+async function dropFromDisk(page, names) {
+  const session = await page.context().newCDPSession(page);
+  const data = { items: [], files: names.map(at), dragOperationsMask: 1 };
+  const before = await page.evaluate(() => window.weft.openingTime());
+  for (const type of ["dragEnter", "dragOver", "drop"]) {
+    await session.send("Input.dispatchDragEvent", { type, x: 300, y: 300, data });
+  }
+  await page.waitForFunction((old) => !Object.is(window.weft.openingTime(), old), before, { timeout: 60_000 });
+}
+
+/** A run that is held now and then, so that one can compare with what it has written by then. */
+class HeldRun {
+  constructor(folder) {
+    mkdirSync(at(folder));
+    this.base = join(folder, "live");
+    this.log = at(`${this.base}.partial.weftrec-wal`);
+    const words = ["run", join(scenes, "many_frames.toml"), "--engine", "bullet_forces", "-o", `${this.base}.weftrec`];
+    this.run = spawn(weft, words, { cwd: work });
+    this.ended = new Promise((done) => this.run.on("exit", done));
+  }
+
+  /** Lets it write some chunks more and holds it; gives what Weft says of the file by then. */
+  async goOn(until) {
+    this.run.kill("SIGCONT");
+    while (!(existsSync(this.log) && (await until()))) {
+      assert.equal(this.run.exitCode, null, "the run ended too early to look at");
+      await new Promise((done) => setTimeout(done, 20));
+    }
+    this.run.kill("SIGSTOP");
+    // A copy: who reads the log may tidy it up.
+    for (const end of ["", "-wal"]) copyFileSync(at(`${this.base}.partial.weftrec${end}`), at(`${this.base}_copy.weftrec${end}`));
+    return truth(`${this.base}_copy.weftrec`);
+  }
 }
 
 const bytesOf = (name) => readFileSync(at(name));
@@ -357,6 +393,56 @@ const tests = {
     await drop(page, [["copy.weftrec", main], ["copy.weftrec-wal", wal.subarray(0, Math.round(0.7 * wal.length))]]);
     const some = await frames(page);
     assert(some < expected.frames, `${some} frames of a log that is cut off`);
+    assert.deepEqual(complaints, []);
+  },
+
+  async "a recording that is being written is followed while it grows"() {
+    const { page, complaints } = await open("player.html");
+    const held = new HeldRun("followed");
+    try {
+      const first = await held.goOn(() => statSync(held.log).size > 1.5 * MB);
+      await dropFromDisk(page, [`${held.base}.partial.weftrec`, `${held.base}.partial.weftrec-wal`]);
+      assert.equal(await frames(page), first.frames);
+      assert.match((await notes(page)).join(), /New frames are shown as they come/);
+      await page.keyboard.press("End");
+      await page.keyboard.press("w");
+      const second = await held.goOn(async () => (await frames(page)) > first.frames + 20);
+      await page.waitForFunction((count) => window.weft.times().length === count, second.frames, { timeout: 120_000 });
+      await page.waitForFunction((text) => document.querySelector(".frame-number").textContent === text, `frame ${second.frames} of ${second.frames}`);
+      await compare(page, second.frame, { position: 0, strain: 1e-12 });
+      await compareEnergies(page, second.metrics);
+      assert(await page.getByRole("checkbox", { name: "Wireframe" }).isChecked());
+      // Who looks at an earlier frame keeps looking at it.
+      await page.keyboard.press("Home");
+      await held.goOn(async () => (await frames(page)) > second.frames);
+      assert.match(await page.textContent(".frame-number"), /^frame 1 of/);
+      held.run.kill("SIGCONT");
+      assert.equal(await held.ended, 0);
+      await page.waitForFunction(() => /no longer there: its run has ended/.test(window.weft.notes().join()), undefined, { timeout: 120_000 });
+    } finally {
+      held.run.kill("SIGKILL");
+    }
+    assert.deepEqual(complaints, []);
+  },
+
+  async "a folder in which a run writes is followed to the end of the run"() {
+    const { page, complaints } = await open("player.html");
+    const held = new HeldRun("folder");
+    try {
+      const first = await held.goOn(() => statSync(held.log).size > 1.5 * MB);
+      await dropFromDisk(page, ["folder"]);
+      assert.equal(await frames(page), first.frames);
+      await page.keyboard.press("End");
+      held.run.kill("SIGCONT");
+      assert.equal(await held.ended, 0);
+    } finally {
+      held.run.kill("SIGKILL");
+    }
+    const whole = truth(`${held.base}.weftrec`);
+    await page.waitForFunction((count) => window.weft.times().length === count, whole.frames, { timeout: 120_000 });
+    await page.waitForFunction(() => window.weft.notes().length === 0, undefined, { timeout: 120_000 });
+    assert.deepEqual(await page.evaluate(() => window.weft.recordings()), ["live.weftrec"]);
+    await compare(page, whole.frame, { position: 0, strain: 1e-12 });
     assert.deepEqual(complaints, []);
   },
 

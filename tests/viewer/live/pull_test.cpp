@@ -86,5 +86,41 @@ TEST(WindowForce, GravityOfRigidBodiesIsTheirMassTimesTheChange) {
   EXPECT_EQ(steered.steer().pushes[0].force, Vector3<double>(6.0, 0.0, 0.0));
 }
 
+TEST(WindowForce, MovesAColliderWithoutAMassNoFasterThanItMay) {
+  Steered steered;
+  steered.scene.colliders[0].mass.reset();
+  steered.scene.colliders[0].position = {1, 2, 3};
+  WindowForces hand(steered.scene, kStep);
+  const auto lead = [&] {
+    scenes::StepCommands commands;
+    commands.cloths.resize(1);
+    commands.colliders.resize(1);
+    commands.pushes.resize(1);
+    hand.steer(steered.state, kStep, commands);
+    return commands.colliders[0];
+  };
+  EXPECT_FALSE(lead()) << "nobody moves it";
+  hand.set_carry(Carry{0, {1, 2, 4}});
+  EXPECT_NEAR(lead()->position.z(), 3 + WindowForces::kCarrySpeed * kStep, 1e-12);
+  for (int i = 0; i < 1000; ++i) (void)lead();
+  EXPECT_NEAR(lead()->position.z(), 4.0, 1e-12);
+  hand.set_carry(std::nullopt);
+  EXPECT_NEAR(lead()->position.z(), 4.0, 1e-12) << "it stays";
+  // Snapshots know where it is.
+  StateArchive writer = StateArchive::writer();
+  hand.serialize(writer);
+  const std::vector<std::byte> bytes = writer.take();
+  WindowForces other(steered.scene, kStep);
+  StateArchive reader = StateArchive::reader(bytes);
+  other.serialize(reader);
+  reader.end();
+  scenes::StepCommands commands;
+  commands.cloths.resize(1);
+  commands.colliders.resize(1);
+  commands.pushes.resize(1);
+  other.steer(steered.state, kStep, commands);
+  EXPECT_NEAR(commands.colliders[0]->position.z(), 4.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace weft::viewer

@@ -78,5 +78,31 @@ TEST(Picking, ACameraThatFollowsMovesWithItsBody) {
             camera().target + Vector3<double>(1.0, 0.0, 2.0));
 }
 
+TEST(Picking, FindsTheNearestColliderThatIsDrawn) {
+  scenes::Scene scene;
+  scenes::SceneState state;
+  const auto add = [&](scenes::Shape shape, const Vector3<double>& position) {
+    scenes::Collider& collider = scene.colliders.emplace_back();
+    collider.shape = std::move(shape);
+    state.rigids.push_back({collider.name, position});
+  };
+  add(scenes::SphereShape{0.3}, {0.2, 0.5, 0.0});
+  add(scenes::BoxShape{{0.1, 0.1, 0.1}}, {0.65, 0.75, 1.0});  // in front of it
+  add(scenes::PlaneShape{}, {0, 0, 0});
+  const Place middle{0.5, 0.5};
+  auto seen = pick_collider(camera(), kAspect, middle, scene, state);
+  ASSERT_TRUE(seen);
+  EXPECT_EQ(seen->collider, 1U);
+  scene.colliders[1].appearance.visible = false;
+  seen = pick_collider(camera(), kAspect, middle, scene, state);
+  ASSERT_TRUE(seen);
+  EXPECT_EQ(seen->collider, 0U);
+  // A sphere is drawn with flat triangles.
+  EXPECT_NEAR((seen->point - state.rigids[0].position).norm(), 0.3, 0.01);
+  EXPECT_LT((seen->point - camera().position).norm(),
+            (state.rigids[0].position - camera().position).norm());
+  EXPECT_FALSE(pick_collider(camera(), kAspect, {0.5, 0.95}, scene, state)) << "the ground";
+}
+
 }  // namespace
 }  // namespace weft::viewer

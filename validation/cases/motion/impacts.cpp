@@ -23,6 +23,10 @@ std::vector<MotionScene> motions() {
   return list;
 }
 
+scenes::Scene exact_scene(const MotionScene& motion) {
+  return with_step(motion.scene, motion.exact_step, motion.scene.world.frame_interval);
+}
+
 std::string label_of(const CaseInfo& info, const MotionScene& motion) {
   return fmt::format("{}_{}", info.id, motion.scene.name);
 }
@@ -65,9 +69,7 @@ void plan_impacts(const CaseInfo& info, const CaseOptions& options, EngineRuns& 
   if (!options.bullet) return;
   for (const MotionScene& motion : motions()) {
     const std::string id = label_of(info, motion);
-    runs.add({kExact.label(id),
-              with_step(motion.scene, motion.exact_step, motion.scene.world.frame_interval),
-              kExact.engine, kExact.precision});
+    runs.add({kExact.label(id), exact_scene(motion), kExact.engine, kExact.precision});
     for (const EngineChoice& engine : kImpactsJudged) {
       runs.add({engine.label(id), motion.scene, engine.engine, engine.precision});
     }
@@ -87,7 +89,7 @@ void evaluate_impacts(const CaseInfo& info, const CaseOptions& options, const En
     for (const EngineChoice& engine : kImpactsJudged)
       histories.push_back(load_history(runs, id, engine));
     for (const MotionFigure& figure : motion.figures) {
-      const double right = figure.of(motion.scene, exact.frames);
+      const double right = figure.of(exact_scene(motion), exact.frames);
       std::vector<std::string> row = {motion.scene.name, figure.name, figure.unit,
                                       fmt::format("{:.4g}", right)};
       if (figure.is_bound) {

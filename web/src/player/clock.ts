@@ -4,6 +4,8 @@ export class Clock {
   speed = 1;
   loops = false;
   isPlaying = false;
+  /** Whether it stands because it has come to the end. */
+  ranOut = false;
   private last = 0;
   private request = 0;
 
@@ -21,12 +23,14 @@ export class Clock {
     if (this.isPlaying || !(end > begin)) return;
     if (this.time >= end) this.time = begin;
     this.isPlaying = true;
+    this.ranOut = false;
     this.last = performance.now();
     this.request = window.requestAnimationFrame((now) => this.advance(now));
     this.changed();
   }
 
   pause(): void {
+    this.ranOut = false;
     if (!this.isPlaying) return;
     this.isPlaying = false;
     window.cancelAnimationFrame(this.request);
@@ -42,7 +46,11 @@ export class Clock {
     if (this.time >= end) {
       this.time = this.loops ? begin : end;
       this.tick(this.time);
-      if (!this.loops) return this.pause();
+      if (!this.loops) {
+        this.pause();
+        this.ranOut = true;
+        return;
+      }
     } else {
       this.tick(this.time);
     }

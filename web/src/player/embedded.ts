@@ -1,6 +1,6 @@
 // The recordings that weft export --html has put into the page.
 import { fromBase64 } from "./bytes";
-import type { GivenFile } from "./files";
+import type { GivenFile } from "./sources";
 
 export function embeddedFiles(): GivenFile[] {
   const elements = document.querySelectorAll<HTMLScriptElement>('script[type="application/x-weft-recording"]');

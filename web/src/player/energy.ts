@@ -25,18 +25,26 @@ function energiesOf(recording: Recording, index: number, meshes: ClothMesh[], gr
   return [kinetic, height];
 }
 
-/** Adds the two metrics to the recording and fills them; progress is told now and then, true at the end. */
+/** A metric with the values that it has so far. */
+function begun(name: string, known: Metric[]): Metric {
+  const before = known.find((metric) => metric.name === name);
+  return { name, times: [...(before?.times ?? [])], values: [...(before?.values ?? [])] };
+}
+
+/** Adds the two metrics to the recording and fills them; progress is told now and then, true at the end. known: those of the
+ * same recording when it was shorter. */
 export function computeEnergies(
   recording: Recording,
   meshes: ClothMesh[],
   gravity: number[],
+  known: Metric[],
   onProgress: (done: boolean) => void,
 ): { stop: () => void } {
-  const kinetic: Metric = { name: KINETIC, times: [], values: [] };
-  const height: Metric = { name: HEIGHT, times: [], values: [] };
+  const kinetic = begun(KINETIC, known);
+  const height = begun(HEIGHT, known);
   recording.metrics.push(kinetic, height);
-  let first = 0;
-  let next = 0;
+  let next = kinetic.times.length;
+  let first = next > 0 ? energiesOf(recording, 0, meshes, gravity)[1] : 0;
   let stopped = false;
   const work = (): void => {
     if (stopped) return;

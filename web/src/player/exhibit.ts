@@ -3,7 +3,7 @@ import { characterMeshes } from "./character_mesh";
 import { makeClothMesh, type ClothMesh } from "./cloth_mesh";
 import { computeEnergies, KINETIC } from "./energy";
 import type { Frame } from "./chunk_codec";
-import type { Recording } from "./recording";
+import type { Metric, Recording } from "./recording";
 import { readScene, text, type Scene } from "./scene";
 import { nodeStrain, springsOf } from "./strain";
 
@@ -55,10 +55,10 @@ function strainRange(recording: Recording, meshes: (ClothMesh | null)[]): number
 }
 
 /** Fills in the energies that the recording does not have. */
-export function startEnergies(exhibit: Exhibit, onProgress: (done: boolean) => void): (() => void) | null {
+export function startEnergies(exhibit: Exhibit, known: Metric[], onProgress: (done: boolean) => void): (() => void) | null {
   const { recording, scene } = exhibit;
   const meshes = exhibit.meshes.filter((mesh) => mesh !== null);
   const isThere = recording.metrics.some((metric) => metric.name === KINETIC);
   if (isThere || meshes.length !== exhibit.meshes.length || recording.positionError > 0) return null;
-  return computeEnergies(recording, meshes, scene.gravity, onProgress).stop;
+  return computeEnergies(recording, meshes, scene.gravity, known, onProgress).stop;
 }

@@ -3,11 +3,12 @@ import "../style.css";
 import "./player.css";
 
 import { embeddedFiles } from "./embedded";
-import { acceptChoice, acceptDrops, readFiles, type GivenFile } from "./files";
+import { Follower } from "./follower";
 import { showHelp } from "./help";
 import { makeHook } from "./hook";
 import { installKeys } from "./keys";
 import { Player } from "./player";
+import { acceptChoice, acceptDrops, pairsOf, readPairs, type GivenFile, type Source } from "./sources";
 
 function connectKeys(player: Player): void {
   const { panel, viewer } = player;
@@ -53,16 +54,19 @@ function showStills(player: Player, posters: HTMLImageElement[]): void {
 async function start(page: HTMLElement): Promise<void> {
   const posters = [...document.querySelectorAll<HTMLImageElement>("img.poster")];
   const player = new Player(page);
-  const open = async (files: File[]): Promise<void> => {
+  const follower = new Follower(player);
+  const open = async (sources: Promise<Source[]>): Promise<void> => {
     page.classList.add("busy");
     const began = performance.now();
-    await player.open(await readFiles(files), began);
+    const pairs = pairsOf(await sources);
+    const given = await readPairs(pairs);
+    if (await player.open(given, began)) follower.start(pairs, given);
     page.classList.remove("busy");
   };
   const { layout } = player;
-  acceptDrops((files) => void open(files), (over) => (layout.veil.hidden = !over));
-  acceptChoice(layout.open, (files) => void open(files));
-  acceptChoice(layout.choose, (files) => void open(files));
+  acceptDrops((sources) => void open(sources), (over) => (layout.veil.hidden = !over));
+  acceptChoice(layout.open, (sources) => void open(sources));
+  acceptChoice(layout.choose, (sources) => void open(sources));
   layout.help.addEventListener("click", showHelp);
   // Who clicks a button wants the space key to play; who comes by keyboard wants it to press the button.
   page.addEventListener("click", (event) => {
@@ -72,7 +76,7 @@ async function start(page: HTMLElement): Promise<void> {
   showStills(player, posters);
   const given: GivenFile[] = embeddedFiles();
   player.layout.invitation.hidden ||= given.length > 0;
-  const ready = given.length > 0 ? player.open(given, 0) : Promise.resolve();
+  const ready = given.length > 0 ? player.open(given, 0).then(() => undefined) : Promise.resolve();
   window.weft = makeHook(player, ready);
   await ready;
 }

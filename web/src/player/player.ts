@@ -9,10 +9,10 @@ import type { Look } from "./cloth_view";
 import { engines } from "./engines";
 import { EnergyPlot } from "./energy_plot";
 import { makeExhibit, startEnergies, type Exhibit } from "./exhibit";
-import type { GivenFile } from "./files";
+import type { GivenFile } from "./sources";
 import { makeLayout } from "./layout";
 import { makePanel, showFacts, showNotes, showRecordings } from "./panel";
-import { Recording } from "./recording";
+import { Recording, type Metric } from "./recording";
 import { Stage } from "./stage";
 import { makeTransport, showPlaying, SPEEDS } from "./transport";
 import { makeRenderer, Viewer } from "./viewer";
@@ -36,6 +36,8 @@ export class Player {
   exhibits: Exhibit[] = [];
   /** [ms] from the drop, or the first byte of a page with recordings, to the first picture. */
   openingTime = NaN;
+  /** What is to be said about recordings that grow; empty: none does. */
+  following = "";
   private stages: Stage[] = [];
   private range = 0;
   private stopEnergies: (() => void)[] = [];
@@ -53,14 +55,16 @@ export class Player {
     this.update([], [], []);
   }
 
-  /** began: when the opening did, as performance.now() counts [ms]. Shows these in place of what is shown; what cannot be read is said, and does not keep others from being shown. */
-  async open(files: GivenFile[], began = performance.now()): Promise<void> {
+  /** began: when the opening did, as performance.now() counts [ms]. Shows these in place of what is shown; what cannot be read is said, and does not keep others from being shown. False if all stays as it was. */
+  async open(files: GivenFile[], began = performance.now()): Promise<boolean> {
     this.clock.pause();
     const notes: Note[] = [];
     const exhibits: Exhibit[] = [];
     const stages: Stage[] = [];
     const tools = await engines();
-    for (const { name, main, log } of files) {
+    for (const { name, main, log, problem } of files) {
+      if (problem !== undefined) notes.push({ name, text: problem, isError: true });
+      if (problem !== undefined) continue;
       let recording: Recording | null = null;
       try {
         recording = new Recording(name, tools, main, log);
@@ -73,12 +77,64 @@ export class Player {
       }
     }
     // A file that cannot be read does not end what plays.
-    if (exhibits.length === 0 && this.exhibits.length > 0) return this.note([...notes, ...this.ownNotes()]);
+    if (exhibits.length === 0 && this.exhibits.length > 0) {
+      this.note([...notes, ...this.ownNotes()]);
+      return false;
+    }
+    this.following = "";
     this.update(exhibits, stages, notes);
     if (exhibits.length > 0) {
       this.viewer?.draw();
       this.openingTime = performance.now() - began;
     }
+    return true;
+  }
+
+  /**
+   * The recordings that are shown, which have grown: view, looks and time stay as they are, or go on with the new frames.
+   * False for others than these.
+   */
+  async follow(files: GivenFile[]): Promise<boolean> {
+    const tools = await engines();
+    const recordings: Recording[] = [];
+    const close = (): void => recordings.forEach((recording) => recording.close());
+    let exhibits: Exhibit[];
+    try {
+      for (const { name, main, log } of files) recordings.push(new Recording(name, tools, main, log));
+      exhibits = recordings.map(makeExhibit);
+    } catch {
+      close(); // caught in the middle of a change: the next look reads it whole
+      return true;
+    }
+    const olds = this.exhibits.map(({ recording }) => recording);
+    const areThese = recordings.every(
+      ({ sceneText, times }, i) => sceneText === olds[i]?.sceneText && times.length >= olds[i].times.length,
+    );
+    const isNew = recordings.some(
+      ({ times, finished }, i) => times.length !== olds[i]?.times.length || finished !== olds[i].finished,
+    );
+    if (areThese && isNew) this.lengthen(exhibits);
+    else close();
+    return areThese;
+  }
+
+  private lengthen(exhibits: Exhibit[]): void {
+    const known = this.exhibits.map(({ recording }) => recording.metrics);
+    const isAtEnd = !this.clock.isPlaying && this.clock.time >= this.span()[1];
+    const stages: Stage[] = [];
+    // What the camera sees is counted from the same origin as before.
+    const origin = this.stages[0]?.origin ?? null;
+    if (this.viewer) for (const exhibit of exhibits) stages.push(new Stage(exhibit, () => this.viewer?.drawSoon(), origin));
+    this.put(exhibits, stages);
+    this.viewer?.exchange(stages);
+    this.showNotes();
+    this.setLength();
+    showFacts(this.panel, exhibits);
+    this.showEnergies(known);
+    this.fillLegend();
+    this.setTheme();
+    if (isAtEnd && this.clock.ranOut) this.clock.play();
+    else if (isAtEnd) this.seek(this.span()[1]);
   }
 
   get time(): number {
@@ -176,12 +232,7 @@ export class Player {
   }
 
   private update(exhibits: Exhibit[], stages: Stage[], notes: Note[]): void {
-    for (const stop of this.stopEnergies.splice(0)) stop();
-    for (const stage of this.stages) stage.dispose();
-    for (const { recording } of this.exhibits) recording.close();
-    this.exhibits = exhibits;
-    this.stages = stages;
-    this.range = exhibits.reduce((range, exhibit) => Math.max(range, exhibit.strainRange), 0);
+    this.put(exhibits, stages);
     this.viewer?.show(stages);
     this.note([...notes, ...this.ownNotes()]);
     this.fillIn();
@@ -192,11 +243,26 @@ export class Player {
     this.viewer?.reset();
   }
 
+  /** In the place of those before. */
+  private put(exhibits: Exhibit[], stages: Stage[]): void {
+    for (const stop of this.stopEnergies.splice(0)) stop();
+    for (const stage of this.stages) stage.dispose();
+    for (const { recording } of this.exhibits) recording.close();
+    this.exhibits = exhibits;
+    this.stages = stages;
+    this.range = exhibits.reduce((range, exhibit) => Math.max(range, exhibit.strainRange), 0);
+  }
+
+  showNotes(): void {
+    this.note(this.ownNotes());
+  }
+
   private ownNotes(): Note[] {
     const name = ({ recording }: Exhibit): string => (this.exhibits.length > 1 ? recording.name + ":" : "");
-    return this.exhibits.flatMap((exhibit) =>
+    const notes = this.exhibits.flatMap((exhibit) =>
       exhibit.notes.map((text) => ({ name: name(exhibit), text, isError: false })),
     );
+    return this.following === "" ? notes : [...notes, { name: "", text: this.following, isError: false }];
   }
 
   private note(notes: Note[]): void {
@@ -214,15 +280,19 @@ export class Player {
     layout.title.textContent = first ? first.scene.name.replaceAll("_", " ") : "Weft playback";
     layout.summary.textContent = first ? [first.scene.summary, first.recording.engine].filter(Boolean).join(" · ") : "Plays recordings of weft run";
     document.title = first ? `${first.scene.name}, Weft playback` : "Weft playback";
-    transport.slider.max = String(Math.max((this.lead()?.recording.times.length ?? 1) - 1, 0));
+    this.setLength();
     showRecordings(panel, exhibits, this.labels(), (hidden) => {
       this.viewer?.setHidden(hidden);
       this.placeLabels();
     });
     showFacts(panel, exhibits);
-    this.showEnergies();
+    this.showEnergies([]);
     this.arrange();
     this.fillLegend();
+  }
+
+  private setLength(): void {
+    this.transport.slider.max = String(Math.max((this.lead()?.recording.times.length ?? 1) - 1, 0));
   }
 
   private labels(): string[] {
@@ -231,7 +301,8 @@ export class Player {
     return areDifferent ? engineNames : this.exhibits.map(({ recording }) => recording.name);
   }
 
-  private showEnergies(): void {
+  /** known: metrics of each recording when it was shorter. */
+  private showEnergies(known: Metric[][]): void {
     const recordings = this.exhibits.map(({ recording }) => recording);
     const show = (done: boolean): void => {
       if (done) this.panel.energies.hidden = !this.plot.show(recordings);
@@ -239,8 +310,8 @@ export class Player {
       this.plot.setTime(this.clock.time);
     };
     let waiting = 0;
-    for (const exhibit of this.exhibits) {
-      const stop = startEnergies(exhibit, (done) => {
+    for (const [i, exhibit] of this.exhibits.entries()) {
+      const stop = startEnergies(exhibit, known[i] ?? [], (done) => {
         if (done) waiting -= 1;
         if (done && waiting === 0) show(true);
       });

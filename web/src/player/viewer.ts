@@ -49,6 +49,12 @@ export class Viewer {
     this.reset();
   }
 
+  /** The same stages, which have become longer: the camera stays. */
+  exchange(stages: Stage[]): void {
+    this.stages = stages;
+    this.drawSoon();
+  }
+
   setHidden(hidden: Set<number>): void {
     this.hidden = hidden;
     this.drawSoon();

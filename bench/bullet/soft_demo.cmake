@@ -1,0 +1,20 @@
+# Bullet's soft-body demo with one line changed: where it makes no solver for its world, it asks demo_solver() for one.
+set(demo_folder "${WEFT_BULLET_EXAMPLES_DIR}/SoftDemo")
+if(NOT EXISTS "${demo_folder}/SoftDemo.cpp" OR NOT EXISTS "${WEFT_BULLET_EXAMPLES_DIR}/ExampleBrowser/GL_ShapeDrawer.h")
+  message(FATAL_ERROR "WEFT_BULLET_EXAMPLES_DIR is ${WEFT_BULLET_EXAMPLES_DIR}, which has no SoftDemo/SoftDemo.cpp or no "
+    "ExampleBrowser/GL_ShapeDrawer.h; expected the folder examples/ of Bullet's sources")
+endif()
+file(READ "${demo_folder}/SoftDemo.cpp" demo)
+string(REPLACE "btSoftBodySolver* softBodySolver = 0;" "btSoftBodySolver* softBodySolver = weft::bench::demo_solver();" changed "${demo}")
+if(changed STREQUAL demo)
+  message(FATAL_ERROR "${demo_folder}/SoftDemo.cpp: has no line 'btSoftBodySolver* softBodySolver = 0;', expected that of Bullet 3.24 or 3.25")
+endif()
+file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/bench/SoftDemo.cpp" CONTENT "@changed@" @ONLY)
+set_source_files_properties("${PROJECT_BINARY_DIR}/bench/SoftDemo.cpp" PROPERTIES
+  COMPILE_OPTIONS "-w;-include;${PROJECT_SOURCE_DIR}/bench/bullet/demo_solver.hpp")
+add_executable(weft-demo-scenes bullet/demo_run.cpp "${PROJECT_BINARY_DIR}/bench/SoftDemo.cpp")
+weft_target_flags(weft-demo-scenes)
+target_include_directories(weft-demo-scenes PRIVATE "${PROJECT_SOURCE_DIR}")
+target_include_directories(weft-demo-scenes SYSTEM PRIVATE "${WEFT_BULLET_EXAMPLES_DIR}" "${demo_folder}" "${WEFT_BULLET_EXAMPLES_DIR}/ExampleBrowser")
+target_link_libraries(weft-demo-scenes PRIVATE weft::bridge)
+set_target_properties(weft-demo-scenes PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")

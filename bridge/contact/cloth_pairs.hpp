@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <weft/bridge/bullet/precision.hpp>
+#include <weft/bridge/contact/cloth_contact.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+/// Fast bodies that are near each other in a step. Their contacts are found where springs have led the nodes: where they would
+/// fly without springs, stiff bodies that lie on each other have other neighbors than they end the step with.
+class ClothPairs {
+ public:
+  /// In each step anew.
+  void clear();
+  /// Body and contact must live until the end of the step, and are in no pair but by these.
+  void add(btSoftBody& body, ClothContact& contact, btSoftBody& other, ClothContact& other_contact);
+  [[nodiscard]] bool empty() const { return pairs_.empty(); }
+  /// Forgets pairs of which a body has stopped in this step.
+  void drop_stopped(const std::function<bool(const btSoftBody&)>& has_stopped);
+
+  /// Takes contacts with bodies that are in no pair out of m_scontacts, and puts them back.
+  void set_others_aside();
+  void take_others_back();
+  /// Makes m_scontacts those of the pairs, where nodes are now. Returns whether there are any. time_step [s].
+  bool find_contacts(btScalar time_step);
+  /// The same, beside what is there.
+  void add_contacts(btScalar time_step);
+
+ private:
+  struct Member {
+    btSoftBody* body;
+    ClothContact* contact;
+    std::vector<btSoftBody::SContact> others;
+  };
+  [[nodiscard]] std::size_t member(btSoftBody& body, ClothContact& contact);
+
+  std::vector<Member> members_;
+  std::vector<std::pair<std::size_t, std::size_t>> pairs_;
+};
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

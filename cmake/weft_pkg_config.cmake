@@ -1,0 +1,18 @@
+# weft.pc and weft-float64.pc, for programs that are not built with CMake: c++ -std=c++20 main.cpp $(pkg-config --cflags --libs weft)
+file(RELATIVE_PATH WEFT_PC_TO_PREFIX "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+string(REGEX REPLACE "/$" "" WEFT_PC_TO_PREFIX "${WEFT_PC_TO_PREFIX}")
+
+# weft_install_pc(<suffix of the target> <suffix of the file> <package of Bullet> <precision, in words>)
+function(weft_install_pc WEFT_PC_TARGET WEFT_PC_SUFFIX WEFT_PC_BULLET WEFT_PC_PRECISION)
+  if(NOT TARGET weft_bridge${WEFT_PC_TARGET})
+    return()
+  endif()
+  get_target_property(definitions weft_core INTERFACE_COMPILE_DEFINITIONS)
+  list(TRANSFORM definitions PREPEND "-D")
+  list(JOIN definitions " " WEFT_PC_DEFINITIONS)
+  configure_file("${PROJECT_SOURCE_DIR}/cmake/weft.pc.in" "${PROJECT_BINARY_DIR}/weft${WEFT_PC_SUFFIX}.pc" @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/weft${WEFT_PC_SUFFIX}.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+endfunction()
+
+weft_install_pc("" "" bullet "in single precision")
+weft_install_pc(_float64 -float64 bullet-float64 "in double precision")
