@@ -7,12 +7,11 @@
 #include <cstdio>
 
 #include <weft/viewer/ui/contact_marks.hpp>
+#include <weft/viewer/ui/theme.hpp>
 
 namespace weft::viewer {
 namespace {
 
-constexpr ImU32 kInk = IM_COL32(20, 22, 26, 255);
-constexpr ImU32 kPaper = IM_COL32(255, 255, 255, 215);
 constexpr ImU32 kSticks = IM_COL32(20, 90, 190, 255);
 constexpr ImU32 kSlides = IM_COL32(215, 95, 0, 255);
 

@@ -7,12 +7,10 @@
 #include <weft/playback/rendering/paint/color_map.hpp>
 #include <weft/viewer/ui/contact_marks.hpp>
 #include <weft/viewer/ui/panels.hpp>
+#include <weft/viewer/ui/theme.hpp>
 
 namespace weft::viewer {
 namespace {
-
-constexpr ImU32 kInk = IM_COL32(20, 22, 26, 255);
-constexpr ImU32 kPaper = IM_COL32(255, 255, 255, 215);
 
 /// Text that can be read over any picture.
 void label(ImDrawList& list, ImVec2 place, const char* text, float scale) {

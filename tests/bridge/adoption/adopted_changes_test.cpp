@@ -21,8 +21,8 @@ namespace {
 
 using testing::PlainWorld;
 
-constexpr double kStep = 1.0 / 60;  // [s]
-constexpr double kGravity = 10;     // [m/s^2] of PlainWorld
+constexpr double kChangesStep = 1.0 / 60;  // [s]
+constexpr double kChangesGravity = 10;     // [m/s^2] of PlainWorld
 
 class AdoptedChanges : public ::testing::Test {
  protected:
@@ -37,9 +37,9 @@ class AdoptedChanges : public ::testing::Test {
 
   btSoftBodyWorldInfo& info() { return world.world.getWorldInfo(); }
   void run(double seconds) {
-    const int num_steps = static_cast<int>(std::lround(seconds / kStep));
+    const int num_steps = static_cast<int>(std::lround(seconds / kChangesStep));
     for (int step = 0; step < num_steps; ++step) {
-      world.world.stepSimulation(static_cast<btScalar>(kStep), 0);
+      world.world.stepSimulation(static_cast<btScalar>(kChangesStep), 0);
     }
   }
   /// 2 m x 2 m of 13 x 13 nodes at a height of 2 m, 1 kg.
@@ -92,7 +92,7 @@ TEST_F(AdoptedChanges, AMaterialThatGetsSofterStretches) {
   const auto sag = [&](double factor) {
     const double ratio = 1 / (1 - factor) - 1;
     const double reduced = (1 + 0.5 + 0.5 + 0.5) / 4;  // adoption takes the mean of a material
-    return 1 + kGravity * kStep * kStep * (4 + 3 + 2 + 1) / (ratio * reduced);
+    return 1 + kChangesGravity * kChangesStep * kChangesStep * (4 + 3 + 2 + 1) / (ratio * reduced);
   };
   EXPECT_NEAR(stiff, sag(0.9), 2e-3);
   EXPECT_NEAR(soft, sag(0.2), 2e-2);
@@ -214,8 +214,9 @@ TEST_F(AdoptedChanges, ABodyThatIsMovedGoesOnAsFastFromThere) {
   const double speed = static_cast<double>(sheet.m_nodes[kMiddle].m_v.y());
   sheet.translate(vector(3, 10, 0));
   const double start = height(sheet, kMiddle);
-  run(kStep);
-  EXPECT_NEAR(height(sheet, kMiddle) - start, (speed - kGravity * kStep) * kStep, 1e-3);
+  run(kChangesStep);
+  EXPECT_NEAR(height(sheet, kMiddle) - start,
+              (speed - kChangesGravity * kChangesStep) * kChangesStep, 1e-3);
   sheet.rotate(btQuaternion(vector(1, 0, 0), btScalar(1)));
   const btVector3 across = sheet.m_nodes[0].m_x - sheet.m_nodes[168].m_x;
   run(0.2);
@@ -252,8 +253,9 @@ TEST_F(AdoptedChanges, GravityAndForcesActAtOnce) {
   run(0.1);
   EXPECT_LT(sheet.m_nodes[kMiddle].m_v.length(), btScalar(1e-3));
   sheet.addForce(vector(0, 0, 6));  // on each node, for one step
-  run(kStep);
-  EXPECT_NEAR(static_cast<double>(sheet.m_nodes[kMiddle].m_v.z()), 6 * 169 * kStep, 0.01 * 17);
+  run(kChangesStep);
+  EXPECT_NEAR(static_cast<double>(sheet.m_nodes[kMiddle].m_v.z()), 6 * 169 * kChangesStep,
+              0.01 * 17);
   sheet.setVelocity(vector(1, 0, 0));
   run(0.5);
   EXPECT_NEAR(static_cast<double>(sheet.m_nodes[kMiddle].m_v.x()), 1, 1e-2);

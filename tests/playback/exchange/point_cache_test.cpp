@@ -15,7 +15,7 @@ PointCache small_cache() {
   return cache;
 }
 
-std::string fault(const std::string& bytes) {
+std::string cache_fault(const std::string& bytes) {
   try {
     (void)decode_point_cache(bytes, "a.pc2");
   } catch (const Error& error) {
@@ -42,20 +42,23 @@ TEST(PointCache, ReadsBackTheSameBits) {
 
 TEST(PointCache, RefusesDamagedBytesWithTheReason) {
   const std::string bytes = encode_point_cache(small_cache());
-  EXPECT_EQ(fault("ply"), "a.pc2: not a PC2 point cache, expected it to begin with POINTCACHE2");
-  EXPECT_EQ(fault(bytes.substr(0, 20)), "a.pc2: is cut off, 20 bytes, expected a header of 32");
-  EXPECT_EQ(fault(bytes.substr(0, 100)),
+  EXPECT_EQ(cache_fault("ply"),
+            "a.pc2: not a PC2 point cache, expected it to begin with POINTCACHE2");
+  EXPECT_EQ(cache_fault(bytes.substr(0, 20)),
+            "a.pc2: is cut off, 20 bytes, expected a header of 32");
+  EXPECT_EQ(cache_fault(bytes.substr(0, 100)),
             "a.pc2: has 100 bytes, expected 272 for 5 points and 4 samples");
   std::string huge = bytes;
   huge.replace(16, 4, "\xff\xff\xff\x7f");
-  EXPECT_NE(fault(huge).find("expected 103079215088 for 2147483647 points"), std::string::npos)
-      << fault(huge);
+  EXPECT_NE(cache_fault(huge).find("expected 103079215088 for 2147483647 points"),
+            std::string::npos)
+      << cache_fault(huge);
   std::string negative = bytes;
   negative.replace(28, 4, "\xff\xff\xff\xff");
-  EXPECT_NE(fault(negative).find("-1 samples"), std::string::npos);
+  EXPECT_NE(cache_fault(negative).find("-1 samples"), std::string::npos);
   std::string version = bytes;
   version[12] = 2;
-  EXPECT_EQ(fault(version), "a.pc2: PC2 version = 2, expected 1");
+  EXPECT_EQ(cache_fault(version), "a.pc2: PC2 version = 2, expected 1");
 }
 
 TEST(PointCache, RefusesSamplesOfSeveralSizes) {
