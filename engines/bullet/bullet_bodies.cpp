@@ -19,8 +19,7 @@ using bridge::to_bullet;
 
 void lead_collider(const Pose& pose, const Vector3<double>& offset, btRigidBody& body) {
   if (!body.isStaticOrKinematicObject()) {
-    throw InvalidArgument(
-        "step commands: a collider that is led has a mass, expected one without");
+    throw InvalidArgument("step commands: a collider that is led has a mass, expected one without");
   }
   // One that stood still so far: led by a hand, and not by the scene.
   body.setCollisionFlags(body.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);

@@ -32,7 +32,7 @@ const forces::LawSpecification kGravity{"gravity", {}, {{"acceleration", {0.0, -
 const forces::LawSpecification kSpring{"tension", {}, {{"stiffness", {100.0}}}};
 const forces::LawSpecification kBending{"hinge_torsion", {}, {{"rigidity", {1e-4}}}};
 
-ClothMesh cloth(double height = 0.0) {
+ClothMesh checked_cloth(double height = 0.0) {
   return make_cloth_grid({.nodes = {4, 4}, .center = {0, height, 0}, .total_mass = 0.16});
 }
 
@@ -45,12 +45,12 @@ std::string error_of(const std::function<void()>& work) {
   return "no error";
 }
 
-/// What attaching a mesh to a body of cloth() says, in each of the ways; it is the same.
+/// What attaching a mesh to a body of checked_cloth() says, in each of the ways; it is the same.
 std::string error_of_attaching(const ClothMesh& mesh) {
   SoftWorld world({});
-  btSoftBody& body = world.add(make_cloth_body(world.info(), cloth(), {}));
+  btSoftBody& body = world.add(make_cloth_body(world.info(), checked_cloth(), {}));
   DeformableWorld deformable({});
-  btSoftBody& other = deformable.add(make_cloth_body(deformable.info(), cloth(), {}));
+  btSoftBody& other = deformable.add(make_cloth_body(deformable.info(), checked_cloth(), {}));
   const std::vector<forces::LawSpecification> laws{kSpring, kBending};
   const std::string error = error_of([&] { world.solver().attach(body, mesh, laws); });
   EXPECT_EQ(error_of([&] { (void)world.solver().attach_fast(body, mesh, laws); }), error);
@@ -62,67 +62,68 @@ std::string error_of_attaching(const ClothMesh& mesh) {
 
 void expect_that_it_fits(const ClothMesh& mesh) {
   SoftWorld world({});
-  btSoftBody& body = world.add(make_cloth_body(world.info(), cloth(), {}));
+  btSoftBody& body = world.add(make_cloth_body(world.info(), checked_cloth(), {}));
   EXPECT_NO_THROW(world.solver().attach(body, mesh, {kSpring, kBending}));
 }
 
 TEST(SolverChecks, IndicesOutOfRangeAreNamed) {
-  ClothMesh mesh = cloth();
+  ClothMesh mesh = checked_cloth();
   mesh.triangles(0, 2) = 5000;
   EXPECT_THAT(error_of_attaching(mesh), HasSubstr("triangle 2 names node 5000, expected 0 to 15"));
-  mesh = cloth();
+  mesh = checked_cloth();
   mesh.crossed_triangles(1, 0) = -1;
   EXPECT_THAT(error_of_attaching(mesh),
               HasSubstr("crossed triangle 0 names node -1, expected 0 to 15"));
-  mesh = cloth();
+  mesh = checked_cloth();
   mesh.edge_sets[0].edges(1, 3) = 16;
   EXPECT_THAT(error_of_attaching(mesh), AllOf(HasSubstr(mesh.edge_sets[0].name),
                                               HasSubstr("edge 3 names node 16, expected 0 to 15")));
-  mesh = cloth();
+  mesh = checked_cloth();
   mesh.line_sets[0].triples(2, 0) = 99;
   EXPECT_THAT(error_of_attaching(mesh), HasSubstr("triple 0 names node 99, expected 0 to 15"));
-  mesh = cloth();
+  mesh = checked_cloth();
   mesh.node_sets = {{"hand", {16}}};
   EXPECT_THAT(error_of_attaching(mesh),
               HasSubstr("node set 'hand' names node 16, expected 0 to 15"));
 }
 
 TEST(SolverChecks, TrianglesThatAreNotTheBodysAreRefused) {
-  ClothMesh mesh = cloth();
+  ClothMesh mesh = checked_cloth();
   std::swap(mesh.triangles(0, 0), mesh.triangles(0, mesh.triangles.cols() - 1));
   EXPECT_THAT(error_of_attaching(mesh), HasSubstr("expected the same triangles"));
-  mesh = cloth();
+  mesh = checked_cloth();
   mesh.triangles.conservativeResize(3, 5);
   EXPECT_THAT(error_of_attaching(mesh),
               HasSubstr("a mesh of 5 triangles, expected the 18 faces of the body, or none"));
   // Neither their order matters nor where each begins.
-  mesh = cloth();
+  mesh = checked_cloth();
   mesh.triangles = mesh.triangles.rowwise().reverse().eval();
   mesh.triangles = mesh.triangles.colwise().reverse().eval();
   expect_that_it_fits(mesh);
 }
 
 TEST(SolverChecks, MassesThatAreNotTheBodysAreRefused) {
-  ClothMesh mesh = cloth();
+  ClothMesh mesh = checked_cloth();
   mesh.masses[7] *= 1.01;
   EXPECT_THAT(error_of_attaching(mesh),
               AllOf(HasSubstr("mass of node 7 = "), HasSubstr("expected the body's")));
-  mesh = cloth();
+  mesh = checked_cloth();
   mesh.masses[7] *= 1 + 1e-6;
   expect_that_it_fits(mesh);
 }
 
 TEST(SolverChecks, FastSettingsOutOfTheirDomainAreRefused) {
   SoftWorld world({});
-  btSoftBody& body = world.add(make_cloth_body(world.info(), cloth(), {}));
-  btSoftBody& fast = world.add(make_cloth_body(world.info(), cloth(3), {}));
-  ASSERT_FALSE(world.solver().attach_fast(fast, cloth(3), {kSpring}));
+  btSoftBody& body = world.add(make_cloth_body(world.info(), checked_cloth(), {}));
+  btSoftBody& fast = world.add(make_cloth_body(world.info(), checked_cloth(3), {}));
+  ASSERT_FALSE(world.solver().attach_fast(fast, checked_cloth(3), {kSpring}));
   for (const double value : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
     for (const FastSettings& settings :
          {FastSettings{.sleep_speed = value}, FastSettings{.sleep_time = value}}) {
-      EXPECT_THAT(
-          error_of([&] { (void)world.solver().attach_fast(body, cloth(), {kSpring}, settings); }),
-          AllOf(HasSubstr("sleep_"), HasSubstr("expected >= 0 and finite")));
+      EXPECT_THAT(error_of([&] {
+                    (void)world.solver().attach_fast(body, checked_cloth(), {kSpring}, settings);
+                  }),
+                  AllOf(HasSubstr("sleep_"), HasSubstr("expected >= 0 and finite")));
       EXPECT_THAT(error_of([&] { world.solver().set_fast_settings(fast, settings); }),
                   HasSubstr("sleep_"));
     }
@@ -159,12 +160,12 @@ TEST(SolverChecks, WhatCannotBeFastIsRefusedAndLeftAsItWas) {
   for (const Refusal& refusal : refusals) {
     SoftWorld world({});
     world.info().m_gravity.setValue(0, btScalar(-9.81), 0);
-    btSoftBody& body = world.add(make_cloth_body(world.info(), cloth(), {}));
+    btSoftBody& body = world.add(make_cloth_body(world.info(), checked_cloth(), {}));
     SoftWorld plain({});
     plain.info().m_gravity.setValue(0, btScalar(-9.81), 0);
-    btSoftBody& same = plain.add(make_cloth_body(plain.info(), cloth(), {}));
+    btSoftBody& same = plain.add(make_cloth_body(plain.info(), checked_cloth(), {}));
     for (btSoftBody* each : {&body, &same}) refusal.make(*each);
-    const auto reason = world.solver().attach_fast(body, cloth(), {kBending});
+    const auto reason = world.solver().attach_fast(body, checked_cloth(), {kBending});
     ASSERT_TRUE(reason) << refusal.reason;
     EXPECT_THAT(*reason, HasSubstr(refusal.reason));
     EXPECT_FALSE(world.solver().has_laws(body));
@@ -181,8 +182,8 @@ TEST(SolverChecks, WhatCannotBeFastIsRefusedAndLeftAsItWas) {
 TEST(SolverChecks, WhatCannotBeFastAnyMoreIsReported) {
   for (const Refusal& refusal : refusals_at_any_time()) {
     SoftWorld world({});
-    btSoftBody& body = world.add(make_cloth_body(world.info(), cloth(), {}));
-    ASSERT_FALSE(world.solver().attach_fast(body, cloth(), {kSpring}));
+    btSoftBody& body = world.add(make_cloth_body(world.info(), checked_cloth(), {}));
+    ASSERT_FALSE(world.solver().attach_fast(body, checked_cloth(), {kSpring}));
     world.step(kTimeStep);
     EXPECT_FALSE(world.solver().blow_up(body));
     refusal.make(body);
@@ -194,8 +195,8 @@ TEST(SolverChecks, WhatCannotBeFastAnyMoreIsReported) {
 
 TEST(SolverChecks, ATimescaleThatExplicitLawsDoNotKnowIsReported) {
   SoftWorld world({});
-  btSoftBody& body = world.add(make_cloth_body(world.info(), cloth(), {}));
-  world.solver().attach(body, cloth(), {kGravity});
+  btSoftBody& body = world.add(make_cloth_body(world.info(), checked_cloth(), {}));
+  world.solver().attach(body, checked_cloth(), {kGravity});
   world.step(kTimeStep);
   EXPECT_FALSE(world.solver().blow_up(body));
   body.m_cfg.timescale = btScalar(0.5);
@@ -206,19 +207,20 @@ TEST(SolverChecks, ATimescaleThatExplicitLawsDoNotKnowIsReported) {
 
 TEST(SolverChecks, LinksThatATensionLawStandsInForAreNoObstacle) {
   SoftWorld world({});
-  btSoftBody& body = world.add(make_cloth_body(world.info(), cloth(), {.links = {{{}, 100.0}}}));
-  EXPECT_FALSE(world.solver().attach_fast(body, cloth(), {kSpring}));
+  btSoftBody& body =
+      world.add(make_cloth_body(world.info(), checked_cloth(), {.links = {{{}, 100.0}}}));
+  EXPECT_FALSE(world.solver().attach_fast(body, checked_cloth(), {kSpring}));
   EXPECT_TRUE(world.solver().is_fast(body));
 }
 
 TEST(SolverChecks, ABlowUpIsToldOnceToTheCallback) {
   SoftWorld world({});
-  btSoftBody& calm = world.add(make_cloth_body(world.info(), cloth(5), {}));
-  btSoftBody& wild = world.add(make_cloth_body(world.info(), cloth(), {}));
-  btSoftBody& fast = world.add(make_cloth_body(world.info(), cloth(10), {}));
-  world.solver().attach(calm, cloth(5), {kGravity});
-  world.solver().attach(wild, cloth(), {kGravity});
-  ASSERT_FALSE(world.solver().attach_fast(fast, cloth(10), {kSpring, kGravity}));
+  btSoftBody& calm = world.add(make_cloth_body(world.info(), checked_cloth(5), {}));
+  btSoftBody& wild = world.add(make_cloth_body(world.info(), checked_cloth(), {}));
+  btSoftBody& fast = world.add(make_cloth_body(world.info(), checked_cloth(10), {}));
+  world.solver().attach(calm, checked_cloth(5), {kGravity});
+  world.solver().attach(wild, checked_cloth(), {kGravity});
+  ASSERT_FALSE(world.solver().attach_fast(fast, checked_cloth(10), {kSpring, kGravity}));
   std::vector<std::pair<btSoftBody*, BodyBlowUp>> told;
   world.solver().set_on_blow_up([&](btSoftBody& body, const BodyBlowUp& blow_up) {
     told.emplace_back(&body, blow_up);
@@ -260,7 +262,7 @@ class FaultyLaw final : public forces::ForceLaw<btScalar> {
 
 forces::LawSet<btScalar> faulty_laws(double height) {
   forces::LawSet<btScalar> laws;
-  laws.add(forces::make_law<btScalar>(kGravity, cloth()));
+  laws.add(forces::make_law<btScalar>(kGravity, checked_cloth()));
   laws.add(std::make_unique<FaultyLaw>(height));
   return laws;
 }
@@ -269,11 +271,11 @@ TEST(SolverChecks, AnExceptionOfALawStopsItsBodyAndNoStep) {
   for (const bool is_deferred : {false, true}) {
     SoftWorld world({});
     world.solver().set_deferred(is_deferred);
-    btSoftBody& faulty = world.add(make_cloth_body(world.info(), cloth(), {}));
-    btSoftBody& good = world.add(make_cloth_body(world.info(), cloth(5), {}));
-    const VectorX<btScalar> masses = cloth().masses.cast<btScalar>();
+    btSoftBody& faulty = world.add(make_cloth_body(world.info(), checked_cloth(), {}));
+    btSoftBody& good = world.add(make_cloth_body(world.info(), checked_cloth(5), {}));
+    const VectorX<btScalar> masses = checked_cloth().masses.cast<btScalar>();
     world.solver().attach(faulty, faulty_laws(-0.01), masses);
-    world.solver().attach(good, cloth(5), {kGravity});
+    world.solver().attach(good, checked_cloth(5), {kGravity});
     int num_told = 0;
     world.solver().set_on_blow_up([&](btSoftBody& body, const BodyBlowUp& blow_up) {
       ++num_told;
@@ -293,10 +295,10 @@ TEST(SolverChecks, AnExceptionOfALawStopsItsBodyAndNoStep) {
 
 TEST(SolverChecks, AnExceptionOfALawStopsItsBodyOfTheDeformableWorldToo) {
   DeformableWorld world({});
-  btSoftBody& faulty = world.add(make_cloth_body(world.info(), cloth(), {}));
-  btSoftBody& good = world.add(make_cloth_body(world.info(), cloth(5), {}));
-  world.forces().attach(faulty, faulty_laws(-0.01), cloth().masses.cast<btScalar>());
-  world.forces().attach(good, cloth(5), {kGravity});
+  btSoftBody& faulty = world.add(make_cloth_body(world.info(), checked_cloth(), {}));
+  btSoftBody& good = world.add(make_cloth_body(world.info(), checked_cloth(5), {}));
+  world.forces().attach(faulty, faulty_laws(-0.01), checked_cloth().masses.cast<btScalar>());
+  world.forces().attach(good, checked_cloth(5), {kGravity});
   int num_told = 0;
   world.forces().set_on_blow_up([&](btSoftBody& body, const BodyBlowUp& blow_up) {
     ++num_told;
