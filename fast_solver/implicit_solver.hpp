@@ -16,6 +16,7 @@
 #include <weft/fast_solver/newton/body_links.hpp>
 #include <weft/fast_solver/newton/direction_weights.hpp>
 #include <weft/fast_solver/newton/newton_iteration.hpp>
+#include <weft/fast_solver/newton/node_supports.hpp>
 #include <weft/fast_solver/solver_report.hpp>
 #include <weft/fast_solver/solver_settings.hpp>
 #include <weft/fast_solver/step_problem.hpp>
@@ -82,6 +83,10 @@ class ImplicitSolver : TeamLoops {
   [[nodiscard]] std::pair<int, ContactState> contact_of(std::size_t node) const {
     return {contact_of_[node], contact_states_[node]};
   }
+  /// After solve(): the force of one of the problem's supports on its node [N].
+  [[nodiscard]] Vector3<Scalar> support_force(std::size_t support) const {
+    return supports_.force_of(support, positions_, start_positions_, bodies_);
+  }
   /// After solve(): the generalized displacement of a two-way coupled body relative to its motion without the cloth: translation of
   /// its center [m] and rotation about it [rad]. The force on the body is (inertia + held) motion / h'^2.
   [[nodiscard]] Vector6 body_motion(int body) const {
@@ -136,6 +141,7 @@ class ImplicitSolver : TeamLoops {
                                         Vector6 Body::*motion) const;
   [[nodiscard]] Scalar largest_stiffness(int node) const;
   void update_friction(const StepProblem<Scalar>& problem);
+  void update_supports(const StepProblem<Scalar>& problem, const NewtonIteration& iteration);
   void set_system_inertia();
   void decide_contact_state(const PlaneContact<Scalar>& contact, const NewtonIteration& iteration);
   void list_constrained();
@@ -163,6 +169,7 @@ class ImplicitSolver : TeamLoops {
   void multiply(const Floats& displacements, Floats6 Body::*motion, Floats& product,
                 Floats6 Body::*body_product, const Next& and_then);
   void start_linear(const StepProblem<Scalar>& problem);
+  void stiffen_supported_blocks();
   [[nodiscard]] LinearGain solve_linear(const StepProblem<Scalar>&, const NewtonIteration&);
   /// The products of a correction c and the direction d before it: c . r, c . A d and c . A c.
   using Overlaps = VectorKernel::Products;
@@ -210,6 +217,7 @@ class ImplicitSolver : TeamLoops {
   std::vector<BodyLink> links_;
   std::vector<Body> bodies_;
   BodyCouplings<Scalar> couplings_;
+  NodeSupports<Scalar> supports_;
   std::vector<int> linked_blocks_;   ///< blocks of nodes that are linked to one body
   VectorX<float> inertia_;           ///< m / h'^2 [N/m]; 0 for pinned nodes; padded with zeros
   VectorX<float> system_inertia_;    ///< inertia_ plus the drag of friction
@@ -237,12 +245,13 @@ class ImplicitSolver : TeamLoops {
   Floats smoothed_, coarse_;  ///< parts of a correction
   std::array<Floats, DirectionWeights::kMost> corrections_;
   alignas(kAlignment) DirectionWeights directions_;  ///< of corrections_; workers read others
-  bool has_direction_ = false;   ///< direction_ holds the one before corrections_[0]
-  double work_left_ = 0;         ///< residual_forces_ . step_ [J]
-  double residual_squares_ = 0;  ///< squared norm of residual_forces_ [N^2]
-  double work_done_ = 0;         ///< work_left_ before the step was taken [J]
-  LinearGain last_gain_;         ///< gain of the last iteration
-  LinearGains gains_;            ///< of the last linear solve
+  bool has_direction_ = false;     ///< direction_ holds the one before corrections_[0]
+  double work_left_ = 0;           ///< residual_forces_ . step_ [J]
+  double residual_squares_ = 0;    ///< squared norm of residual_forces_ [N^2]
+  double energy_before_step_ = 0;  ///< of the incremental potential, with supports only [J]
+  double work_done_ = 0;           ///< work_left_ before the step was taken [J]
+  LinearGain last_gain_;           ///< gain of the last iteration
+  LinearGains gains_;              ///< of the last linear solve
   SolverReport report_;
   double residual_ = 0, step_energy_ = 0;
   bool has_constraint_forces_ = false, was_clamped_ = false;

@@ -21,6 +21,8 @@ constexpr LinearAccuracy kAccurate = {.forcing = 0.03, .delay = 0.5};
 /// How often contact states are decided in a step: in its first iterations, which find most of them, and at solutions.
 constexpr int kFirstDecisions = 2;
 constexpr int kMostDecisions = 8;
+/// Which nodes a body presses says how much each of them bears: they are decided together with its motion.
+constexpr int kFirstDecisionsWithSupports = kMostDecisions;
 /// The ratio of an iteration's gain to that of the one before: assumed for the first, and the upper bound.
 constexpr double kFirstShrink = 0.1;
 constexpr double kSlowest = 0.9;
@@ -70,6 +72,7 @@ void ImplicitSolver<Scalar>::iterate_once(const StepProblem<Scalar>& problem,
     list_constrained();
     update_friction(problem);
   }
+  if (!supports_.empty()) update_supports(problem, iteration);
   set_system_inertia();
   if (iteration.is_first || iteration.factorizes) {
     const Scalar squared_step = problem.inertia_step * problem.inertia_step;
@@ -116,6 +119,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
                            .factorizes = iteration % kIterationsPerFactor == 0});
     if (decides) ++num_decisions;
     if (iteration == 0) rounding = kRoundings * gain_of_rounding();
+    if (!supports_.empty()) energy_before = energy_before_step_;  // with the present friction
     const bool are_contact_states_new = decides && (iteration == 0 || have_contact_states_changed_);
     const double now = energy(problem, positions_, &Body::motion);
     if (!are_contact_states_new && !(now <= energy_before * (1 + kEnergyRounding) + asked)) {
@@ -158,7 +162,8 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     report_.is_converged =
         is_solved && (!has_contacts || (decides && !are_contact_states_new) || !can_decide);
     if (is_over && !report_.is_converged && !can_decide) break;
-    decides = can_decide && ((iteration < kFirstDecisions && !problem.continues) || is_over);
+    const int first = supports_.empty() ? kFirstDecisions : kFirstDecisionsWithSupports;
+    decides = can_decide && ((iteration < first && !problem.continues) || is_over);
     if (decides) num_stalled = 0;
     before = last_gain_.total;
     if (are_contact_states_new) {
