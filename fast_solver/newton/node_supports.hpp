@@ -1,6 +1,6 @@
 #pragma once
 
-// Tested by tests/fast_solver/implicit_solver_test.cpp, tests/bridge/implicit/cloth_between_test.cpp.
+// Tested by tests/fast_solver/newton/node_supports_test.cpp, tests/bridge/implicit/cloth_between_test.cpp.
 
 #include <algorithm>
 #include <span>
