@@ -57,14 +57,7 @@ void ImplicitSolver<Scalar>::load(const StepProblem<Scalar>& problem,
   for (const KinematicNode<Scalar>& kinematic : problem.kinematic) {
     if (kinematic.body >= 0) positions_.row(kinematic.node) = position_of(kinematic).transpose();
   }
-  // Predicted deep in what backs them, they would seem to be pressed by many times the weight of the body.
-  for (const NodeSupport<Scalar>& support : problem.supports) {
-    if (problem.continues) break;
-    const Vector3<Scalar> fall = at_node(positions_, support.node) -
-                                 at_node(start_positions_, support.node) - support.motion;
-    positions_.row(support.node) -=
-        std::min(Scalar(0), support.normal.dot(fall)) * support.normal.transpose();
-  }
+  if (!problem.continues) supports_.lift(start_positions_, positions_);
   const auto stride = static_cast<int>(weights_.size());
   step_energy_ =
       0.5 * sum_over_parts([&](NodeRange nodes) {
@@ -208,7 +201,7 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
                                   static_cast<int>(blocks_.rows()), nodes,
                                   forces_.diagonal_blocks().data(), blocks_.data());
   });
-  stiffen_supported_blocks();
+  supports_.invert_blocks(forces_.diagonal_blocks(), system_inertia_, kSmoothing, blocks_);
   for (const BodyLink& link : links_) {
     if (link.is_dragged) system_inertia_[link.node] = inertia_[link.node];  // add_drags() has it
   }
@@ -255,25 +248,6 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
   if (!moves_held || (links_.empty() && supports_.empty())) return;
   gather(links_, work_, bodies_, &Body::coarse_product);
   for (Body& body : bodies_) body.residual -= body.coarse_product;
-}
-
-// The blocks of nodes with supports, with their stiffness.
-template <class Scalar>
-void ImplicitSolver<Scalar>::stiffen_supported_blocks() {
-  const BlockArrays& given = forces_.diagonal_blocks();
-  const std::span<const NodeSupport<Scalar>> all = supports_.all();
-  for (std::size_t k = 0; k < all.size();) {
-    const int i = all[k].node;
-    Matrix3<float> block;
-    block << given(i, 0), given(i, 3), given(i, 5), given(i, 3), given(i, 1), given(i, 4),
-        given(i, 5), given(i, 4), given(i, 2);
-    block.diagonal().array() += system_inertia_[i];
-    for (; k < all.size() && all[k].node == i; ++k) block += supports_.stiffness_of(k);
-    const Matrix3<float> inverse = kSmoothing * block.inverse();
-    if (!inverse.allFinite()) continue;
-    blocks_.row(i) << inverse(0, 0), inverse(1, 1), inverse(2, 2), inverse(0, 1), inverse(1, 2),
-        inverse(2, 0);
-  }
 }
 
 // m / h'^2, and the drag of nodes that slide on what does not give way.

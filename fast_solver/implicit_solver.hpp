@@ -169,7 +169,6 @@ class ImplicitSolver : TeamLoops {
   void multiply(const Floats& displacements, Floats6 Body::*motion, Floats& product,
                 Floats6 Body::*body_product, const Next& and_then);
   void start_linear(const StepProblem<Scalar>& problem);
-  void stiffen_supported_blocks();
   [[nodiscard]] LinearGain solve_linear(const StepProblem<Scalar>&, const NewtonIteration&);
   /// The products of a correction c and the direction d before it: c . r, c . A d and c . A c.
   using Overlaps = VectorKernel::Products;
@@ -245,13 +244,13 @@ class ImplicitSolver : TeamLoops {
   Floats smoothed_, coarse_;  ///< parts of a correction
   std::array<Floats, DirectionWeights::kMost> corrections_;
   alignas(kAlignment) DirectionWeights directions_;  ///< of corrections_; workers read others
-  bool has_direction_ = false;     ///< direction_ holds the one before corrections_[0]
-  double work_left_ = 0;           ///< residual_forces_ . step_ [J]
-  double residual_squares_ = 0;    ///< squared norm of residual_forces_ [N^2]
-  double energy_before_step_ = 0;  ///< of the incremental potential, with supports only [J]
-  double work_done_ = 0;           ///< work_left_ before the step was taken [J]
-  LinearGain last_gain_;           ///< gain of the last iteration
-  LinearGains gains_;              ///< of the last linear solve
+  bool has_direction_ = false;   ///< direction_ holds the one before corrections_[0]
+  double work_left_ = 0;         ///< residual_forces_ . step_ [J]
+  double residual_squares_ = 0;  ///< squared norm of residual_forces_ [N^2]
+  double energy_before_ = 0;     ///< the incremental potential before an iteration [J]
+  double work_done_ = 0;         ///< work_left_ before the step was taken [J]
+  LinearGain last_gain_;         ///< gain of the last iteration
+  LinearGains gains_;            ///< of the last linear solve
   SolverReport report_;
   double residual_ = 0, step_energy_ = 0;
   bool has_constraint_forces_ = false, was_clamped_ = false;

@@ -9,6 +9,8 @@
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/contact/rigid_contacts.hpp>
+#include <weft/bridge/rigid/coupled_bodies.hpp>
+#include <weft/fast_solver/node_constraints.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -25,8 +27,17 @@ class BackedNodes {
   };
 
   void find(std::span<const RigidContact> contacts, const btSoftBody& body);
+  /// [m] Behind which a plane holds nothing: those of contacts that are replaced are moved back by so much.
+  static constexpr btScalar kFarAway = 1000;
   /// Ascending by node.
   [[nodiscard]] const std::vector<Backing>& all() const { return backings_; }
+  /// The springs of the surfaces behind, in order. planes: of the same contacts. starts: q [m], counted from the origin as planes.
+  /// inertia_step: h' [s]. is_again: the step has been solved before; if not, the bodies' guesses become where nodes stop them.
+  void make_supports(std::span<const RigidContact> contacts,
+                     std::span<const fast::PlaneContact<btScalar>> planes,
+                     const Matrix3X<btScalar>& starts, const Vector3<btScalar>& origin,
+                     btScalar inertia_step, bool is_again, CoupledBodies& pushed,
+                     std::vector<fast::NodeSupport<btScalar>>& supports) const;
   /// How many nodes an object presses.
   [[nodiscard]] int num_pressed_by(const btCollisionObject& object) const;
   [[nodiscard]] bool is_behind(std::size_t contact) const {

@@ -181,7 +181,6 @@ class FastBody : public NodeTeam {
   void read_prediction(const btSoftBody& body);
   [[nodiscard]] btVector3 in_world(int node) const;
   void read_constraints(const btSoftBody& body, btScalar time_step, bool is_again);
-  void read_supports(bool is_again);
   void move_pins_evenly();
   /// Whether a node is between two surfaces that press on each other.
   [[nodiscard]] bool is_between(int node) const { return pinches_.has(node) || backed_.has(node); }

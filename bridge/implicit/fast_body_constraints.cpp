@@ -14,19 +14,12 @@ Vector3<btScalar> lever_arm(const MovableObject& object, const btVector3& point)
   return from_bullet<btScalar>(point - object.center());
 }
 
-/// [m] Behind which a plane holds nothing.
-constexpr btScalar kFarAway = 1000;
 /// How far below its plane a node may end a step, as a share of the margin [-].
 constexpr btScalar kDepthShare = btScalar(0.5);
 /// By how much a plane may be wrong where the node has come to, as a share of the margin [-].
 constexpr btScalar kPlaneShare = btScalar(0.02);
 /// Planes whose normals have this cosine at least are alike: 8 degrees.
 constexpr btScalar kAlike = btScalar(0.99);
-/// The frequency of a body on what backs the nodes that it presses, critically damped [rad/s]: its weight sinks in by 0.1 mm, in
-/// steps of any length, and an impact of 10 m/s by 12 mm. A stiffer one would be lost in the rounding of positions.
-constexpr btScalar kBackingFrequency = 300;
-/// How fast a body that a step begins inside of what is behind the cloth is pushed out at most [m/s].
-constexpr btScalar kFastestRecovery = btScalar(0.1);
 
 }  // namespace
 
@@ -208,7 +201,7 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     plane.friction = body.m_cfg.kDF * (contact.object->getFriction() + pinches_.other_friction(c));
     plane.squeeze = pinches_.squeeze_of(c);
     const bool is_replaced = pinches_.is_replaced(c) || backed_.is_behind(c);
-    plane.offset -= is_replaced ? kFarAway : pinches_.depth_of(c);
+    plane.offset -= is_replaced ? BackedNodes::kFarAway : pinches_.depth_of(c);
     const MovableObject object{contact.object};
     if (object && !pinches_.has(contact.node)) {
       plane.body = pushed_.number_of(object, body.m_worldInfo->m_dispatcher, time_step, is_again);
@@ -223,7 +216,8 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     }
     plane_contacts_.push_back(plane);
   }
-  read_supports(is_again);
+  backed_.make_supports(contacts_, plane_contacts_, starts_, origin_, inertia_step_, is_again,
+                        pushed_, supports_);
   kinematic_.clear();
   for_anchors(body, [&](const NodeAnchor& anchor) {
     if (!is_free_[static_cast<std::size_t>(anchor.node)]) return;
@@ -245,46 +239,6 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     kinematic_.push_back(led);
   });
   pushed_.couple_links();
-}
-
-void FastBody::read_supports(bool is_again) {
-  supports_.clear();
-  for (const BackedNodes::Backing& backing : backed_.all()) {
-    const RigidContact& behind = contacts_[static_cast<std::size_t>(backing.behind)];
-    const fast::PlaneContact<btScalar>& plane =
-        plane_contacts_[static_cast<std::size_t>(backing.behind)];
-    const fast::PlaneContact<btScalar>& pressing =
-        plane_contacts_[static_cast<std::size_t>(backing.contact)];
-    const btScalar mass =
-        pushed_.inertias()[static_cast<std::size_t>(pressing.body)].mass.minCoeff();
-    const auto num_nodes = static_cast<btScalar>(
-        backed_.num_pressed_by(*contacts_[static_cast<std::size_t>(backing.contact)].object));
-    fast::NodeSupport<btScalar> support;
-    support.node = backing.node;
-    support.normal = plane.normal;
-    support.motion = plane.motion;
-    const btScalar spring = kBackingFrequency * kBackingFrequency;
-    const btScalar damper = 2 * kBackingFrequency / inertia_step_;
-    support.stiffness = (spring + damper) * mass / num_nodes;
-    support.friction = plane.friction;
-    support.body = plane.body;
-    support.lever_arm = plane.lever_arm;
-    support.offset = behind.offset - plane.normal.dot(origin_);
-    const auto depth_at_start = [&](const fast::PlaneContact<btScalar>& one, btScalar offset) {
-      const btScalar gap = one.normal.dot(starts_.col(one.node) + one.motion) - offset;
-      return std::max(btScalar(0), -gap);
-    };
-    const btScalar depth =
-        depth_at_start(plane, support.offset) + depth_at_start(pressing, pressing.offset);
-    const btScalar recovered = spring / (spring + damper) * depth;
-    support.offset -= depth - std::min(recovered, kFastestRecovery * inertia_step_);
-    supports_.push_back(support);
-    // A body that has been moved on through the node comes to where it meets it.
-    const Vector3<btScalar> start = starts_.col(backing.node) + plane.motion;
-    const btScalar gap = pressing.normal.dot(start) - pressing.offset;
-    if (!is_again && gap < 0)
-      pushed_.add_to_guess(pressing.body, gap / num_nodes * pressing.normal);
-  }
 }
 
 void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {

@@ -235,7 +235,7 @@ void ImplicitSolver<Scalar>::update_supports(const StepProblem<Scalar>& problem,
     set_friction(contact, slip_of(contact, at_node(positions_, i), &Body::motion).norm());
   }
   evaluate();
-  energy_before_step_ = energy(problem, positions_, &Body::motion);
+  energy_before_ = energy(problem, positions_, &Body::motion);
 }
 
 // The error of stiff springs' forces that rounded positions cause [N].

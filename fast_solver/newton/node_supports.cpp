@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <Eigen/LU>
+
 namespace weft::fast {
 namespace {
 
@@ -15,6 +17,16 @@ template <class Scalar>
 void NodeSupports<Scalar>::load(std::span<const NodeSupport<Scalar>> given) {
   given_ = given;
   states_.assign(given.size(), {});
+}
+
+template <class Scalar>
+void NodeSupports<Scalar>::lift(const NodeArrays<Scalar>& starts,
+                                NodeArrays<Scalar>& positions) const {
+  for (const NodeSupport<Scalar>& one : given_) {
+    const Vector3<Scalar> fall =
+        at_node(positions, one.node) - at_node(starts, one.node) - one.motion;
+    positions.row(one.node) -= std::min(Scalar(0), one.normal.dot(fall)) * one.normal.transpose();
+  }
 }
 
 template <class Scalar>
@@ -122,6 +134,37 @@ void NodeSupports<Scalar>::add_products(const NodeArrays<float>& displacements,
     Floats6& sum = bodies[at(one.body)].*body_product;
     sum.template head<3>() -= force;
     sum.template tail<3>() -= lever_arm.cross(force);
+  }
+}
+
+template <class Scalar>
+void NodeSupports<Scalar>::add_reactions(const NodeArrays<Scalar>& positions,
+                                         const NodeArrays<Scalar>& starts,
+                                         std::vector<Body>& bodies, Floats6 Body::*result) const {
+  for (std::size_t k = 0; k < given_.size(); ++k) {
+    const NodeSupport<Scalar>& one = given_[k];
+    if (one.body < 0) continue;
+    const Vector3<float> force = force_of(k, positions, starts, bodies).template cast<float>();
+    Floats6& sum = bodies[at(one.body)].*result;
+    sum.template head<3>() -= force;
+    sum.template tail<3>() -= one.lever_arm.template cast<float>().cross(force);
+  }
+}
+
+template <class Scalar>
+void NodeSupports<Scalar>::invert_blocks(const BlockArrays& given, const VectorX<float>& inertia,
+                                         float factor, BlockArrays& inverse) const {
+  for (std::size_t k = 0; k < given_.size();) {
+    const int i = given_[k].node;
+    Matrix3<float> block;
+    block << given(i, 0), given(i, 3), given(i, 5), given(i, 3), given(i, 1), given(i, 4),
+        given(i, 5), given(i, 4), given(i, 2);
+    block.diagonal().array() += inertia[i];
+    for (; k < given_.size() && given_[k].node == i; ++k) block += stiffness_of(k);
+    const Matrix3<float> result = factor * block.inverse();
+    if (!result.allFinite()) continue;
+    inverse.row(i) << result(0, 0), result(1, 1), result(2, 2), result(0, 1), result(1, 2),
+        result(2, 0);
   }
 }
 

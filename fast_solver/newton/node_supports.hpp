@@ -27,6 +27,9 @@ class NodeSupports {
   /// given: ascending by node, and valid until the next load().
   void load(std::span<const NodeSupport<Scalar>> given);
   [[nodiscard]] bool empty() const { return given_.empty(); }
+  /// Takes the fall of nodes behind their surfaces from the initial guess: predicted deep in what backs them, they would seem to
+  /// be pressed by many times the weight of the body.
+  void lift(const NodeArrays<Scalar>& starts, NodeArrays<Scalar>& positions) const;
   [[nodiscard]] std::span<const NodeSupport<Scalar>> all() const { return given_; }
 
   /// Bounds of friction by the present forces, and the least slip with full friction by what resists the motion of each node:
@@ -66,10 +69,17 @@ class NodeSupports {
   void add_products(const NodeArrays<float>& displacements, Floats6 Body::*motion,
                     NodeArrays<float>& product, std::vector<Body>& bodies,
                     Floats6 Body::*body_product) const;
+  /// Takes the forces on nodes from those of bodies behind them.
+  void add_reactions(const NodeArrays<Scalar>& positions, const NodeArrays<Scalar>& starts,
+                     std::vector<Body>& bodies, Floats6 Body::*result) const;
+  /// The inverse blocks of nodes with supports, times a factor. given: without inertia and supports.
+  void invert_blocks(const BlockArrays& given, const VectorX<float>& inertia, float factor,
+                     BlockArrays& inverse) const;
+
+ private:
   /// The stiffness along and across the normal, of the present state [N/m].
   [[nodiscard]] Matrix3<float> stiffness_of(std::size_t support) const;
 
- private:
   struct State {
     Scalar push = 0;        ///< along the normal at the last update [N]
     Scalar change = 0;      ///< since the update before [N]

@@ -129,15 +129,7 @@ void ImplicitSolver<Scalar>::find_body_residuals(Floats6 Body::*result) {
   for (Body& body : bodies_) body.*result = body.inertia * body.motion.template cast<float>();
   couplings_.add_forces(bodies_, &Body::motion, result);
   for (Body& body : bodies_) body.*result = -(body.*result);
-  for (std::size_t k = 0; k < supports_.all().size(); ++k) {
-    const NodeSupport<Scalar>& support = supports_.all()[k];
-    if (support.body < 0) continue;
-    const Vector3<float> force =
-        supports_.force_of(k, positions_, start_positions_, bodies_).template cast<float>();
-    Floats6& sum = bodies_[at(support.body)].*result;
-    sum.template head<3>() -= force;
-    sum.template tail<3>() -= support.lever_arm.template cast<float>().cross(force);
-  }
+  supports_.add_reactions(positions_, start_positions_, bodies_, result);
   for (const BodyLink& link : links_) {
     const Vector3<Scalar> normal = link.normal.template cast<Scalar>();
     Vector3<Scalar> force = at_node(residual_forces_, link.node);
