@@ -1,6 +1,7 @@
 #include <weft/bridge/cloth.hpp>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
@@ -115,6 +116,11 @@ std::optional<std::string> Cloth::replace(const std::vector<forces::LawSpecifica
   if (!attachment.source)
     return "nobody knows the mesh of the body: it was attached with a LawSet, or has torn";
   const std::shared_ptr<const LawSource> source = attachment.source;  // of which another is made
+  if (source->mesh.num_nodes() != body_->m_nodes.size()) {
+    return "the body has " + std::to_string(body_->m_nodes.size()) +
+           " nodes since the last step, expected the " + std::to_string(source->mesh.num_nodes()) +
+           " of its mesh";
+  }
   const LinksOfMesh links(*body_, source->mesh);
   PositionLimits limits = attachment.limits;
   solver_->replace_laws(*body_, source->mesh, laws);

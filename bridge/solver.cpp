@@ -1,6 +1,7 @@
 #include <weft/bridge/solver.hpp>
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -195,7 +196,12 @@ std::vector<NodeContact> SoftBodySolver::rigid_contacts(const btSoftBody& body) 
   }
   for (int i = 0; i < body.m_rcontacts.size(); ++i) {
     const btSoftBody::RContact& contact = body.m_rcontacts[i];
-    const auto node = static_cast<int>(contact.m_node - &body.m_nodes[0]);
+    // Nodes that the program has added since the step have moved all of them, and left this pointer behind.
+    const btSoftBody::Node* const first = &body.m_nodes[0];
+    const std::less<> is_before;
+    if (is_before(contact.m_node, first) || !is_before(contact.m_node, first + body.m_nodes.size()))
+      continue;
+    const auto node = static_cast<int>(contact.m_node - first);
     const btSoftBody::sCti& met = contact.m_cti;
     contacts.push_back({node, met.m_colObj, met.m_normal,
                         btDot(contact.m_node->m_x, met.m_normal) + met.m_offset});

@@ -49,10 +49,12 @@ void ImplicitSolver<Scalar>::load(const StepProblem<Scalar>& problem,
     positions_.row(kinematic.node) = kinematic.position.transpose();
   }
   load_bodies(problem);
+  supports_.load(problem.supports);
   follow_kinematic(problem);
   for (const KinematicNode<Scalar>& kinematic : problem.kinematic) {
     if (kinematic.body >= 0) positions_.row(kinematic.node) = position_of(kinematic).transpose();
   }
+  if (!problem.continues) supports_.lift(start_positions_, positions_);
   const auto stride = static_cast<int>(weights_.size());
   step_energy_ =
       0.5 * sum_over_parts([&](NodeRange nodes) {
@@ -95,6 +97,7 @@ void ImplicitSolver<Scalar>::evaluate(bool linearizes) {
         for (int i = nodes.begin; step_force_law_ != nullptr && i < nodes.end; ++i) {
           if (i < num_nodes()) residual_forces_.row(i) += step_forces_.col(i).transpose();
         }
+        supports_.add_forces(nodes, positions_, start_positions_, bodies_, residual_forces_);
         for (const int node : in_range(pinned_, nodes)) residual_forces_.row(node).setZero();
         return Eigen::Array2d(sums.dot(residual_forces_.data(), step_.data(), stride, nodes),
                               sums.squares(residual_forces_.data(), stride, nodes));
@@ -118,7 +121,7 @@ template <class Next>
 void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body::*motion,
                                       Floats& product, Floats6 Body::*body_product,
                                       const Next& and_then) {
-  const bool is_linked = !links_.empty();
+  const bool is_linked = !links_.empty() || !supports_.empty();
   const auto finish = [this, &product, and_then](NodeRange nodes, int part) {
     project(nodes, product);
     and_then(nodes, part);
@@ -130,6 +133,7 @@ void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body:
   for (Body& body : bodies_) body.*body_product = body.inertia * (body.*motion);
   couplings_.add_forces(bodies_, motion, body_product);
   if (!is_linked) return;
+  supports_.add_products(displacements, motion, product, bodies_, body_product);
   gather(links_, product, bodies_, body_product);
   add_drags(links_, drag_, displacements, motion, product, bodies_, body_product);
   team_->run(parts_.count(), [this, finish](int part) { finish(parts_[part], part); });
@@ -194,6 +198,7 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
                                   static_cast<int>(blocks_.rows()), nodes,
                                   forces_.diagonal_blocks().data(), blocks_.data());
   });
+  supports_.invert_blocks(forces_.diagonal_blocks(), system_inertia_, kSmoothing, blocks_);
   for (const BodyLink& link : links_) {
     if (link.is_dragged) system_inertia_[link.node] = inertia_[link.node];  // add_drags() has it
   }
@@ -221,18 +226,23 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
     moves_held = true;
   }
   find_body_residuals(&Body::residual);
+  for (Body& body : bodies_) body.coarse_product.setZero();
+  if (moves_held) {
+    team_->run(parts_.count(),
+               [this](int part) { forces_.multiply(parts_[part], system_inertia_, step_, work_); });
+    for (Body& body : bodies_) body.correction.setZero();
+    supports_.add_products(step_, &Body::correction, work_, bodies_, &Body::coarse_product);
+  }
   team_->run(parts_.count(), [this, moves_held](int part) {
     const NodeRange nodes = parts_[part];
+    const int count = nodes.end - nodes.begin;
     if (moves_held) {
-      const int count = nodes.end - nodes.begin;
-      forces_.multiply(nodes, system_inertia_, step_, work_);
       residual_vector_.middleRows(nodes.begin, count) -= work_.middleRows(nodes.begin, count);
     }
     project(nodes, residual_vector_);
     smooth(part);
   });
-  if (!moves_held || links_.empty()) return;
-  for (Body& body : bodies_) body.coarse_product.setZero();
+  if (!moves_held || (links_.empty() && supports_.empty())) return;
   gather(links_, work_, bodies_, &Body::coarse_product);
   for (Body& body : bodies_) body.residual -= body.coarse_product;
 }

@@ -16,6 +16,7 @@
 #include <weft/fast_solver/newton/body_links.hpp>
 #include <weft/fast_solver/newton/direction_weights.hpp>
 #include <weft/fast_solver/newton/newton_iteration.hpp>
+#include <weft/fast_solver/newton/node_supports.hpp>
 #include <weft/fast_solver/solver_report.hpp>
 #include <weft/fast_solver/solver_settings.hpp>
 #include <weft/fast_solver/step_problem.hpp>
@@ -82,6 +83,10 @@ class ImplicitSolver : TeamLoops {
   [[nodiscard]] std::pair<int, ContactState> contact_of(std::size_t node) const {
     return {contact_of_[node], contact_states_[node]};
   }
+  /// After solve(): the force of one of the problem's supports on its node [N].
+  [[nodiscard]] Vector3<Scalar> support_force(std::size_t support) const {
+    return supports_.force_of(support, positions_, start_positions_, bodies_);
+  }
   /// After solve(): the generalized displacement of a two-way coupled body relative to its motion without the cloth: translation of
   /// its center [m] and rotation about it [rad]. The force on the body is (inertia + held) motion / h'^2.
   [[nodiscard]] Vector6 body_motion(int body) const {
@@ -136,6 +141,7 @@ class ImplicitSolver : TeamLoops {
                                         Vector6 Body::*motion) const;
   [[nodiscard]] Scalar largest_stiffness(int node) const;
   void update_friction(const StepProblem<Scalar>& problem);
+  void update_supports(const StepProblem<Scalar>& problem, const NewtonIteration& iteration);
   void set_system_inertia();
   void decide_contact_state(const PlaneContact<Scalar>& contact, const NewtonIteration& iteration);
   void list_constrained();
@@ -210,6 +216,7 @@ class ImplicitSolver : TeamLoops {
   std::vector<BodyLink> links_;
   std::vector<Body> bodies_;
   BodyCouplings<Scalar> couplings_;
+  NodeSupports<Scalar> supports_;
   std::vector<int> linked_blocks_;   ///< blocks of nodes that are linked to one body
   VectorX<float> inertia_;           ///< m / h'^2 [N/m]; 0 for pinned nodes; padded with zeros
   VectorX<float> system_inertia_;    ///< inertia_ plus the drag of friction
@@ -240,6 +247,7 @@ class ImplicitSolver : TeamLoops {
   bool has_direction_ = false;   ///< direction_ holds the one before corrections_[0]
   double work_left_ = 0;         ///< residual_forces_ . step_ [J]
   double residual_squares_ = 0;  ///< squared norm of residual_forces_ [N^2]
+  double energy_before_ = 0;     ///< the incremental potential before an iteration [J]
   double work_done_ = 0;         ///< work_left_ before the step was taken [J]
   LinearGain last_gain_;         ///< gain of the last iteration
   LinearGains gains_;            ///< of the last linear solve

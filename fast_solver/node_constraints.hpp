@@ -49,6 +49,19 @@ struct PlaneContact {
   Vector3<Scalar> lever_arm = Vector3<Scalar>::Zero();  ///< from the body's center to the node [m]
 };
 
+/// A surface behind a node that a rigid body presses on it: a spring along its normal, which only pushes, with Coulomb friction.
+template <class Scalar>
+struct NodeSupport {
+  int node = 0;
+  Vector3<Scalar> normal = Vector3<Scalar>::Zero();  ///< unit vector out of the surface
+  Scalar offset = 0;  ///< [m] it pushes where normal . x < offset at the end of the step
+  Vector3<Scalar> motion = Vector3<Scalar>::Zero();  ///< for the surface there during the step [m]
+  Scalar stiffness = 0;                              ///< [N/m], > 0
+  Scalar friction = 0;                               ///< Coulomb coefficient [-], >= 0
+  int body = -1;                                     ///< as of a PlaneContact
+  Vector3<Scalar> lever_arm = Vector3<Scalar>::Zero();  ///< from the body's center to the node [m]
+};
+
 /// A node with a prescribed position at the end of a step.
 template <class Scalar>
 struct KinematicNode {

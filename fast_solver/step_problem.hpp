@@ -43,6 +43,7 @@ struct StepProblem {
   /// The step was solved before: positions are the solution, and contacts are the same, with other planes or more of them behind.
   bool continues = false;
   std::span<const InertiaCoupling<Scalar>> couplings = {};  ///< between two of bodies
+  std::span<const NodeSupport<Scalar>> supports = {};       ///< ascending by node
 };
 
 }  // namespace weft::fast

@@ -9,7 +9,9 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 
 #include <weft/bridge/adoption/suitable_body.hpp>
+#include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/classic/node_state.hpp>
+#include <weft/bridge/implicit/node_prediction.hpp>
 #include <weft/core/trace.hpp>
 
 namespace weft::bridge {
@@ -109,6 +111,7 @@ bool SoftBodySolver::Attachment::collide(const btCollisionObjectWrapper& object,
 
 void SoftBodySolver::Attachment::predict(btScalar time_step) {
   follow_masses();
+  if (!blow_up) blow_up = blow_up_by_pressure(*body, time_step, kMaxSpeed);
   if (blow_up) return;
   // The program may have done since what attach() and attach_fast() refuse.
   if (fast) {
@@ -123,6 +126,7 @@ void SoftBodySolver::Attachment::predict(btScalar time_step) {
   const auto predict_fast = [&] {
     fast->predict(*body, time_step, positions, velocities);
     if (is_measured_anew) links.restore(*body);
+    check_prediction();
   };
   const bool fits = masses().size() == body->m_nodes.size();  // if not, the laws say so
   if (fast && fits) {
@@ -135,6 +139,23 @@ void SoftBodySolver::Attachment::predict(btScalar time_step) {
   }
   add_forces(time_step);
   if (fast && !blow_up) predict_fast();
+}
+
+// Bullet adds wind, pressure and volume on its own, and divides by areas and volumes that may be none.
+void SoftBodySolver::Attachment::check_prediction() {
+  if (is_plain(*body)) return;
+  const auto is_fine = [&](int i) {
+    const btSoftBody::Node& node = body->m_nodes[i];
+    return std::isfinite(node.m_x.length2()) && std::isfinite(node.m_v.length2());
+  };
+  int first = 0;
+  while (first < body->m_nodes.size() && is_fine(first)) ++first;
+  if (first == body->m_nodes.size()) return;
+  blow_up = BodyBlowUp{first, "velocity is not finite after forces of Bullet's own (m_cfg)"};
+  for (int i = 0; i < body->m_nodes.size(); ++i) {
+    body->m_nodes[i].m_x = body->m_nodes[i].m_q;
+    body->m_nodes[i].m_v = to_bullet(velocities.col(i).eval());
+  }
 }
 
 // add_forces() by the threads that work on the body, each on its own nodes, which are in its cache. False if something

@@ -93,6 +93,7 @@ struct SoftBodySolver::Attachment {
   bool collide(const btCollisionObjectWrapper& object, HullTable& hulls, btScalar time_step);
   /// Forces, and what FastBody does with them.
   void predict(btScalar time_step);
+  void check_prediction();
   void add_forces(btScalar time_step);
   [[nodiscard]] bool add_forces_node_by_node(btScalar time_step);
   void begin_forces();

@@ -151,5 +151,24 @@ std::optional<BodyBlowUp> predicted_blow_up(const btSoftBody& body,
   return std::nullopt;
 }
 
+std::optional<BodyBlowUp> blow_up_by_pressure(const btSoftBody& body, btScalar time_step,
+                                              double max_speed) {
+  if (body.m_cfg.kPR == 0 || body.m_faces.size() == 0) return std::nullopt;
+  const auto volume = static_cast<double>(btFabs(body.getVolume()));
+  const double pressure = std::abs(static_cast<double>(body.m_cfg.kPR)) / volume;
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    const btSoftBody::Node& node = body.m_nodes[i];
+    if (node.m_im <= 0) continue;
+    const double speed = pressure * static_cast<double>(node.m_area * node.m_im * time_step);
+    if (speed <= max_speed) continue;
+    char text[128];
+    std::snprintf(text, sizeof text,
+                  "pressure, m_cfg.kPR = %.3g over a volume of %.3g m^3, gives it %.3g m/s",
+                  static_cast<double>(body.m_cfg.kPR), volume, speed);
+    return BodyBlowUp{i, text};
+  }
+  return std::nullopt;
+}
+
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

@@ -61,6 +61,11 @@ class FollowedMasses {
   std::vector<btScalar> inverse_masses_;  ///< m_im when it was looked at last [1/kg]
 };
 
+/// Bullet's own pressure (m_cfg.kPR) in a body whose volume is next to nothing, an open sheet that lies flat, makes velocities
+/// that are infinite or not a number.
+[[nodiscard]] std::optional<BodyBlowUp> blow_up_by_pressure(const btSoftBody& body,
+                                                            btScalar time_step, double max_speed);
+
 /// The first of some nodes whose speed [m/s] after time_step [s] under forces [N] is not finite or over
 /// max_speed [m/s]; pinned nodes count with the velocity they have.
 [[nodiscard]] std::optional<BodyBlowUp> predicted_blow_up(const btSoftBody& body,

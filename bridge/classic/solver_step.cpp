@@ -45,6 +45,7 @@ void SoftBodySolver::predictMotion(btScalar time_step) {
       publish_bounds(body);
     } else {
       body.predictMotion(time_step);
+      if (attachment) attachment->check_prediction();
     }
     if (attachment) attachment->is_moving = true;
   }

@@ -312,7 +312,7 @@ void FastBody::solve(btSoftBody& body, btScalar time_step,
   const bool is_bending = method_ != Method::kExplicit && !bending_.empty();
   active_solver().solve(
       {targets_, starts_, time_step, inertia_step_, plane_contacts_, kinematic_, pushed_.inertias(),
-       is_bending ? &bending_ : nullptr, is_again, pushed_.couplings()},
+       is_bending ? &bending_ : nullptr, is_again, pushed_.couplings(), supports_},
       solver_settings, positions_, team_);
   pushed_.read_displacements(active_solver(), time_step);
 }

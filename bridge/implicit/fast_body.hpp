@@ -10,6 +10,7 @@
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/classic/node_normals.hpp>
+#include <weft/bridge/contact/backed_nodes.hpp>
 #include <weft/bridge/contact/pinch.hpp>
 #include <weft/bridge/contact/rigid_contacts.hpp>
 #include <weft/bridge/fast_settings.hpp>
@@ -180,6 +181,9 @@ class FastBody : public NodeTeam {
   void read_prediction(const btSoftBody& body);
   [[nodiscard]] btVector3 in_world(int node) const;
   void read_constraints(const btSoftBody& body, btScalar time_step, bool is_again);
+  void move_pins_evenly();
+  /// Whether a node is between two surfaces that press on each other.
+  [[nodiscard]] bool is_between(int node) const { return pinches_.has(node) || backed_.has(node); }
   void exchange_impulses(btSoftBody& body, btScalar time_step);
   void project_out_of_missed_colliders(btSoftBody& body, btScalar time_step);
   void project_out_of_planes();
@@ -214,6 +218,7 @@ class FastBody : public NodeTeam {
   // The whole step, while it is divided into substeps.
   Matrix3X<btScalar> whole_starts_;   ///< [m]
   Matrix3X<btScalar> accelerations_;  ///< without springs [m/s^2]
+  Matrix3X<btScalar> pin_starts_;     ///< of pins_ in the world, at the end of the step before [m]
   std::vector<btVector3> pin_ends_;   ///< of pins_, at the end [m]
   btScalar time_left_ = 0;            ///< [s] behind the present substep
   // The step before.
@@ -250,7 +255,9 @@ class FastBody : public NodeTeam {
   std::vector<fast::PlaneContact<btScalar>> plane_contacts_;
   std::vector<fast::KinematicNode<btScalar>> kinematic_;
   CoupledBodies pushed_;
+  std::vector<fast::NodeSupport<btScalar>> supports_;
   Pinches pinches_;
+  BackedNodes backed_;
   StickingPoints sticking_points_;
   LedLinks led_links_;
   std::vector<int> scratch_;  ///< kept for its memory

@@ -14,8 +14,6 @@ Vector3<btScalar> lever_arm(const MovableObject& object, const btVector3& point)
   return from_bullet<btScalar>(point - object.center());
 }
 
-/// [m] Behind which a plane holds nothing.
-constexpr btScalar kFarAway = 1000;
 /// How far below its plane a node may end a step, as a share of the margin [-].
 constexpr btScalar kProjectedShare = btScalar(0.5);
 /// By how much a plane may be wrong where the node has come to, as a share of the margin [-].
@@ -101,6 +99,7 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
   bool is_any_wrong = false;
   for (RigidContact& found : found_) {
     if (pinches_.has(found.node)) continue;
+    if (backed_.has(found.node) && !MovableObject(found.object)) continue;
     const btVector3& position = body.m_nodes[found.node].m_x;
     const btScalar gap = btDot(found.normal, position) - found.offset;
     const MovableObject object{found.object};
@@ -132,7 +131,7 @@ void FastBody::project_out_of_missed_colliders(btSoftBody& body, btScalar time_s
   const std::size_t num_solved = contacts_.size();
   for (int look = 0; look <= kMostRedetections && find_missed_contacts(body, time_step); ++look) {
     for (const RigidContact& contact : contacts_) {
-      if (MovableObject(contact.object) || pinches_.has(contact.node)) continue;
+      if (MovableObject(contact.object) || is_between(contact.node)) continue;
       is_projected_ = true;
       if (look == kMostRedetections && &contact >= &contacts_[num_solved]) {  // between two facets
         positions_.col(contact.node) =
@@ -163,7 +162,7 @@ void FastBody::project_out_of_planes() {
 // Other cloth may have pushed nodes into what does not move.
 void FastBody::project_out_of_colliders(btSoftBody& body) const {
   for (const RigidContact& contact : contacts_) {
-    if (MovableObject(contact.object) || pinches_.has(contact.node)) continue;
+    if (MovableObject(contact.object) || is_between(contact.node)) continue;
     btSoftBody::Node& node = body.m_nodes[contact.node];
     const btScalar gap = btDot(contact.normal, node.m_x) - contact.offset;
     if (gap < 0 && node.m_im > 0) node.m_x -= gap * contact.normal;
@@ -191,6 +190,7 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
   pushed_.clear();
   plane_contacts_.clear();
   pinches_.find(contacts_, body, body.m_sst.sdt);
+  backed_.find(contacts_, body);
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const RigidContact& contact = contacts_[c];
     fast::PlaneContact<btScalar> plane;
@@ -200,7 +200,8 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     plane.motion = from_bullet<btScalar>(contact.motion);
     plane.friction = body.m_cfg.kDF * (contact.object->getFriction() + pinches_.other_friction(c));
     plane.squeeze = pinches_.squeeze_of(c);
-    plane.offset -= pinches_.is_replaced(c) ? kFarAway : pinches_.depth_of(c);
+    const bool is_replaced = pinches_.is_replaced(c) || backed_.is_behind(c);
+    plane.offset -= is_replaced ? BackedNodes::kFarAway : pinches_.depth_of(c);
     const MovableObject object{contact.object};
     if (object && !pinches_.has(contact.node)) {
       plane.body = pushed_.number_of(object, body.m_worldInfo->m_dispatcher, time_step, is_again);
@@ -215,6 +216,8 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     }
     plane_contacts_.push_back(plane);
   }
+  backed_.make_supports(contacts_, plane_contacts_, starts_, origin_, inertia_step_, is_again,
+                        pushed_, supports_);
   kinematic_.clear();
   for_anchors(body, [&](const NodeAnchor& anchor) {
     if (!is_free_[static_cast<std::size_t>(anchor.node)]) return;
@@ -255,6 +258,10 @@ void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
                          solved_pose(object), in_world(contacts_[c].node));
   }
   sticking_points_.end_update();
+  for (std::size_t k = 0; k < supports_.size(); ++k) {
+    contacts_[static_cast<std::size_t>(backed_.all()[k].behind)].impulse =
+        whole_step * to_bullet(active_solver().support_force(k));
+  }
   pinches_.push_back(
       contacts_,
       [&](int node) -> btVector3 {

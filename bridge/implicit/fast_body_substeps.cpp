@@ -56,9 +56,18 @@ void FastBody::list_dynamic(const btSoftBody& body, std::vector<MovableObject>& 
   for_anchors(body, [&](const NodeAnchor& anchor) { add(anchor.object); });
 }
 
+// A program moves pinned nodes before a step. They go there during the step: all in the first substep would be a blow.
+void FastBody::move_pins_evenly() {
+  if (pins_.empty() || positions_.cols() != starts_.cols()) return;
+  const Matrix3X<btScalar> last = positions_(Eigen::all, pins_);
+  if (are_positions_kept()) starts_(Eigen::all, pins_) = last;
+}
+
 void FastBody::begin_substeps(const btSoftBody& body, btScalar time_step) {
   whole_starts_ = starts_;
+  move_pins_evenly();
   accelerations_ = (predicted_ - start_velocities_) / time_step;
+  pin_starts_ = starts_(Eigen::all, pins_).colwise() + origin_;
   pin_ends_.clear();
   for (const int pin : pins_) pin_ends_.push_back(body.m_nodes[pin].m_x);
   if (!bending_.empty()) bending_.begin_step(starts_);
@@ -90,7 +99,7 @@ void FastBody::begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int s
       node.m_x = to_bullet((starts_.col(i) + substep_time * predicted_.col(i) + origin_).eval());
   }
   for (std::size_t k = 0; k < pins_.size(); ++k) {
-    const btVector3 start = to_bullet((whole_starts_.col(pins_[k]) + origin_).eval());
+    const btVector3 start = to_bullet(pin_starts_.col(static_cast<Eigen::Index>(k)).eval());
     body.m_nodes[pins_[k]].m_x =
         substep + 1 == num_substeps ? pin_ends_[k] : start.lerp(pin_ends_[k], reached);
   }

@@ -39,6 +39,10 @@ class CoupledBodies {
   void couple_links();
   [[nodiscard]] bool empty() const { return bodies_.empty(); }
   [[nodiscard]] std::span<const fast::RigidInertia<btScalar>> inertias() const { return inertias_; }
+  /// The solution is expected to move a body by so much more [m].
+  void add_to_guess(int number, const Vector3<btScalar>& displacement) {
+    inertias_[static_cast<std::size_t>(number)].guess.template head<3>() += displacement;
+  }
   [[nodiscard]] std::span<const fast::InertiaCoupling<btScalar>> couplings() const {
     return couplings_;
   }

@@ -168,7 +168,12 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   friction_bounds_[i] = most;
   const Scalar resistance = std::max(inertia + largest_stiffness(i), Scalar(kLeastInertia));
   const bool is_foretold = is_first || did_stick || !(slipped > 0);
-  const Scalar expected = is_foretold ? (size - most) / resistance : slipped;
+  const Scalar foretold = (size - most) / resistance;
+  // Among pressed nodes that slide on, a drag for the slip of one alone would be many times its friction.
+  const bool slides_on = !supports_.empty() && !did_stick;
+  const Scalar expected = !is_foretold ? slipped
+                          : slides_on  ? std::max(slipped, foretold)
+                                       : foretold;
   set_friction(contact, expected);
 }
 
@@ -208,6 +213,27 @@ void ImplicitSolver<Scalar>::update_friction(const StepProblem<Scalar>& problem)
     if (is_on_link(contact)) continue;
     set_friction(contact, slip_of(contact, at_node(positions_, i), &Body::motion).norm());
   }
+}
+
+// Friction on the surfaces behind nodes, and on the bodies that press them there, by what these surfaces bear now: it may be
+// many times as much in one iteration as in the next.
+template <class Scalar>
+void ImplicitSolver<Scalar>::update_supports(const StepProblem<Scalar>& problem,
+                                             const NewtonIteration& iteration) {
+  supports_.update(positions_, start_positions_, bodies_, iteration.is_first, [&](int node) {
+    return std::max(Scalar(inertia_[node]) + largest_stiffness(node), Scalar(kLeastInertia));
+  });
+  for (std::size_t k = 0; k < supports_.all().size() && !iteration.decides; ++k) {
+    const int i = supports_.all()[k].node;
+    if (contact_of_[at(i)] < 0 || contact_states_[at(i)] != ContactState::kOnPlane) continue;
+    const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
+    if (is_on_link(contact)) continue;
+    friction_bounds_[i] =
+        std::max(Scalar(0), friction_bounds_[i] + contact.friction * supports_.change_of(k));
+    set_friction(contact, slip_of(contact, at_node(positions_, i), &Body::motion).norm());
+  }
+  evaluate();
+  energy_before_ = energy(problem, positions_, &Body::motion);
 }
 
 // The error of stiff springs' forces that rounded positions cause [N].

@@ -63,7 +63,8 @@ template <class Scalar>
 double ImplicitSolver<Scalar>::energy_of_contacts(const StepProblem<Scalar>& problem,
                                                   const Nodes& positions,
                                                   Vector6 Body::*motion) const {
-  double sum = couplings_.energy(bodies_, motion);
+  double sum = couplings_.energy(bodies_, motion) +
+               supports_.energy(positions, start_positions_, bodies_, motion);
   for (const Body& body : bodies_) {
     const Vector6& displacement = body.*motion;
     sum += 0.5 * static_cast<double>(
@@ -162,6 +163,7 @@ template <class Scalar>
 std::optional<Vector3<Scalar>> ImplicitSolver<Scalar>::net_momentum_correction(
     const StepProblem<Scalar>& problem) {
   if (!pinned_.empty() || links_.size() != constrained_.size()) return std::nullopt;
+  if (!supports_.empty()) return std::nullopt;
   for (const Body& body : bodies_) {
     if (body.is_linked && body.is_held) return std::nullopt;
   }

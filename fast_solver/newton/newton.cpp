@@ -23,6 +23,8 @@ constexpr LinearAccuracy kAccurate = {.forcing = 0.03, .delay = 0.5};
 /// How often contact states are decided in a step: in its first iterations, which find most of them, and at solutions.
 constexpr int kFirstDecisions = 2;
 constexpr int kMostDecisions = 8;
+/// Which nodes a body presses says how much each of them bears: they are decided together with its motion.
+constexpr int kFirstDecisionsWithSupports = kMostDecisions;
 /// The ratio of an iteration's gain to that of the one before: assumed for the first, and the upper bound.
 constexpr double kFirstShrink = 0.1;
 constexpr double kSlowest = 0.9;
@@ -62,12 +64,14 @@ LinearAccuracy accuracy_of(int iteration, bool has_contacts, double asked) {
 template <class Scalar>
 void ImplicitSolver<Scalar>::iterate_once(const StepProblem<Scalar>& problem,
                                           const NewtonIteration& iteration) {
+  save_positions();
   if (iteration.decides) {
     decide_contact_states(problem, iteration);
   } else {
     list_constrained();
     update_friction(problem);
   }
+  if (!supports_.empty()) update_supports(problem, iteration);
   set_system_inertia();
   if (iteration.is_first || iteration.factorizes) {
     const Scalar squared_step = problem.inertia_step * problem.inertia_step;
@@ -91,12 +95,12 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
                                      const SolverSettings& solver_settings) {
   const bool has_contacts = !problem.contacts.empty();
+  const int first_decisions = supports_.empty() ? kFirstDecisions : kFirstDecisionsWithSupports;
   const double asked = 2 * solver_settings.tolerance * solver_settings.tolerance * step_energy_;
   double before = 0;
-  double energy_before = 0;
+  energy_before_ = 0;
   std::array<double, kShrinksSeen> last_shrinks{};
-  double transverse = 0;
-  double rounding = 0;
+  double transverse = 0, rounding = 0;
   int num_stalled = 0;
   int num_decisions = 0;
   bool decides = true;
@@ -105,7 +109,6 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
   for (int iteration = 0; iteration < solver_settings.newton_iterations && !report_.is_converged;
        ++iteration) {
     report_.newton_iterations = iteration + 1;
-    save_positions();
     iterate_once(problem, {.iterations = solver_settings.linear_iterations,
                            .accuracy = accuracy_of(iteration, has_contacts, asked),
                            .is_first = iteration == 0,
@@ -116,11 +119,12 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     if (iteration == 0) rounding = kRoundings * gain_of_rounding();
     const bool are_contact_states_new = decides && (iteration == 0 || have_contact_states_changed_);
     const double now = energy(problem, positions_, &Body::motion);
-    if (!are_contact_states_new && !(now <= energy_before * (1 + kEnergyRounding) + asked)) {
+    if (!are_contact_states_new && !(now <= energy_before_ * (1 + kEnergyRounding) + asked)) {
       if (transverse == 1) {
         // With this linearization every spring gains. What is left is rounding, if that is all that the step could have gained.
         restore_positions();
-        const double least = std::max({rounding, asked, kEnergyRounding * std::abs(energy_before)});
+        const double least =
+            std::max({rounding, asked, kEnergyRounding * std::abs(energy_before_)});
         const bool is_decided = !has_contacts || num_decisions >= kMostDecisions;
         report_.is_converged = is_decided && !last_gain_.is_broken && last_gain_.total <= least;
         break;
@@ -132,8 +136,8 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
       decides = false;
       continue;
     }
-    const double lowered = has_contacts ? 0 : energy_before - now;
-    energy_before = now;
+    const double lowered = has_contacts ? 0 : energy_before_ - now;
+    energy_before_ = now;
     transverse = transverse > kFirstTransverse ? transverse / kTransverseGrowth : 0.0;
     forces_.set_least_transverse_stiffness(static_cast<Scalar>(transverse));
     const double shrinks = before > 0 ? last_gain_.total / before : kFirstShrink;
@@ -156,13 +160,13 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     report_.is_converged =
         is_solved && (!has_contacts || (decides && !are_contact_states_new) || !can_decide);
     if (is_over && !report_.is_converged && !can_decide) break;
-    decides = can_decide && ((iteration < kFirstDecisions && !problem.continues) || is_over);
+    decides = can_decide && ((iteration < first_decisions && !problem.continues) || is_over);
     if (decides) num_stalled = 0;
     before = last_gain_.total;
     if (are_contact_states_new) {
       anderson_.forget();
     } else if (!report_.is_converged && iteration + 1 < solver_settings.newton_iterations) {
-      energy_before = accelerate(problem, now);
+      energy_before_ = accelerate(problem, now);
     }
   }
   forces_.set_least_transverse_stiffness(0);

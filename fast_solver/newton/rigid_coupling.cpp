@@ -68,6 +68,9 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::release_bodies() {
   for (Body& body : bodies_) body.is_linked = false;
   for (const BodyLink& link : links_) bodies_[at(link.body)].is_linked = true;
+  for (const NodeSupport<Scalar>& support : supports_.all()) {
+    if (support.body >= 0) bodies_[at(support.body)].is_linked = true;
+  }
   couplings_.spread_links(bodies_);
   for (Body& body : bodies_) {
     if (!body.is_linked) body.motion.setZero();
@@ -92,11 +95,16 @@ void ImplicitSolver<Scalar>::factorize_bodies() {
     std::sort(linked_blocks_.begin(), linked_blocks_.end());
     linked_blocks_.erase(std::unique(linked_blocks_.begin(), linked_blocks_.end()),
                          linked_blocks_.end());
-    for (int k = 0; k < 6 && !linked_blocks_.empty(); ++k) {
+    const bool is_behind = std::any_of(
+        supports_.all().begin(), supports_.all().end(),
+        [&](const NodeSupport<Scalar>& one) { return one.body == static_cast<int>(b); });
+    for (int k = 0; k < 6 && (is_behind || !linked_blocks_.empty()); ++k) {
       body.correction = Floats6::Unit(k);
       add_carried(links_, bodies_, &Body::correction, correction);
       forces_.multiply(linked_blocks_, system_inertia_, correction, correction_product_);
       body.correction_product = body.inertia.col(k);
+      supports_.add_products(correction, &Body::correction, correction_product_, bodies_,
+                             &Body::correction_product);
       gather_carried(links_, static_cast<int>(b), correction_product_, body.correction_product);
       stiffness.col(k) = body.correction_product;
       for (const BodyLink& link : links_) correction.row(link.node).setZero();
@@ -115,6 +123,7 @@ void ImplicitSolver<Scalar>::find_body_residuals(Floats6 Body::*result) {
   for (Body& body : bodies_) body.*result = body.inertia * body.motion.template cast<float>();
   couplings_.add_forces(bodies_, &Body::motion, result);
   for (Body& body : bodies_) body.*result = -(body.*result);
+  supports_.add_reactions(positions_, start_positions_, bodies_, result);
   for (const BodyLink& link : links_) {
     const Vector3<Scalar> normal = link.normal.template cast<Scalar>();
     Vector3<Scalar> force = at_node(residual_forces_, link.node);

@@ -254,7 +254,9 @@ class Player {
         config.kLF = btScalar(between(0, 1));
         break;
       case 4:
-        if (body->soft->m_faces.size() > 0) config.kPR = btScalar(between(-1, 10));
+        // Bullet divides by the volume: bodies without one that it steps itself it shoots out of every range of numbers.
+        if (body->soft->m_faces.size() > 0 && body->soft->getVolume() > btScalar(0.1))
+          config.kPR = btScalar(between(-1, 10));
         break;
       case 5:
         config.piterations = 1 + below(5);

@@ -205,6 +205,27 @@ TEST(SolverChecks, ATimescaleThatExplicitLawsDoNotKnowIsReported) {
   EXPECT_THAT(world.solver().blow_up(body)->reason, HasSubstr("timescale = 0.5"));
 }
 
+// Bullet divides by the volume, which is none. Without a word its velocities are not numbers.
+TEST(SolverChecks, PressureInASheetThatLiesFlatIsReported) {
+  for (const bool is_fast : {false, true}) {
+    SoftWorld world({});
+    btSoftBody& body = world.add(make_cloth_body(world.info(), cloth(), {}));
+    if (is_fast) {
+      ASSERT_FALSE(world.solver().attach_fast(body, cloth(), {kSpring}));
+    } else {
+      world.solver().attach(body, cloth(), {kGravity});
+    }
+    body.m_cfg.kPR = 5;
+    world.step(kTimeStep);
+    ASSERT_TRUE(world.solver().blow_up(body)) << is_fast;
+    EXPECT_THAT(world.solver().blow_up(body)->reason,
+                AllOf(HasSubstr("m_cfg.kPR = 5"), HasSubstr("m^3")));
+    for (int i = 0; i < body.m_nodes.size(); ++i) {
+      EXPECT_TRUE(std::isfinite(body.m_nodes[i].m_x.length2() + body.m_nodes[i].m_v.length2()));
+    }
+  }
+}
+
 TEST(SolverChecks, LinksThatATensionLawStandsInForAreNoObstacle) {
   SoftWorld world({});
   btSoftBody& body =

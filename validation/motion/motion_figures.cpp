@@ -105,6 +105,25 @@ MotionScene hit_scene(Scene scene, double exact_step, double allowed) {
            energy_figure()}};
 }
 
+/// A body that is 10 cm high from its middle, over a table whose top is at 0: how far from where a cloth with margins to both holds it.
+double gap_at_end(const Scene& scene, const MotionFrames& frames) {
+  const auto last = static_cast<std::size_t>(num_frames(scene));
+  if (frames.size() <= last) return kNaN;
+  return frames[last].rigids[0].position.y() - 0.1 - 2 * scene.cloths[0].collision_margin;
+}
+
+/// The cloth between body and table bears the body's weight: margins give way by a tenth of a millimeter.
+MotionScene tablecloth_scene(Scene scene) {
+  const double end = scene.world.duration;
+  const auto speed = [](const SceneState& state) { return state.rigids[0].velocity.norm(); };
+  return {
+      std::move(scene),
+      1.0 / 8040,
+      {{"gap between body and table", "m", &gap_at_end, 1e-3, true, WrongMotion::kFrozen},
+       {"speed of the body at the end", "m/s", at(end, speed), 0.02, true, WrongMotion::kUntouched},
+       energy_figure()}};
+}
+
 MotionScene free_scene() {
   const auto along = [](const SceneState& state) { return state.rigids[0].velocity.y(); };
   return {ball_into_free_sheet({}),
@@ -215,6 +234,8 @@ std::vector<MotionScene> judged_motions() {
           trampoline_scene(),
           hit_scene(ball_into_flag(), 1.0 / 20040, 0.25),
           hit_scene(ball_into_net(), 1.0 / 60000, 1.0),
+          tablecloth_scene(box_on_tablecloth()),
+          tablecloth_scene(ball_onto_tablecloth()),
           free_scene()};
 }
 

@@ -150,6 +150,31 @@ Scene ball_on_trampoline(double duration) {
   return scene;
 }
 
+Scene box_on_tablecloth() {
+  Scene scene = scene_of("box_on_tablecloth", 2.0);
+  Cloth cloth = sheet(21, 0.8, {0, 0.01, 0});
+  cloth.friction = 0.3;
+  cloth.laws = {gravity(), tension(2000.0)};
+  Collider table = box({1.2, 0.1, 1.2}, {0, -0.05, 0});
+  table.name = "table";
+  Collider load = box({0.2, 0.2, 0.2}, {0.03, 0.13, 0.02});
+  load.mass = 1.0;
+  scene.cloths = {cloth};
+  scene.colliders = {load, table};
+  return scene;
+}
+
+Scene ball_onto_tablecloth() {
+  Scene scene = box_on_tablecloth();
+  scene.name = "ball_onto_tablecloth";
+  scene.world.duration = 0.5;
+  for (forces::LawSpecification& law : scene.cloths[0].laws) {
+    if (law.law == "tension") law.parameters.at("stiffness") = {20000.0};
+  }
+  scene.colliders[0] = ball(0.1, 2.0, {0.03, 0.22, 0.02}, {0, -1, 0});
+  return scene;
+}
+
 Scene ball_into_flag() {
   Scene scene = ball_into_hanging("ball_into_flag", 2000.0, 5.0);
   scene.cloths[0].pins = {scenes::EdgePin{1, 0}};

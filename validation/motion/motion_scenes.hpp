@@ -22,6 +22,10 @@ namespace weft::validation {
 [[nodiscard]] scenes::Scene sheet_over_narrow_box();
 /// A ball of 1 kg without friction in the middle of a sheet that is held all round; drag 20 1/s.
 [[nodiscard]] scenes::Scene ball_on_trampoline(double duration);
+/// A box of 1 kg that falls by 2 cm on a cloth that lies on a table, 2 s.
+[[nodiscard]] scenes::Scene box_on_tablecloth();
+/// A ball of 2 kg that comes down on such a cloth of 20 kN/m at 1 m/s, 0.5 s.
+[[nodiscard]] scenes::Scene ball_onto_tablecloth();
 /// A ball of 0.2 kg that flies at 5 m/s into a sheet of 0.2 kg that hangs from its upper edge, 0.5 s.
 [[nodiscard]] scenes::Scene ball_into_flag();
 /// The same at 20 m/s into a stiff net that is held all round.

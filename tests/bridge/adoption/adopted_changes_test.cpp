@@ -5,13 +5,17 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletSoftBody/btSoftBodyHelpers.h>
+
+#include <weft/custom_forces/typed_laws.hpp>
 
 #include "tests/bridge/bullet_scenes.hpp"
 #include "tests/bridge/rigid_objects.hpp"
@@ -130,6 +134,10 @@ TEST_F(AdoptedChanges, ASheetThatIsRefinedAndCutHangsInTwo) {
   CutPlane plane;
   sheet.refine(&plane, btScalar(1e-4), true);
   ASSERT_GT(sheet.m_nodes.size(), num_nodes);
+  const std::optional<std::string> refusal =
+      solver.cloth(sheet).set(laws::tension({.stiffness = 100.0}));
+  ASSERT_TRUE(refusal);
+  EXPECT_THAT(*refusal, ::testing::HasSubstr("nodes since the last step"));
   run(3);
   EXPECT_TRUE(solver.has_laws(sheet));
   EXPECT_LT(lowest(sheet), before - 0.3);  // its middle is not held from the other side any more

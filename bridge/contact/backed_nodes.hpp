@@ -1,0 +1,60 @@
+#pragma once
+
+// Tested by tests/bridge/implicit/cloth_between_test.cpp.
+
+#include <span>
+#include <vector>
+
+#include <BulletSoftBody/btSoftBody.h>
+
+#include <weft/bridge/bullet/precision.hpp>
+#include <weft/bridge/contact/rigid_contacts.hpp>
+#include <weft/bridge/rigid/coupled_bodies.hpp>
+#include <weft/fast_solver/node_constraints.hpp>
+
+namespace weft::bridge {
+inline namespace WEFT_BULLET_PRECISION {
+
+/// Nodes that a dynamic rigid body presses on another surface: a box on a tablecloth, a ball that comes down on a rug. The body
+/// must be held up by the other surface through the cloth. The solver has one constraint for a node, which is the body's; the
+/// other surface backs it (fast::NodeSupport). Fingers that are links of a multibody are Pinches.
+class BackedNodes {
+ public:
+  struct Backing {
+    int node = 0;
+    int contact = 0;  ///< with the body that presses: the solver's constraint
+    int behind = 0;   ///< with the surface behind, which replaces that constraint
+  };
+
+  void find(std::span<const RigidContact> contacts, const btSoftBody& body);
+  /// [m] Behind which a plane holds nothing: those of contacts that are replaced are moved back by so much.
+  static constexpr btScalar kFarAway = 1000;
+  /// Ascending by node.
+  [[nodiscard]] const std::vector<Backing>& all() const { return backings_; }
+  /// The springs of the surfaces behind, in order. planes: of the same contacts. starts: q [m], counted from the origin as planes.
+  /// inertia_step: h' [s]. is_again: the step has been solved before; if not, the bodies' guesses become where nodes stop them.
+  void make_supports(std::span<const RigidContact> contacts,
+                     std::span<const fast::PlaneContact<btScalar>> planes,
+                     const Matrix3X<btScalar>& starts, const Vector3<btScalar>& origin,
+                     btScalar inertia_step, bool is_again, CoupledBodies& pushed,
+                     std::vector<fast::NodeSupport<btScalar>>& supports) const;
+  /// How many nodes an object presses.
+  [[nodiscard]] int num_pressed_by(const btCollisionObject& object) const;
+  [[nodiscard]] bool is_behind(std::size_t contact) const {
+    return !is_behind_.empty() && is_behind_[contact] != 0;
+  }
+  [[nodiscard]] bool has(int node) const;
+
+ private:
+  struct Press {
+    const btCollisionObject* object;
+    int num_nodes;
+  };
+  std::vector<Backing> backings_;
+  std::vector<char> is_behind_;  ///< for each contact; empty: none
+  std::vector<int> order_;       ///< of contacts, ascending by node
+  std::vector<Press> presses_;
+};
+
+}  // namespace WEFT_BULLET_PRECISION
+}  // namespace weft::bridge

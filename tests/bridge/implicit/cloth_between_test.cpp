@@ -1,0 +1,173 @@
+// Fast cloth that lies between two bodies which press on each other: what it bears, with what friction, and that it gains nothing.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <gtest/gtest.h>
+
+#include "tests/bridge/fast_scene.hpp"
+
+namespace weft::bridge {
+namespace {
+
+constexpr double kGravityOfEarth = 9.81;  // [m/s^2]
+
+double speed_of(const btRigidBody& body) {
+  return static_cast<double>(body.getLinearVelocity().length());
+}
+
+double height_of(const btRigidBody& body) {
+  return static_cast<double>(body.getCenterOfMassPosition().y());
+}
+
+double energy_of(const btRigidBody& body) {
+  const auto mass = static_cast<double>(body.getMass());
+  return 0.5 * mass * speed_of(body) * speed_of(body) + mass * kGravityOfEarth * height_of(body);
+}
+
+/// A cloth of 0.2 kg on a table, whose top is as far below it as the margins of both are wide.
+class Table {
+ public:
+  explicit Table(double stiffness, double friction_of_table = 0.3)
+      : scene_(cloth(21, 0.8, 0, 0.2), {kGravity, law("tension", "stiffness", stiffness)}, 1.0) {
+    table_ = &scene_.add(box(1.6, 0.04, 0.6), 0, at(0, kTop - 0.04, 0));
+    table_->setFriction(btScalar(friction_of_table));
+  }
+  btRigidBody& add_box(double mass, double friction = 0.3) {
+    btRigidBody& body = scene_.add(box(0.1, 0.1, 0.1), mass, at(0.03, 0.1 + kMargin, 0.02));
+    body.setFriction(btScalar(friction));
+    return body;
+  }
+  Scene& scene() { return scene_; }
+  /// [N] That the table bears in a step.
+  double load(double time_step) {
+    double sum = 0;
+    for (const NodeContact& contact : scene_.solver().rigid_contacts(scene_.body())) {
+      if (contact.object == table_) sum += static_cast<double>(contact.impulse.y());
+    }
+    return sum / time_step;
+  }
+  /// Pulls one edge along the table.
+  void pull(double velocity, double time_step, double time) {
+    std::vector<int> edge;
+    for (int i = 0; i < scene_.body().m_nodes.size(); ++i) {
+      if (scene_.body().m_nodes[i].m_x.x() > 0.39) edge.push_back(i);
+    }
+    for (const int i : edge) scene_.body().setMass(i, 0);
+    const int num_steps = static_cast<int>(std::lround(time / time_step));
+    for (int step = 0; step < num_steps; ++step) {
+      for (const int i : edge) {
+        scene_.body().m_nodes[i].m_x += btVector3(btScalar(velocity * time_step), 0, 0);
+      }
+      scene_.step(1, time_step);
+    }
+  }
+  static constexpr double kTop = -kMargin;
+
+ private:
+  Scene scene_;
+  btRigidBody* table_;
+};
+
+struct Throw {
+  double time_step;
+  double velocity;
+  double mass;
+  double stiffness;
+};
+
+class ClothBetween : public testing::TestWithParam<Throw> {};
+
+// One plane for a node at a time let a ball sink through to the table, and threw it back: 2 kg that came at 1 m/s left at 15.
+TEST_P(ClothBetween, GivesAThrownBallNothing) {
+  const Throw& thrown = GetParam();
+  Table table(thrown.stiffness);
+  btRigidBody& ball = table.scene().add(std::make_shared<btSphereShape>(btScalar(0.1)), thrown.mass,
+                                        at(0.03, 0.22, 0.02));
+  ball.setLinearVelocity(vector(0, -thrown.velocity, 0));
+  const auto energy = [&] { return table.scene().mechanical_energy(0) + energy_of(ball); };
+  const double first = energy();
+  double most = -first;
+  double fastest = 0;
+  const int num_steps =
+      static_cast<int>(std::lround((0.1 / thrown.velocity + 0.15) / thrown.time_step));
+  for (int step = 0; step < num_steps; ++step) {
+    table.scene().step(1, thrown.time_step);
+    most = std::max(most, energy());
+    fastest = std::max(fastest, static_cast<double>(ball.getLinearVelocity().y()));
+  }
+  EXPECT_LE(most, first);
+  EXPECT_LT(fastest, 0.5 * thrown.velocity) << "it does not bounce";
+  EXPECT_GT(height_of(ball), Table::kTop + 2 * kMargin + 0.1 - 0.012)
+      << "it is not pressed through";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Throws, ClothBetween,
+    testing::Values(Throw{1.0 / 60, 1, 2, 20000}, Throw{1.0 / 60, 4, 0.2, 2000},
+                    Throw{1.0 / 60, 10, 2, 2000}, Throw{1.0 / 240, 1, 0.2, 2000},
+                    Throw{1.0 / 240, 1, 2, 20000}, Throw{1.0 / 240, 10, 0.2, 20000}));
+
+// It flew off at 10 m/s and more. How deep it presses the margins together is a matter of its weight, not of the step.
+TEST(ClothOnATable, BearsABox) {
+  std::vector<double> depths;
+  for (const double time_step : {1.0 / 60, 1.0 / 240}) {
+    Table table(2000);
+    const btRigidBody& body = table.add_box(1);
+    table.scene().step(static_cast<int>(std::lround(1.5 / time_step)), time_step);
+    EXPECT_LT(speed_of(body), 1e-3) << time_step;
+    EXPECT_NEAR(table.load(time_step), 1.2 * kGravityOfEarth, 0.01 * 1.2 * kGravityOfEarth);
+    depths.push_back(Table::kTop + 2 * kMargin - (height_of(body) - 0.1));
+    EXPECT_GT(depths.back(), 0) << time_step;
+    EXPECT_LT(depths.back(), 5e-4) << time_step;
+  }
+  EXPECT_NEAR(depths[0], depths[1], 1e-4);
+}
+
+// Friction accelerates the box at mu g until it goes along.
+TEST(ClothOnATable, CarriesABoxThatIsPulledSlowly) {
+  constexpr double kVelocity = 0.5;
+  for (const double friction : {0.05, 0.3}) {
+    Table table(2000);
+    const btRigidBody& body = table.add_box(1, friction);
+    table.scene().step(240, 1.0 / 240);
+    const auto before = static_cast<double>(body.getCenterOfMassPosition().x());
+    table.pull(kVelocity, 1.0 / 240, 0.6);
+    const double acceleration = friction * kGravityOfEarth;
+    const double time = std::min(0.6, kVelocity / acceleration);
+    const double right = acceleration * time * time / 2 + kVelocity * (0.6 - time);
+    const double moved = static_cast<double>(body.getCenterOfMassPosition().x()) - before;
+    EXPECT_NEAR(moved, right, 0.05 * right) << friction;
+  }
+}
+
+TEST(ClothOnATable, SlipsOutFromUnderABoxThatIsPulledFast) {
+  Table table(2000);
+  const btRigidBody& body = table.add_box(1);
+  table.scene().step(240, 1.0 / 240);
+  const auto before = static_cast<double>(body.getCenterOfMassPosition().x());
+  table.pull(3, 1.0 / 240, 0.8);
+  EXPECT_NEAR(height_of(body), Table::kTop + 0.1, 1e-3) << "it stands on the table";
+  EXPECT_LT(speed_of(body), 0.3);
+  EXPECT_LT(static_cast<double>(body.getCenterOfMassPosition().x()) - before, 0.3);
+}
+
+// Both are dynamic: what one gets the other loses.
+TEST(ClothBetweenBoxes, BearsTheUpperOne) {
+  for (const double upper : {0.2, 1.0, 5.0}) {
+    Scene scene(cloth(21, 0.8, 0, 0.2), {kGravity, law("tension", "stiffness", 2000)}, 1.0);
+    scene.add(box(0.6, 0.04, 0.6), 0, at(0, -0.24 - kMargin - 0.001, 0));
+    const btRigidBody& below = scene.add(box(0.2, 0.1, 0.2), 1, at(0, -0.1 - kMargin - 0.001, 0));
+    const btRigidBody& above = scene.add(box(0.1, 0.1, 0.1), upper, at(0.03, 0.1 + kMargin, 0.02));
+    scene.step(90);
+    EXPECT_LT(speed_of(below), 0.02) << upper;
+    EXPECT_LT(speed_of(above), 0.02) << upper;
+    EXPECT_NEAR(height_of(above) - height_of(below), 0.2 + 2 * kMargin, 3e-3) << upper;
+  }
+}
+
+}  // namespace
+}  // namespace weft::bridge
