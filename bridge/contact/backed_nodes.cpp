@@ -7,8 +7,6 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-/// Cosine of the angle between the normals of two surfaces that press on each other, at most: 37 degrees from opposite.
-constexpr btScalar kOpposite = btScalar(-0.8);
 /// The frequency of a body on what backs the nodes that it presses, critically damped [rad/s]: its weight sinks in by 0.1 mm, in
 /// steps of any length, and an impact of 10 m/s by 12 mm. A stiffer one would be lost in the rounding of positions.
 constexpr btScalar kBackingFrequency = 300;
@@ -21,12 +19,6 @@ bool is_dynamic_rigid(const RigidContact& contact) {
 
 bool is_link(const RigidContact& contact) {
   return link_of(contact.object) != nullptr;
-}
-
-/// [m] Between two planes, with the margins of the node taken off.
-btScalar room_between(const RigidContact& one, const RigidContact& other, const btSoftBody& body) {
-  const btVector3& position = body.m_nodes[one.node].m_x;
-  return btDot(one.normal + other.normal, position) - one.offset - other.offset;
 }
 
 /// Whether the first of two that are pressed on each other yields to the other: the lighter one.
@@ -60,7 +52,7 @@ void BackedNodes::find(std::span<const RigidContact> contacts, const btSoftBody&
       if (!is_dynamic_rigid(at(*one))) continue;
       for (auto other = first; other != last; ++other) {
         if (at(*one).object == at(*other).object || is_link(at(*other))) continue;
-        if (btDot(at(*one).normal, at(*other).normal) > kOpposite) continue;
+        if (!are_opposite(at(*one), at(*other))) continue;
         if (!yields(at(*one), at(*other))) continue;
         const btScalar room = room_between(at(*one), at(*other), body);
         if (!(room < least_room)) continue;

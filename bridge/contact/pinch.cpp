@@ -9,8 +9,6 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-/// Cosine of the angle between the normals of two surfaces that pinch, at most: 37 degrees from opposite.
-constexpr btScalar kOpposite = btScalar(-0.8);
 /// [N] Of surfaces that the program leads: more than any cloth pulls with.
 constexpr btScalar kUnyielding = btScalar(1e6);
 
@@ -25,12 +23,6 @@ bool may_pinch(const btCollisionObject& one, const btCollisionObject& other) {
 
 /// The part of the force that all nodes share alike: what has borne nothing so far must be able to begin [-].
 constexpr btScalar kEvenShare = btScalar(0.1);
-
-/// [m] For a node between two planes, its margins taken off.
-btScalar room_between(const RigidContact& one, const RigidContact& other, const btSoftBody& body) {
-  const btVector3& position = body.m_nodes[one.node].m_x;
-  return btDot(one.normal + other.normal, position) - one.offset - other.offset;
-}
 
 /// [N] With which Bullet presses two objects on each other.
 btScalar force_between(const btCollisionObject* one, const btCollisionObject* other,
@@ -78,7 +70,7 @@ void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& bod
     const auto other = static_cast<std::size_t>(first);
     const RigidContact& a = contacts[other];
     const RigidContact& b = contacts[c];
-    if (!may_pinch(*a.object, *b.object) || btDot(a.normal, b.normal) > kOpposite) continue;
+    if (!may_pinch(*a.object, *b.object) || !are_opposite(a, b)) continue;
     if (room_between(a, b, body) > 0) continue;
     // Both surfaces bear their share of what nodes pull with: every other node.
     const bool by_first = a.node % 2 == 0;

@@ -387,6 +387,16 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collide
   swept.collect(look_at_groups, is_detected_alone(collider) ? team : nullptr, contacts);
 }
 
+bool are_opposite(const RigidContact& one, const RigidContact& other) {
+  constexpr btScalar kOpposite = btScalar(-0.8);
+  return btDot(one.normal, other.normal) <= kOpposite;
+}
+
+btScalar room_between(const RigidContact& one, const RigidContact& other, const btSoftBody& body) {
+  const btVector3& position = body.m_nodes[one.node].m_x;
+  return btDot(one.normal + other.normal, position) - one.offset - other.offset;
+}
+
 void follow_object(RigidContact& contact, const btTransform& object_pose) {
   if (!MovableObject(contact.object)) return;
   const btVector3 now = object_pose * contact.met_by_object;

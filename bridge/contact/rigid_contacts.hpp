@@ -129,6 +129,12 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collide
                         btScalar time_step, PinnedNodes pinned, std::vector<RigidContact>& contacts,
                         fast::WorkerTeam* team = nullptr);
 
+/// Whether two surfaces at a node face each other, as those that press cloth between them: normals within 37 degrees of opposite.
+[[nodiscard]] bool are_opposite(const RigidContact& one, const RigidContact& other);
+/// [m] For a node between two planes, its margins taken off.
+[[nodiscard]] btScalar room_between(const RigidContact& one, const RigidContact& other,
+                                    const btSoftBody& body);
+
 /// Moves the plane of a contact with a dynamic object with the object to its pose at the end of the step.
 void follow_object(RigidContact& contact, const btTransform& object_pose);
 
