@@ -20,7 +20,7 @@ struct FastSettings {
   /// btSoftBody's habit of having normals (Node::m_n, Face::m_normal) and the tree of the nodes (m_ndbvt) at the end of each
   /// step. Nothing in Weft reads them, and in Bullet only wind, pressure and VF_SS, whose bodies have them anyway; a program that
   /// draws with normals now and then calls btSoftBody::updateNormals() itself.
-  bool keeps_normals = false;
+  bool keeps_normals = true;
   bool keeps_node_tree = false;
 };
 

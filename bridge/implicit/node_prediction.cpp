@@ -213,12 +213,5 @@ void publish_bounds(btSoftBody& body) {
   }
 }
 
-void publish_bounds(btSoftBody& body) {
-  if (btBroadphaseProxy* const proxy = body.getBroadphaseHandle()) {
-    body.m_worldInfo->m_broadphase->setAabb(proxy, body.m_bounds[0], body.m_bounds[1],
-                                            body.m_worldInfo->m_dispatcher);
-  }
-}
-
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

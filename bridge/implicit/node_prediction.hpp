@@ -30,9 +30,6 @@ inline namespace WEFT_BULLET_PRECISION {
 void predict_nodes(btSoftBody& body, btScalar time_step, ConstMatrix3XRef<btScalar> last_velocities,
                    bool keeps_tree, std::vector<int>& scratch, fast::WorkerTeam& team);
 
-/// Tells the broadphase of the bounds that a prediction has left.
-void publish_bounds(btSoftBody& body);
-
 /// Tells the broadphase of m_bounds, after the prediction of a body.
 void publish_bounds(btSoftBody& body);
 
