@@ -55,7 +55,7 @@ TEST(NodePrediction, MovesNodesAsBulletDoes) {
   const fast::WorkerTeam::Scope scope(team, 2);
   for (int k = 0; k < 5; ++k) {
     std::vector<int> scratch;
-    predict_nodes(ours.body(), step, Matrix3X<btScalar>(3, 0), scratch, team);
+    predict_nodes(ours.body(), step, Matrix3X<btScalar>(3, 0), true, scratch, team);
     bullets.body().predictMotion(step);
     for (int i = 0; i < ours.body().m_nodes.size(); ++i) {
       const btSoftBody::Node& a = ours.body().m_nodes[i];
@@ -92,7 +92,8 @@ TEST(NodePrediction, LeavesToBulletWhatIsNotPlain) {
 
 // What Bullet's own collision, and every user of the tree, relies on.
 TEST(NodePrediction, KeepsEachBoxOfTheTreeInTheNextOne) {
-  Scene scene(cloth(12, 1, 1), {kGravity, law("tension", "stiffness", 300)});
+  Scene scene(cloth(12, 1, 1), {kGravity, law("tension", "stiffness", 300)}, 0.5,
+              {.may_sleep = false, .keeps_node_tree = true});
   scene.set_velocity(btVector3(3, 1, 0));
   scene.add(std::make_shared<btSphereShape>(btScalar(0.3)), 0, at(0.2, -0.3, 0));
   for (int step = 0; step < 40; ++step) {
