@@ -24,8 +24,7 @@ struct AdoptionSettings {
   std::optional<double> stiffness = std::nullopt;
   /// Beside the tension of the links: bending (hinge_torsion), damping, wind. Gravity stays the world's.
   std::vector<forces::LawSpecification> laws = {};
-  /// The program may draw with normals and look into trees, as it did before.
-  FastSettings fast = {.keeps_normals = true, .keeps_node_tree = true};
+  FastSettings fast = {};
 };
 
 /// The fate of one of a body's properties.

@@ -83,8 +83,7 @@ int num_wrong_after(Scene& scene, int num_steps) {
 }
 
 TEST(NodeNormals, AreUpToDateAfterAStep) {
-  Scene scene(cloth(50, 1, 0.05), {kGravity, law("tension", "stiffness", 300)}, 0.5,
-              {.may_sleep = false, .keeps_normals = true});
+  Scene scene(cloth(50, 1, 0.05), {kGravity, law("tension", "stiffness", 300)});
   scene.add(box(1, 0.5, 1), 0, at(0, -0.5, 0));
   EXPECT_EQ(num_wrong_after(scene, 20), 0);
   // Limits move nodes after the solution.
@@ -97,8 +96,7 @@ TEST(NodeNormals, AreUpToDateAfterAStep) {
 
 /// A single fast body, and below it one with other solver, whose contacts move the first one's nodes after its own.
 TEST(NodeNormals, AreUpToDateWhereAnotherClothPushes) {
-  Scene scene(cloth(20, 1, 0.06), {kGravity, law("tension", "stiffness", 300)}, 0.5,
-              {.may_sleep = false, .keeps_normals = true});
+  Scene scene(cloth(20, 1, 0.06), {kGravity, law("tension", "stiffness", 300)});
   SoftWorld& world = scene.world();
   const ClothMesh other = cloth(20, 1, 0.03);
   btSoftBody& below =
@@ -115,8 +113,7 @@ TEST(NodeNormals, AreUpToDateWhereAnotherClothPushes) {
 TEST(NodeNormals, AreUpToDateWhereClothMeetsItself) {
   ClothMesh mesh = cloth(20, 1, 0);
   mesh.pinned = {0, 19};
-  Scene scene(mesh, {kGravity, law("tension", "stiffness", 300)}, 0.5,
-              {.may_sleep = false, .keeps_normals = true});
+  Scene scene(mesh, {kGravity, law("tension", "stiffness", 300)});
   scene.solver().set_cloth_contact(scene.body(), {.with_itself = true, .with_others = false});
   for (int i = 0; i < scene.body().m_nodes.size(); ++i) {  // folded over
     btVector3& x = scene.body().m_nodes[i].m_x;

@@ -92,8 +92,7 @@ TEST(NodePrediction, LeavesToBulletWhatIsNotPlain) {
 
 // What Bullet's own collision, and every user of the tree, relies on.
 TEST(NodePrediction, KeepsEachBoxOfTheTreeInTheNextOne) {
-  Scene scene(cloth(12, 1, 1), {kGravity, law("tension", "stiffness", 300)}, 0.5,
-              {.may_sleep = false, .keeps_node_tree = true});
+  Scene scene(cloth(12, 1, 1), {kGravity, law("tension", "stiffness", 300)});
   scene.set_velocity(btVector3(3, 1, 0));
   scene.add(std::make_shared<btSphereShape>(btScalar(0.3)), 0, at(0.2, -0.3, 0));
   for (int step = 0; step < 40; ++step) {
