@@ -248,8 +248,8 @@ void SoftBodySolver::Attachment::end_fast_step(btScalar time_step) {
 }
 
 SoftBodySolver::Attachment* SoftBodySolver::Attachments::find(const btSoftBody& body) const {
-  const auto known = order.find(&body);
-  if (known != order.end() && known->second < list.size()) {
+  const auto known = std::lower_bound(order.begin(), order.end(), std::pair(&body, std::size_t{0}));
+  if (known != order.end() && known->first == &body && known->second < list.size()) {
     Attachment& attachment = *list[known->second];
     if (attachment.is_of(body)) return &attachment;  // the list may have changed since
   }
@@ -260,7 +260,8 @@ SoftBodySolver::Attachment* SoftBodySolver::Attachments::find(const btSoftBody& 
 
 void SoftBodySolver::Attachments::note_order() {
   order.clear();
-  for (std::size_t k = 0; k < list.size(); ++k) order[list[k]->body] = k;
+  for (std::size_t k = 0; k < list.size(); ++k) order.emplace_back(list[k]->body, k);
+  std::sort(order.begin(), order.end());
 }
 
 void ContactEntry::remember_solution() {

@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -131,8 +130,8 @@ struct ContactEntry {
 
 struct SoftBodySolver::Attachments {
   std::vector<std::unique_ptr<Attachment>> list;
-  /// Where in the list a body was when note_order() was called: found without looking at all others.
-  std::unordered_map<const btSoftBody*, std::size_t> order;
+  /// Where in the list each body was when note_order() was called, by the address of the body: find() need not look at all.
+  std::vector<std::pair<const btSoftBody*, std::size_t>> order;
   std::vector<Attachment*> stepped;  ///< fast bodies of the present step
   std::vector<Attachment*> asked;    ///< of those, that contacts are still looked for
   std::vector<const void*> pushed;   ///< owners of inertia, once for each cloth that may push it

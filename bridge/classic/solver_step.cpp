@@ -66,6 +66,17 @@ void SoftBodySolver::for_bodies(const std::function<void(btSoftBody&, Attachment
 
 namespace {
 
+/// Whether contacts between cloths, or of one with itself, may move nodes in this step. Those of bodies with other solvers do
+/// so once fast bodies are solved.
+bool may_cloth_meet(const btAlignedObjectArray<btSoftBody*>& bodies,
+                    const std::vector<std::unique_ptr<ContactEntry>>& entries) {
+  for (int i = 0; i < bodies.size(); ++i) {
+    if (bodies[i]->m_scontacts.size() > 0) return true;
+  }
+  return std::any_of(entries.begin(), entries.end(),
+                     [](const auto& entry) { return entry->was_in_world; });
+}
+
 /// Solves bodies that share nothing with others, which leave the list.
 template <class Entry>
 void solve_alone(btScalar time_step, std::vector<Entry*>& bodies, std::vector<Entry*>& alone) {
@@ -92,7 +103,8 @@ void SoftBodySolver::solve_fast_bodies() {
   const int num_each = std::max(
       1, tbb::this_task_arena::max_concurrency() / std::max(1, static_cast<int>(bodies.size())));
   for (Attachment* one : bodies) one->fast->set_num_threads(num_each);
-  if (!may_meet_cloth()) solve_alone(time_step_, bodies, attachments_->asked);
+  if (!may_cloth_meet(m_softBodySet, attachments_->contacts))
+    solve_alone(time_step_, bodies, attachments_->asked);
   Attachment* const single = bodies.size() == 1 ? bodies[0] : nullptr;
   std::optional<fast::WorkerTeam::Scope> threads;
   if (single) single->fast->hold_threads(threads);  // to call for them takes longer than most loops

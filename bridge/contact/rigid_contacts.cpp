@@ -13,7 +13,7 @@
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/contact/concave_surface.hpp>
-#include <weft/bridge/contact/solid_planes.hpp>
+#include <weft/bridge/contact/solid_distances.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -82,6 +82,17 @@ class ExactCollider {
     return plane_at(end, at_end);
   }
 
+  /// The plane that holds a node in front of the surface which is at this distance.
+  [[nodiscard]] RigidContact plane_at(const Vector3<double>& point,
+                                      const SurfaceDistance& surface) const {
+    RigidContact contact;
+    contact.normal = to_bullet((turn_ * surface.out).eval());
+    // With the normal as it is rounded, so that the plane is where it should be for this position.
+    contact.offset = static_cast<btScalar>(
+        from_bullet(contact.normal).dot(turn_ * point + origin_) - surface.distance + margin_);
+    return contact;
+  }
+
  private:
   static constexpr double kRounding = 1e-6;  ///< of paths in single precision
   static constexpr double kTouch =
@@ -108,15 +119,6 @@ class ExactCollider {
     return plane_at(start + share * path, distance_at(start + share * path, length));
   }
 
-  [[nodiscard]] RigidContact plane_at(const Vector3<double>& point,
-                                      const SurfaceDistance& surface) const {
-    RigidContact contact;
-    contact.normal = to_bullet((turn_ * surface.out).eval());
-    // With the normal as it is rounded, so that the plane is where it should be for this position.
-    contact.offset = static_cast<btScalar>(
-        from_bullet(contact.normal).dot(turn_ * point + origin_) - surface.distance + margin_);
-    return contact;
-  }
   [[nodiscard]] Vector3<double> local(const btVector3& point) const {
     return turn_.transpose() * (from_bullet(point) - origin_);
   }
@@ -224,10 +226,14 @@ class ContactFinder {
     concave_->gather(box.grown(2 * margin_ + collider_.shape->getMargin()), nearby.triangles);
   }
 
-  /// What is found for a group of nodes at a time, of an object that stands still; none for most shapes.
-  [[nodiscard]] std::optional<SolidPlanes> solid_planes() const {
-    if (!SolidPlanes::has(*collider_.shape)) return std::nullopt;
-    return SolidPlanes(collider_, margin_);
+  /// For a group of nodes at a time, of an object that stands still; none for most shapes.
+  [[nodiscard]] std::optional<SolidDistances> solid_distances() const {
+    if (!SolidDistances::has(*collider_.shape)) return std::nullopt;
+    return SolidDistances(collider_);
+  }
+  /// For shapes that have solid_distances().
+  [[nodiscard]] RigidContact contact_at(const SolidDistances::Distances& found, int lane) const {
+    return exact_->plane_at(found.point(lane), found.surface(lane));
   }
   [[nodiscard]] bool is_followed(const btVector3& from, const btVector3& to) const {
     return (to - from).length2() > margin_ * margin_;
@@ -254,12 +260,12 @@ class ContactFinder {
 
 /// Nodes of a group, in the order of the group, and where they end.
 struct NodeBatch {
-  SolidPlanes::Vectors ends;
-  std::array<int, SolidPlanes::kLanes> nodes;
+  SolidDistances::Vectors ends;
+  std::array<int, SolidDistances::kLanes> nodes;
   int count = 0;
 
   NodeBatch() {
-    for (SolidPlanes::Lanes& coordinates : ends) coordinates.setZero();
+    for (SolidDistances::Lanes& coordinates : ends) coordinates.setZero();
   }
   void add(int node, const btVector3& end) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -287,11 +293,11 @@ NodeBatch batch_of(const btSoftBody& body, std::span<const int> group, const Mot
 }
 
 /// Appends the contacts of some nodes with an object that stands still.
-void find_together(const btSoftBody& body, const ContactFinder& finder, const SolidPlanes& solid,
+void find_together(const btSoftBody& body, const ContactFinder& finder, const SolidDistances& solid,
                    const NodeBatch& batch, const Collider& collider,
                    std::vector<RigidContact>& found) {
   if (batch.count == 0) return;
-  const SolidPlanes::Planes planes = solid.at(batch.ends);
+  const SolidDistances::Distances distances = solid.of(batch.ends);
   ContactFinder::Nearby nearby;
   for (int lane = 0; lane < batch.count; ++lane) {
     const int i = batch.nodes[static_cast<std::size_t>(lane)];
@@ -299,11 +305,8 @@ void find_together(const btSoftBody& body, const ContactFinder& finder, const So
     const std::size_t num_before = found.size();
     if (finder.is_followed(node.m_q, node.m_x)) {
       finder.find(node.m_q, node.m_x, nearby, found);
-    } else if (!(planes.distance[lane] >= finder.reach())) {
-      RigidContact& contact = found.emplace_back();
-      contact.normal.setValue(planes.normal[0][lane], planes.normal[1][lane],
-                              planes.normal[2][lane]);
-      contact.offset = static_cast<btScalar>(planes.offset[lane]);
+    } else if (!(distances.distance[lane] >= finder.reach())) {
+      found.push_back(finder.contact_at(distances, lane));
     }
     if (found.size() == num_before) continue;
     found.back().node = i;
@@ -456,7 +459,8 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collide
       follow_object(contact, collider.motion * collider.object_pose);
     }
   };
-  const std::optional<SolidPlanes> solid = dynamic || is_led ? std::nullopt : finder.solid_planes();
+  const std::optional<SolidDistances> solid =
+      dynamic || is_led ? std::nullopt : finder.solid_distances();
   const auto look_at_groups = [&](std::size_t begin, std::size_t end,
                                   std::vector<RigidContact>& found) {
     ContactFinder::Nearby nearby;

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
-#include <weft/bridge/contact/solid_planes.hpp>
+#include <weft/bridge/contact/solid_distances.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -19,7 +19,7 @@ bool SteadyStep::has_same_surroundings(const btSoftBody& body, std::span<const C
   now_.surfaces.clear();
   bool is_plain = body.m_anchors.size() == 0 && body.m_deformableAnchors.size() == 0;
   for (const Collider& collider : colliders) {
-    is_plain = is_plain && SolidPlanes::has(*collider.shape) && is_still_solid(collider);
+    is_plain = is_plain && SolidDistances::has(*collider.shape) && is_still_solid(collider);
     btVector3 low;
     btVector3 high;
     collider.shape->getAabb(btTransform::getIdentity(), low, high);

@@ -2,6 +2,7 @@
 
 // Tested by tests/bridge/implicit/steady_step_test.cpp.
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,7 @@
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/contact/rigid_contacts.hpp>
+#include <weft/fast_solver/node_constraints.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -17,8 +19,8 @@ inline namespace WEFT_BULLET_PRECISION {
 /// settings, and boxes and balls that stand still. Beside anything else it does not.
 class SteadyStep {
  public:
-  /// Solutions of the same step that have to be known before the next one is taken for the same: the second began with the
-  /// contact states that the first one found.
+  /// So many solutions have to begin and end alike before the next one is taken for the same. One would do, because a step
+  /// follows from how it begins; two guard against a part of the beginning that is compared nowhere.
   static constexpr int kFewest = 2;
 
   /// The contacts of the last step are kept, and taken from the list.
@@ -31,9 +33,13 @@ class SteadyStep {
   /// To be called once in a step.
   [[nodiscard]] bool has_same_surroundings(const btSoftBody& body,
                                            std::span<const Collider> colliders, btScalar time_step);
-  /// is_same: whether the step begins with the same state too. True if steps before have shown how it ends.
-  [[nodiscard]] bool is_known(bool is_same) {
-    num_same_ = is_same ? num_same_ + 1 : 0;
+  /// is_same: whether the step begins with the same state too. states: the contact states of the last solution, with which
+  /// the next one begins. True if steps before have shown how the step ends.
+  [[nodiscard]] bool is_known(bool is_same, std::span<const fast::ContactState> states) {
+    const bool has_same_states =
+        std::equal(states.begin(), states.end(), states_.begin(), states_.end());
+    states_.assign(states.begin(), states.end());
+    num_same_ = is_same && has_same_states ? num_same_ + 1 : 0;
     return num_same_ >= kFewest;
   }
   /// The state of the body, 3 x n each: positions at the start of this step, of the last one and at its end [m]; velocities at both starts,
@@ -82,6 +88,7 @@ class SteadyStep {
   Surroundings last_;
   Surroundings now_;  ///< kept for its memory
   std::vector<RigidContact> contacts_;
+  std::vector<fast::ContactState> states_;  ///< with which the last solution began
 };
 
 /// Whether the step begins as the last one, which has ended where it began, and all nodes are free: to the bit.
