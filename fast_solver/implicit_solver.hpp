@@ -2,7 +2,6 @@
 
 #include <array>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -82,10 +81,6 @@ class ImplicitSolver : TeamLoops {
   /// After solve(): the index of the problem's contact that is active at a node, or -1, and its state.
   [[nodiscard]] std::pair<int, ContactState> contact_of(std::size_t node) const {
     return {contact_of_[node], contact_states_[node]};
-  }
-  /// After solve(): the states of all nodes, with which the next solve() begins.
-  [[nodiscard]] std::span<const ContactState> contact_states() const {
-    return std::span(contact_states_).first(static_cast<std::size_t>(num_nodes()));
   }
   /// After solve(): the generalized displacement of a two-way coupled body relative to its motion without the cloth: translation of
   /// its center [m] and rotation about it [rad]. The force on the body is (inertia + held) motion / h'^2.

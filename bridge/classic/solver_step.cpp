@@ -77,9 +77,12 @@ bool may_cloth_meet(const btAlignedObjectArray<btSoftBody*>& bodies,
                      [](const auto& entry) { return entry->was_in_world; });
 }
 
-/// Solves bodies that share nothing with others, which leave the list.
+/// Solves bodies that share nothing with others, which leave the list. all: those of the world.
 template <class Entry>
-void solve_alone(btScalar time_step, std::vector<Entry*>& bodies, std::vector<Entry*>& alone) {
+void solve_alone(btScalar time_step, const btAlignedObjectArray<btSoftBody*>& all,
+                 const std::vector<std::unique_ptr<ContactEntry>>& contacts,
+                 std::vector<Entry*>& bodies, std::vector<Entry*>& alone) {
+  if (may_cloth_meet(all, contacts)) return;
   const auto first = std::stable_partition(bodies.begin(), bodies.end(), [](const Entry* one) {
     return !one->fast->is_alone(*one->body);
   });
@@ -103,8 +106,7 @@ void SoftBodySolver::solve_fast_bodies() {
   const int num_each = std::max(
       1, tbb::this_task_arena::max_concurrency() / std::max(1, static_cast<int>(bodies.size())));
   for (Attachment* one : bodies) one->fast->set_num_threads(num_each);
-  if (!may_cloth_meet(m_softBodySet, attachments_->contacts))
-    solve_alone(time_step_, bodies, attachments_->asked);
+  solve_alone(time_step_, m_softBodySet, attachments_->contacts, bodies, attachments_->asked);
   Attachment* const single = bodies.size() == 1 ? bodies[0] : nullptr;
   std::optional<fast::WorkerTeam::Scope> threads;
   if (single) single->fast->hold_threads(threads);  // to call for them takes longer than most loops

@@ -377,8 +377,7 @@ bool FastBody::repeat_step(btSoftBody& body, btScalar time_step) {
   const SteadyStep::State state{starts_,          last_starts_, positions_, start_velocities_,
                                 last_velocities_, predicted_,   velocities_};
   const bool is_same = steady_.has_same_surroundings(body, colliders_, time_step) && may_repeat;
-  const auto states = solver_ ? solver_->contact_states() : std::span<const fast::ContactState>();
-  if (!steady_.is_known(is_same && begins_as_last(body, state), states)) return false;
+  if (!steady_.is_known(is_same && begins_as_last(body, state), solver_.get())) return false;
   is_predicted_ = false;
   steady_.restore(contacts_);
   step_error_.include(solver_->report(), static_cast<double>(inertia_step_), masses_.sum());

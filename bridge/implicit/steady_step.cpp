@@ -34,6 +34,17 @@ bool SteadyStep::has_same_surroundings(const btSoftBody& body, std::span<const C
   return is_plain && is_same;
 }
 
+bool SteadyStep::is_known(bool is_same, const fast::ImplicitSolver<btScalar>* solver) {
+  states_.resize(static_cast<std::size_t>(solver ? solver->num_nodes() : 0),
+                 fast::ContactState::kFree);
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    const fast::ContactState before = std::exchange(states_[i], solver->contact_of(i).second);
+    is_same = is_same && before == states_[i];
+  }
+  num_same_ = is_same ? num_same_ + 1 : 0;
+  return num_same_ >= kFewest;
+}
+
 bool begins_as_last(const btSoftBody& body, const SteadyStep::State& state) {
   const auto are_same = [&](const Matrix3X<btScalar>& a, const Matrix3X<btScalar>& b) {
     const auto size = static_cast<Eigen::Index>(3) * body.m_nodes.size();

@@ -2,7 +2,6 @@
 
 // Tested by tests/bridge/implicit/steady_step_test.cpp.
 
-#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -10,7 +9,7 @@
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/contact/rigid_contacts.hpp>
-#include <weft/fast_solver/node_constraints.hpp>
+#include <weft/fast_solver/implicit_solver.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -33,15 +32,9 @@ class SteadyStep {
   /// To be called once in a step.
   [[nodiscard]] bool has_same_surroundings(const btSoftBody& body,
                                            std::span<const Collider> colliders, btScalar time_step);
-  /// is_same: whether the step begins with the same state too. states: the contact states of the last solution, with which
-  /// the next one begins. True if steps before have shown how the step ends.
-  [[nodiscard]] bool is_known(bool is_same, std::span<const fast::ContactState> states) {
-    const bool has_same_states =
-        std::equal(states.begin(), states.end(), states_.begin(), states_.end());
-    states_.assign(states.begin(), states.end());
-    num_same_ = is_same && has_same_states ? num_same_ + 1 : 0;
-    return num_same_ >= kFewest;
-  }
+  /// is_same: whether the step begins with the same state too. solver: none, or that of the last step, with whose contact states
+  /// the next solution begins. True if steps before have shown how the step ends.
+  [[nodiscard]] bool is_known(bool is_same, const fast::ImplicitSolver<btScalar>* solver);
   /// The state of the body, 3 x n each: positions at the start of this step, of the last one and at its end [m]; velocities at both starts,
   /// in the last prediction and solution [m/s].
   struct State {

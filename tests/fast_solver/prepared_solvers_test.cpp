@@ -1,5 +1,9 @@
 #include <weft/fast_solver/prepared_solvers.hpp>
 
+#include <functional>
+#include <memory>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include <weft/mesh/cloth_grid.hpp>
@@ -88,6 +92,57 @@ TEST(PreparedSolvers, TakeMeshesAtOtherPlacesForAlike) {
   EXPECT_EQ(prepared.num_shared(), 0);
   (void)prepared.make(springs(other, 200), mesh.masses, all_free);
   EXPECT_EQ(prepared.num_shared(), 1);
+}
+
+/// What bodies may do to their solvers at run time.
+const std::vector<std::function<void(ImplicitSolver<float>&, const ClothMesh&)>>& changes() {
+  using Solver = ImplicitSolver<float>;
+  static const std::vector<std::function<void(Solver&, const ClothMesh&)>> all = {
+      [](Solver& solver, const ClothMesh&) { solver.set_rest_length(30, 31, 0.01); },
+      [](Solver& solver, const ClothMesh& mesh) {
+        std::vector<bool> is_free(static_cast<std::size_t>(mesh.num_nodes()), true);
+        is_free[40] = false;
+        solver.set_free(is_free);
+      },
+      // All springs of a node are gone, and its mass is another one: as after a tear, with no new node.
+      [](Solver& solver, const ClothMesh& mesh) {
+        std::vector<char> is_changed(static_cast<std::size_t>(mesh.num_nodes()), 0);
+        is_changed[30] = 1;
+        VectorX<double> masses = mesh.masses;
+        masses[30] *= 0.5;
+        solver.tear({}, is_changed, masses, {});
+      }};
+  return all;
+}
+
+// Neither solvers that were made before nor those that are made afterwards, nor the one that they are copies of.
+TEST(PreparedSolvers, AreNotChangedWithACopy) {
+  const ClothMesh mesh = cloth();
+  const std::vector<bool> is_free(static_cast<std::size_t>(mesh.num_nodes()), true);
+  const SpringNetwork network = springs(mesh, 200);
+  ImplicitSolver<float> own(network, mesh.masses, is_free);
+  const Matrix3X<float> expected = pulled(own, mesh);
+  for (const auto& change : changes()) {
+    ImplicitSolver<float> own_changed(network, mesh.masses, is_free);
+    change(own_changed, mesh);
+    const Matrix3X<float> expected_changed = pulled(own_changed, mesh);
+    EXPECT_NE(expected_changed, expected);
+    for (std::size_t changed = 0; changed < 4; ++changed) {
+      auto prepared = std::make_unique<PreparedSolvers<float>>();
+      std::vector<std::unique_ptr<ImplicitSolver<float>>> solvers;
+      for (int body = 0; body < 4; ++body) {
+        solvers.push_back(prepared->make(network, mesh.masses, is_free));
+      }
+      EXPECT_EQ(prepared->num_shared(), 2);
+      change(*solvers[changed], mesh);
+      solvers.push_back(prepared->make(network, mesh.masses, is_free));
+      EXPECT_EQ(prepared->num_shared(), 3);
+      prepared.reset();  // copies outlive it
+      for (std::size_t k = 0; k < solvers.size(); ++k) {
+        EXPECT_EQ(pulled(*solvers[k], mesh), k == changed ? expected_changed : expected) << k;
+      }
+    }
+  }
 }
 
 }  // namespace
