@@ -17,6 +17,11 @@ struct FastSettings {
   bool may_sleep = true;
   double sleep_speed = 0.005;  ///< [m/s] >= 0
   double sleep_time = 1.0;     ///< [s] >= 0
+  /// Normals (Node::m_n, Face::m_normal) and the tree of the nodes (m_ndbvt) at the end of each step, as btSoftBody has
+  /// them. Weft reads neither, and Bullet only for wind, pressure and VF_SS: bodies with these have what they need in any
+  /// case. A program that needs neither saves the time; btSoftBody::updateNormals() gives normals whenever it is called.
+  bool keeps_normals = true;
+  bool keeps_node_tree = true;
 };
 
 /// Throws InvalidArgument for fewer than one iteration and for a speed or time that is negative or not finite.

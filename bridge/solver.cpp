@@ -58,6 +58,31 @@ std::optional<std::string> reason_against_fast(const btSoftBody& body,
   return std::nullopt;
 }
 
+/// Contacts that Weft has found, and then Bullet's.
+std::vector<NodeContact> node_contacts(const btSoftBody& body,
+                                       const std::vector<RigidContact>& own) {
+  std::vector<NodeContact> contacts;
+  for (const RigidContact& contact : own) {
+    const btVector3& position = body.m_nodes[contact.node].m_x;
+    contacts.push_back({contact.node, contact.object, contact.normal,
+                        btDot(position, contact.normal) - contact.offset, contact.impulse,
+                        contact.is_sticking});
+  }
+  for (int i = 0; i < body.m_rcontacts.size(); ++i) {
+    const btSoftBody::RContact& contact = body.m_rcontacts[i];
+    // Nodes that the program has added since the step have moved all of them, and left this pointer behind.
+    const btSoftBody::Node* const first = &body.m_nodes[0];
+    const std::less<> is_before;
+    if (is_before(contact.m_node, first) || !is_before(contact.m_node, first + body.m_nodes.size()))
+      continue;
+    const auto node = static_cast<int>(contact.m_node - first);
+    const btSoftBody::sCti& met = contact.m_cti;
+    contacts.push_back({node, met.m_colObj, met.m_normal,
+                        btDot(contact.m_node->m_x, met.m_normal) + met.m_offset});
+  }
+  return contacts;
+}
+
 }  // namespace
 
 SoftBodySolver::SoftBodySolver(const BulletLayout& caller)
@@ -71,10 +96,7 @@ SoftBodySolver::~SoftBodySolver() {
 }
 
 SoftBodySolver::Attachment* SoftBodySolver::find(const btSoftBody& body) const {
-  for (const auto& attachment : attachments_->list) {
-    if (attachment->is_of(body)) return attachment.get();
-  }
-  return nullptr;
+  return attachments_->find(body);
 }
 
 void SoftBodySolver::attach(btSoftBody& body, const ClothMesh& mesh,
@@ -127,6 +149,7 @@ std::optional<std::string> SoftBodySolver::attach_fast(
   check_topology("soft body solver", body, mesh);
   LawSet set = explicit_laws(mesh, laws);
   auto fast = std::make_unique<FastBody>(mesh, laws, mesh.masses, settings);
+  fast->share(attachments_->prepared);
   attach(body, std::move(set), mesh.masses.cast<btScalar>());
   find(body)->fast = std::move(fast);
   find(body)->links.note(body);
@@ -187,26 +210,7 @@ std::vector<NodeContact> SoftBodySolver::rigid_contacts(const btSoftBody& body) 
     if (attachment->fast) own = attachment->fast->contacts();
     attachment->rigid_response.list_contacts(own);
   }
-  std::vector<NodeContact> contacts;
-  for (const RigidContact& contact : own) {
-    const btVector3& position = body.m_nodes[contact.node].m_x;
-    contacts.push_back({contact.node, contact.object, contact.normal,
-                        btDot(position, contact.normal) - contact.offset, contact.impulse,
-                        contact.is_sticking});
-  }
-  for (int i = 0; i < body.m_rcontacts.size(); ++i) {
-    const btSoftBody::RContact& contact = body.m_rcontacts[i];
-    // Nodes that the program has added since the step have moved all of them, and left this pointer behind.
-    const btSoftBody::Node* const first = &body.m_nodes[0];
-    const std::less<> is_before;
-    if (is_before(contact.m_node, first) || !is_before(contact.m_node, first + body.m_nodes.size()))
-      continue;
-    const auto node = static_cast<int>(contact.m_node - first);
-    const btSoftBody::sCti& met = contact.m_cti;
-    contacts.push_back({node, met.m_colObj, met.m_normal,
-                        btDot(contact.m_node->m_x, met.m_normal) + met.m_offset});
-  }
-  return contacts;
+  return node_contacts(body, own);
 }
 
 void SoftBodySolver::replace_laws(btSoftBody& body, const ClothMesh& mesh,
@@ -219,6 +223,7 @@ void SoftBodySolver::replace_laws(btSoftBody& body, const ClothMesh& mesh,
   std::unique_ptr<FastBody> fast;
   if (is_fast) {
     fast = std::make_unique<FastBody>(mesh, laws, mesh.masses, old->fast->settings());
+    fast->share(attachments_->prepared);
   }
   replace_laws(body, std::move(set), mesh.masses.cast<btScalar>());
   find(body)->source = std::move(source);

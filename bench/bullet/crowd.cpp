@@ -39,17 +39,15 @@ constexpr double kTwoProcessors = 1.8;
 /// [us] for a line of the cache from one to the other, up to which they share a cache.
 constexpr double kNear = 0.12;
 
-enum class Workload { kCrowd, kSmallBall, kBall, kClassic, kHang };
+enum class Workload { kCrowd, kSmallBall, kBall, kClassic, kSmallHang, kHang };
 
 struct Name {
   Workload workload;
   const char* text;
 };
-constexpr Name kNames[] = {{Workload::kCrowd, "crowd"},
-                           {Workload::kSmallBall, "ball_642"},
-                           {Workload::kBall, "ball_2562"},
-                           {Workload::kClassic, "classic"},
-                           {Workload::kHang, "hang_100"}};
+constexpr Name kNames[] = {{Workload::kCrowd, "crowd"},       {Workload::kSmallBall, "ball_642"},
+                           {Workload::kBall, "ball_2562"},    {Workload::kClassic, "classic"},
+                           {Workload::kSmallHang, "hang_50"}, {Workload::kHang, "hang_100"}};
 
 struct Solver {
   int num_threads = 1;
@@ -87,10 +85,13 @@ std::vector<ClothMesh> meshes_of(Workload workload) {
     case Workload::kClassic:
       meshes.push_back(sheet(50, 7, {0, 2.2, 0}, 1));
       break;
-    case Workload::kHang:
-      meshes.push_back(sheet(100, 1, {0, 0, 0}, 1));
-      meshes[0].pinned = {0, 99};
+    case Workload::kSmallHang:
+    case Workload::kHang: {
+      const int nodes = workload == Workload::kHang ? 100 : 50;
+      meshes.push_back(sheet(nodes, 1, {0, 0, 0}, 1));
+      meshes[0].pinned = {0, nodes - 1};
       break;
+    }
   }
   return meshes;
 }
@@ -102,7 +103,7 @@ class World {
     arena_.execute([&] {
       for (const ClothMesh& mesh : meshes_of(workload)) add(workload, mesh, solver);
     });
-    if (workload == Workload::kHang) return;
+    if (workload == Workload::kHang || workload == Workload::kSmallHang) return;
     std::shared_ptr<btCollisionShape> shape = std::make_shared<btSphereShape>(btScalar(2));
     if (workload != Workload::kClassic) {
       shape = std::make_shared<btBoxShape>(btVector3(40, 1, 40));
@@ -188,7 +189,8 @@ void add_phases(const Name& name, World& world, ResultFile& file) {
   const auto per_step = [&](double ms) { return three_digits(ms / kTraced); };
   file.add({name.text, std::to_string(world.num_nodes()), per_step(total), per_step(laws),
             per_step(predict - laws), per_step(total - predict - constraints - update),
-            per_step(solution), per_step(constraints - solution), per_step(update)});
+            per_step(solution), per_step(constraints - solution), per_step(update),
+            three_digits(100 * (1 - (laws + solution) / total))});
 }
 
 /// Time by the clock of some steps [ms].
@@ -280,9 +282,10 @@ void bench_threads(const Settings& settings) {
   ResultFile phases(
       "what a step of the fast solver on one thread is made of; collide: Bullet's search for pairs "
       "and contacts, and "
-      "rigid bodies; contacts: what else stands between predicted and final places",
+      "rigid bodies; contacts: what else stands between predicted and final places; rest_percent: "
+      "all but laws and solution",
       {"workload", "nodes", "step_ms", "laws_ms", "predict_ms", "collide_ms", "solve_ms",
-       "contacts_ms", "update_ms"});
+       "contacts_ms", "update_ms", "rest_percent"});
   for (const Name& name : kNames) add_threads(name, times, phases);
   times.write(settings.folder / "threads.csv");
   phases.write(settings.folder / "phases.csv");

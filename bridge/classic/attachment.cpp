@@ -11,6 +11,7 @@
 #include <weft/bridge/adoption/suitable_body.hpp>
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/classic/node_state.hpp>
+#include <weft/bridge/classic/position_limits.hpp>
 #include <weft/bridge/implicit/node_prediction.hpp>
 #include <weft/core/trace.hpp>
 
@@ -232,6 +233,56 @@ void SoftBodySolver::Attachment::damp_velocities(btScalar time_step) {
     velocities.swap(forces);
   }
   write_node_velocities(velocities, *body);
+}
+
+void SoftBodySolver::Attachment::solve_alone(btScalar time_step) {
+  if (!fast->repeat_step(*body, time_step)) solve_by_stages(time_step);
+  finish_velocities(time_step);
+  fast->update_normals(*body);
+  end_fast_step(time_step);
+  has_ended = true;
+}
+
+void SoftBodySolver::Attachment::solve_by_stages(btScalar time_step) {
+  const auto threads = fast->hold_threads();  // to call for them takes longer than most loops
+  fast->prepare(*body);
+  fast->detect_contacts(*body, time_step);
+  fast->begin_solve(*body, time_step, {});
+  for (int look = 0; look < FastBody::kMostRedetections; ++look) {
+    fast->redetect_contacts(*body, time_step);
+    if (!fast->is_unfinished()) break;
+    fast->solve_again(*body, time_step, {});
+  }
+  fast->solve_anew_if_it_gains(*body, time_step);
+  fast->apply_solution(*body, time_step, false);
+  fast->end_solve(*body, time_step);
+}
+
+void SoftBodySolver::Attachment::finish_velocities(btScalar time_step) {
+  apply_position_limits(limits, static_cast<double>(time_step), *body);
+  damp_velocities(fast ? fast->velocity_step() : time_step);
+}
+
+void SoftBodySolver::Attachment::end_fast_step(btScalar time_step) {
+  if (limits.is_empty()) fast->end_step(*body, time_step);
+  fast->note_velocities(*body);
+}
+
+SoftBodySolver::Attachment* SoftBodySolver::Attachments::find(const btSoftBody& body) const {
+  const auto known = std::lower_bound(order.begin(), order.end(), std::pair(&body, std::size_t{0}));
+  if (known != order.end() && known->first == &body && known->second < list.size()) {
+    Attachment& attachment = *list[known->second];
+    if (attachment.is_of(body)) return &attachment;  // the list may have changed since
+  }
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const auto& one) { return one->is_of(body); });
+  return found != list.end() ? found->get() : nullptr;
+}
+
+void SoftBodySolver::Attachments::note_order() {
+  order.clear();
+  for (std::size_t k = 0; k < list.size(); ++k) order.emplace_back(list[k]->body, k);
+  std::sort(order.begin(), order.end());
 }
 
 void ContactEntry::remember_solution() {

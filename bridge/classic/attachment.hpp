@@ -50,6 +50,7 @@ struct SoftBodySolver::Attachment {
   std::optional<BodyBlowUp> blow_up;
   bool is_reported = false;  // the blow-up, to SoftBodySolver::set_on_blow_up()
   bool is_moving = false;    // predicted, and the step has not ended yet
+  bool has_ended = false;    // all that is due in the present step, by solve_alone()
   PositionLimits limits;
   std::unique_ptr<FastBody> fast;  // none: Bullet's own constraints
   FollowedLinks links;             // that springs of a fast body stand in for
@@ -94,6 +95,14 @@ struct SoftBodySolver::Attachment {
   /// Forces, and what FastBody does with them.
   void predict(btScalar time_step);
   void check_prediction();
+  /// The solution and all that follows it in the step, for a fast body that shares nothing with others (FastBody::is_alone()):
+  /// one body after the other, its data are in the cache once.
+  void solve_alone(btScalar time_step);
+  void solve_by_stages(btScalar time_step);
+  /// What is left to be done to velocities, once positions are solved for.
+  void finish_velocities(btScalar time_step);
+  /// Velocities and positions are final.
+  void end_fast_step(btScalar time_step);
   void add_forces(btScalar time_step);
   [[nodiscard]] bool add_forces_node_by_node(btScalar time_step);
   void begin_forces();
@@ -122,6 +131,8 @@ struct ContactEntry {
 
 struct SoftBodySolver::Attachments {
   std::vector<std::unique_ptr<Attachment>> list;
+  /// Where in the list each body was when note_order() was called, by the address of the body: find() need not look at all.
+  std::vector<std::pair<const btSoftBody*, std::size_t>> order;
   std::vector<Attachment*> stepped;  ///< fast bodies of the present step
   std::vector<Attachment*> asked;    ///< of those, that contacts are still looked for
   std::vector<const void*> pushed;   ///< owners of inertia, once for each cloth that may push it
@@ -129,6 +140,11 @@ struct SoftBodySolver::Attachments {
   ClothPairs pairs;  ///< of the present step, that are solved together
   std::function<void(btSoftBody&, const BodyBlowUp&)> on_blow_up;
   HullTable hulls;  ///< of rigid objects that bodies have met
+  std::shared_ptr<FastBody::PreparedSolvers> prepared =
+      std::make_shared<FastBody::PreparedSolvers>();
+
+  [[nodiscard]] Attachment* find(const btSoftBody& body) const;
+  void note_order();
 
   /// Has two bodies solved together in this step. False if one of them has no implicit springs, or is not stepped.
   bool add_pair(const Attachment* one, ClothContact& contact, const Attachment* other,

@@ -13,7 +13,6 @@
 
 #include <weft/bridge/classic/attachment.hpp>
 #include <weft/bridge/classic/body_lists.hpp>
-#include <weft/bridge/classic/position_limits.hpp>
 #include <weft/bridge/cloth.hpp>
 #include <weft/bridge/implicit/node_prediction.hpp>
 #include <weft/bridge/rigid/rigid_substeps.hpp>
@@ -25,11 +24,13 @@ inline namespace WEFT_BULLET_PRECISION {
 void SoftBodySolver::predictMotion(btScalar time_step) {
   const TraceScope trace("predict motion");
   time_step_ = time_step;
+  attachments_->note_order();
   attachments_->hulls.begin_step();
   for (const auto& entry : attachments_->contacts) entry->contact.begin_step();
   attachments_->pairs.clear();
   for (const auto& attachment : attachments_->list) {
     attachment->concave_met.clear();
+    attachment->has_ended = false;
     if (attachment->fast && attachment->was_in_world) attachment->begin_fast_step();
   }
   for_bodies([&](btSoftBody&, Attachment* attachment) {
@@ -64,6 +65,35 @@ void SoftBodySolver::for_bodies(const std::function<void(btSoftBody&, Attachment
   tbb::parallel_for(0, m_softBodySet.size(), work_on);
 }
 
+namespace {
+
+/// Whether contacts between cloths, or of one with itself, may move nodes in this step. Those of bodies with other solvers do
+/// so once fast bodies are solved.
+bool may_cloth_meet(const btAlignedObjectArray<btSoftBody*>& bodies,
+                    const std::vector<std::unique_ptr<ContactEntry>>& entries) {
+  for (int i = 0; i < bodies.size(); ++i) {
+    if (bodies[i]->m_scontacts.size() > 0) return true;
+  }
+  return std::any_of(entries.begin(), entries.end(),
+                     [](const auto& entry) { return entry->was_in_world; });
+}
+
+/// Solves bodies that share nothing with others, which leave the list. all: those of the world.
+template <class Entry>
+void solve_alone(btScalar time_step, const btAlignedObjectArray<btSoftBody*>& all,
+                 const std::vector<std::unique_ptr<ContactEntry>>& contacts,
+                 std::vector<Entry*>& bodies, std::vector<Entry*>& alone) {
+  if (may_cloth_meet(all, contacts)) return;
+  const auto first = std::stable_partition(bodies.begin(), bodies.end(), [](const Entry* one) {
+    return !one->fast->is_alone(*one->body);
+  });
+  alone.assign(first, bodies.end());
+  bodies.erase(first, bodies.end());
+  if (!alone.empty()) in_parallel(alone, [&](Entry& one) { one.solve_alone(time_step); });
+}
+
+}  // namespace
+
 void SoftBodySolver::solve_fast_bodies() {
   std::vector<Attachment*>& bodies = attachments_->stepped;
   bodies.clear();
@@ -77,6 +107,7 @@ void SoftBodySolver::solve_fast_bodies() {
   const int num_each = std::max(
       1, tbb::this_task_arena::max_concurrency() / std::max(1, static_cast<int>(bodies.size())));
   for (Attachment* one : bodies) one->fast->set_num_threads(num_each);
+  solve_alone(time_step_, m_softBodySet, attachments_->contacts, bodies, attachments_->asked);
   Attachment* const single = bodies.size() == 1 ? bodies[0] : nullptr;
   std::optional<fast::WorkerTeam::Scope> threads;
   if (single) single->fast->hold_threads(threads);  // to call for them takes longer than most loops
@@ -249,10 +280,8 @@ void SoftBodySolver::solveConstraints(btScalar /*time_step*/) {
     }
   }
   settle_contact_velocities();
-  for_bodies([&](btSoftBody& body, Attachment* attachment) {
-    if (!attachment) return;
-    apply_position_limits(attachment->limits, static_cast<double>(time_step_), body);
-    attachment->damp_velocities(attachment->fast ? attachment->fast->velocity_step() : time_step_);
+  for_bodies([&](btSoftBody&, Attachment* attachment) {
+    if (attachment && !attachment->has_ended) attachment->finish_velocities(time_step_);
   });
   for (const auto& attachment : attachments_->list) {
     if (attachment->was_in_world) attachment->time += static_cast<double>(time_step_);
@@ -291,11 +320,10 @@ void SoftBodySolver::settle_contact_velocities() {
 void SoftBodySolver::updateSoftBodies() {
   const TraceScope trace("update soft bodies");
   for_bodies([&](btSoftBody& body, Attachment* attachment) {
-    const bool has_normals = attachment && attachment->fast && attachment->fast->has_normals();
-    if (!has_normals) body.integrateMotion();
-    if (!attachment || !attachment->fast) return;
-    if (attachment->limits.is_empty()) attachment->fast->end_step(body, time_step_);
-    attachment->fast->note_velocities(body);
+    if (attachment && attachment->has_ended) return;
+    if (!attachment || !attachment->fast) return body.integrateMotion();
+    if (!attachment->fast->has_normals()) attachment->fast->update_normals(body);
+    attachment->end_fast_step(time_step_);
   });
   for (const auto& attachment : attachments_->list) attachment->is_moving = false;
   if (is_deferred_) {

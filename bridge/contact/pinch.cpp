@@ -52,13 +52,17 @@ Pinches::Pair& Pinches::pair_of(const btCollisionObject* one, const btCollisionO
 
 void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& body,
                    btScalar time_step) {
-  held_.assign(contacts.size(), {});
+  held_.clear();
   nodes_.clear();
   pairs_.clear();
-  const bool is_any = std::any_of(contacts.begin(), contacts.end(), [](const RigidContact& one) {
+  const btCollisionObject* known = nullptr;  // contacts come object by object
+  const bool is_any = std::any_of(contacts.begin(), contacts.end(), [&](const RigidContact& one) {
+    if (one.object == known) return false;
+    known = one.object;
     return link_of(one.object) != nullptr || is_kinematic(*one.object);
   });
   if (!is_any) return;
+  held_.assign(contacts.size(), {});
   first_of_.assign(static_cast<std::size_t>(body.m_nodes.size()), -1);
   std::vector<std::pair<std::size_t, std::size_t>> found;
   for (std::size_t c = 0; c < contacts.size(); ++c) {

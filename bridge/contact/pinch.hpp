@@ -27,15 +27,15 @@ class Pinches {
   /// time_step: of Bullet's step [s].
   void find(std::span<const RigidContact> contacts, const btSoftBody& body, btScalar time_step);
   /// The squeeze of a contact that holds a pinched node [N], zero of others.
-  [[nodiscard]] btScalar squeeze_of(std::size_t contact) const { return held_[contact].squeeze; }
+  [[nodiscard]] btScalar squeeze_of(std::size_t contact) const { return held_of(contact).squeeze; }
   /// How far behind the plane of a contact its node is held [m].
-  [[nodiscard]] btScalar depth_of(std::size_t contact) const { return held_[contact].depth; }
+  [[nodiscard]] btScalar depth_of(std::size_t contact) const { return held_of(contact).depth; }
   /// The friction on the other side [-], over that of the object of the contact.
   [[nodiscard]] btScalar other_friction(std::size_t contact) const {
-    return held_[contact].other_friction;
+    return held_of(contact).other_friction;
   }
   /// Whether another contact holds the node of this one.
-  [[nodiscard]] bool is_replaced(std::size_t contact) const { return held_[contact].is_replaced; }
+  [[nodiscard]] bool is_replaced(std::size_t contact) const { return held_of(contact).is_replaced; }
   /// Gives links the reaction of the nodes that they hold: minus impulse_on(node) [N s] at position_of(node). Within the step a
   /// pinched node follows its surface as one that nothing moves.
   template <class Impulse, class Position>
@@ -83,6 +83,10 @@ class Pinches {
     btScalar force = 0;  ///< [N]
     btScalar load = 0;   ///< that friction has borne in the last step, over all nodes [N s]
   };
+  [[nodiscard]] const Held& held_of(std::size_t contact) const {
+    static constexpr Held kNone;
+    return held_.empty() ? kNone : held_[contact];
+  }
   [[nodiscard]] Pair& pair_of(const btCollisionObject* one, const btCollisionObject* other);
 
   /// The impulse of friction on a node in the last step [N s].
@@ -92,7 +96,7 @@ class Pinches {
   }
 
   std::vector<btScalar> loads_;  ///< of each node, or empty
-  std::vector<Held> held_;       ///< of each contact
+  std::vector<Held> held_;       ///< of each contact; empty: none is held
   std::vector<char> nodes_;      ///< flags; empty: none
   std::vector<int> first_of_;    ///< the first contact of each node, or -1
   std::vector<Pair> pairs_;

@@ -13,6 +13,7 @@
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/contact/concave_surface.hpp>
+#include <weft/bridge/contact/solid_distances.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -81,6 +82,17 @@ class ExactCollider {
     return plane_at(end, at_end);
   }
 
+  /// The plane that holds a node in front of the surface which is at this distance.
+  [[nodiscard]] RigidContact plane_at(const Vector3<double>& point,
+                                      const SurfaceDistance& surface) const {
+    RigidContact contact;
+    contact.normal = to_bullet((turn_ * surface.out).eval());
+    // With the normal as it is rounded, so that the plane is where it should be for this position.
+    contact.offset = static_cast<btScalar>(
+        from_bullet(contact.normal).dot(turn_ * point + origin_) - surface.distance + margin_);
+    return contact;
+  }
+
  private:
   static constexpr double kRounding = 1e-6;  ///< of paths in single precision
   static constexpr double kTouch =
@@ -107,15 +119,6 @@ class ExactCollider {
     return plane_at(start + share * path, distance_at(start + share * path, length));
   }
 
-  [[nodiscard]] RigidContact plane_at(const Vector3<double>& point,
-                                      const SurfaceDistance& surface) const {
-    RigidContact contact;
-    contact.normal = to_bullet((turn_ * surface.out).eval());
-    // With the normal as it is rounded, so that the plane is where it should be for this position.
-    contact.offset = static_cast<btScalar>(
-        from_bullet(contact.normal).dot(turn_ * point + origin_) - surface.distance + margin_);
-    return contact;
-  }
   [[nodiscard]] Vector3<double> local(const btVector3& point) const {
     return turn_.transpose() * (from_bullet(point) - origin_);
   }
@@ -223,13 +226,27 @@ class ContactFinder {
     concave_->gather(box.grown(2 * margin_ + collider_.shape->getMargin()), nearby.triangles);
   }
 
+  /// For a group of nodes at a time, of an object that stands still; none for most shapes.
+  [[nodiscard]] std::optional<SolidDistances> solid_distances() const {
+    if (!SolidDistances::has(*collider_.shape)) return std::nullopt;
+    return SolidDistances(collider_);
+  }
+  /// For shapes that have solid_distances().
+  [[nodiscard]] RigidContact contact_at(const SolidDistances::Distances& found, int lane) const {
+    return exact_->plane_at(found.point(lane), found.surface(lane));
+  }
+  [[nodiscard]] bool is_followed(const btVector3& from, const btVector3& to) const {
+    return (to - from).length2() > margin_ * margin_;
+  }
+  [[nodiscard]] double reach() const { return 2 * static_cast<double>(margin_); }
+
   /// Appends those of a node that moves from one point to another, where they are.
   void find(const btVector3& from, const btVector3& to, Nearby& nearby,
             std::vector<RigidContact>& found) const {
     if (concave_) return concave_->find(from, to, nearby.triangles, nearby.planes, found);
-    const bool is_followed = (to - from).length2() > margin_ * margin_;
-    const auto contact = exact_ ? exact_->find(from, to, is_followed)
-                                : find_in_field(body_, collider_, from, to, margin_, is_followed);
+    const bool follows = is_followed(from, to);
+    const auto contact = exact_ ? exact_->find(from, to, follows)
+                                : find_in_field(body_, collider_, from, to, margin_, follows);
     if (contact) found.push_back(*contact);
   }
 
@@ -240,6 +257,63 @@ class ContactFinder {
   std::optional<ConcaveCollider> concave_;
   std::optional<ExactCollider> exact_;
 };
+
+/// Nodes of a group, in the order of the group, and where they end.
+struct NodeBatch {
+  SolidDistances::Vectors ends;
+  std::array<int, SolidDistances::kLanes> nodes;
+  int count = 0;
+
+  NodeBatch() {
+    for (SolidDistances::Lanes& coordinates : ends) coordinates.setZero();
+  }
+  void add(int node, const btVector3& end) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      ends[k][count] = static_cast<double>(end[static_cast<int>(k)]);
+    }
+    nodes[static_cast<std::size_t>(count++)] = node;
+  }
+};
+
+/// Those nodes of a group whose paths meet a box.
+template <class IsLookedAt>
+NodeBatch batch_of(const btSoftBody& body, std::span<const int> group, const MotionBox& box,
+                   const IsLookedAt& is_looked_at) {
+  NodeBatch batch;
+  for (const int i : group) {
+    if (!is_looked_at(i)) continue;
+    const btSoftBody::Node& node = body.m_nodes[i];
+    const Four low = four(node.m_q).min(four(node.m_x));
+    const Four high = four(node.m_q).max(four(node.m_x));
+    const bool is_apart = low[0] > box.high[0] || low[1] > box.high[1] || low[2] > box.high[2] ||
+                          box.low[0] > high[0] || box.low[1] > high[1] || box.low[2] > high[2];
+    if (!is_apart) batch.add(i, node.m_x);
+  }
+  return batch;
+}
+
+/// Appends the contacts of some nodes with an object that stands still.
+void find_together(const btSoftBody& body, const ContactFinder& finder, const SolidDistances& solid,
+                   const NodeBatch& batch, const Collider& collider,
+                   std::vector<RigidContact>& found) {
+  if (batch.count == 0) return;
+  const SolidDistances::Distances distances = solid.of(batch.ends);
+  ContactFinder::Nearby nearby;
+  for (int lane = 0; lane < batch.count; ++lane) {
+    const int i = batch.nodes[static_cast<std::size_t>(lane)];
+    const btSoftBody::Node& node = body.m_nodes[i];
+    const std::size_t num_before = found.size();
+    if (finder.is_followed(node.m_q, node.m_x)) {
+      finder.find(node.m_q, node.m_x, nearby, found);
+    } else if (!(distances.distance[lane] >= finder.reach())) {
+      found.push_back(finder.contact_at(distances, lane));
+    }
+    if (found.size() == num_before) continue;
+    found.back().node = i;
+    found.back().object = collider.object;
+    found.back().collider = collider.number;
+  }
+}
 
 /// [m] No node among those of a box moves farther with the body in a step.
 btScalar largest_motion(const RigidVelocity& velocity, const MotionBox& nodes, btScalar time_step) {
@@ -297,6 +371,12 @@ bool is_detected_alone(const Collider& collider) {
   return !needs_distance_field(*collider.shape, collider.facets);
 }
 
+bool is_still_solid(const Collider& collider) {
+  return !ConcaveSurface::has(*collider.shape) && is_detected_alone(collider) &&
+         collider.led.is_zero() && link_of(collider.object) == nullptr &&
+         !MovableObject(collider.object);
+}
+
 void SweptNodes::update(const btSoftBody& body, fast::WorkerTeam* team) {
   if (is_current_) return;
   is_current_ = true;
@@ -324,7 +404,7 @@ void SweptNodes::update(const btSoftBody& body, fast::WorkerTeam* team) {
 
 void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collider& collider,
                         btScalar time_step, PinnedNodes pinned, std::vector<RigidContact>& contacts,
-                        fast::WorkerTeam* team) {
+                        fast::WorkerTeam* team, std::span<const char> is_left_out) {
   if (!collider.object->hasContactResponse()) return;
   // Bullet has the pose of a dynamic body at the start of the step, and that of a kinematic one at its end.
   const MovableObject dynamic{collider.object};
@@ -346,9 +426,13 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collide
   const bool looks_at_pinned =
       pinned == PinnedNodes::kWithDynamicObjects && !collider.object->isStaticOrKinematicObject();
   const ContactFinder finder(body, collider, margin);
+  const auto is_looked_at = [&](int i) {
+    const btSoftBody::Node& node = body.m_nodes[i];
+    return (node.m_im > 0 || looks_at_pinned) && node.m_battach == 0 &&
+           (is_left_out.empty() || is_left_out[static_cast<std::size_t>(i)] == 0);
+  };
   const auto look_at = [&](int i, ContactFinder::Nearby& nearby, std::vector<RigidContact>& found) {
     const btSoftBody::Node& node = body.m_nodes[i];
-    if ((node.m_im <= 0 && !looks_at_pinned) || node.m_battach != 0) return;
     btVector3 motion(0, 0, 0);
     if (is_kinematic) motion = time_step * velocity.at(node.m_x);
     const btVector3 from = node.m_q + motion;
@@ -367,6 +451,7 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collide
       contact.object = collider.object;
       contact.collider = collider.number;
       if (!dynamic) continue;
+      contact.is_dynamic = true;
       contact.met = to;
       contact.met_by_object = collider.object_pose.invXform(to);
       contact.normal_by_object = contact.normal * collider.object_pose.getBasis();
@@ -374,27 +459,26 @@ void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collide
       follow_object(contact, collider.motion * collider.object_pose);
     }
   };
+  const std::optional<SolidDistances> solid =
+      dynamic || is_kinematic ? std::nullopt : finder.solid_distances();
   const auto look_at_groups = [&](std::size_t begin, std::size_t end,
                                   std::vector<RigidContact>& found) {
     ContactFinder::Nearby nearby;
     for (std::size_t g = begin; g < end; ++g) {
       if (!meet(swept.boxes()[g], reached)) continue;
+      if (solid) {
+        find_together(body, finder, *solid, batch_of(body, swept.group(g), box, is_looked_at),
+                      collider, found);
+        continue;
+      }
       finder.gather(swept.boxes()[g].grown(farthest), nearby);
-      for (const int i : swept.group(g)) look_at(i, nearby, found);
+      for (const int i : swept.group(g)) {
+        if (is_looked_at(i)) look_at(i, nearby, found);
+      }
     }
   };
   // Bullet's field is made as it is asked.
   swept.collect(look_at_groups, is_detected_alone(collider) ? team : nullptr, contacts);
-}
-
-bool are_opposite(const RigidContact& one, const RigidContact& other) {
-  constexpr btScalar kOpposite = btScalar(-0.8);
-  return btDot(one.normal, other.normal) <= kOpposite;
-}
-
-btScalar room_between(const RigidContact& one, const RigidContact& other, const btSoftBody& body) {
-  const btVector3& position = body.m_nodes[one.node].m_x;
-  return btDot(one.normal + other.normal, position) - one.offset - other.offset;
 }
 
 void follow_object(RigidContact& contact, const btTransform& object_pose) {

@@ -27,6 +27,7 @@ struct RigidContact {
   const btCollisionObject* object = nullptr;
   int collider = 0;               ///< Collider::number
   std::array<int, 2> triangle{};  ///< of a concave collider: Bullet's part and index
+  bool is_dynamic = false;        ///< impulses move the object (MovableObject)
   // A dynamic object carries the plane with it: the node's position as seen from the object, in the world where the
   // step began, and in the object's frame; the normal in the object's frame.
   btVector3 met{0, 0, 0};
@@ -124,16 +125,27 @@ enum class PinnedNodes {
 /// Nodes are looked up at the predicted position, as the collider sees it, up to twice the collision margin: exactly (surface_distance()), or in
 /// Bullet's distance field of the shape, as Bullet does; at a concave one, each triangle around gives a contact. A node that travels farther than the margin is followed along
 /// its path, relative to the object, and stopped at the surface that it meets first: however thin the
-/// object, it is not shot through. Anchored nodes are left out. By a team, in the same order for any.
+/// object, it is not shot through. Anchored nodes are left out, and those that are flagged, if there are flags for nodes. By a
+/// team, in the same order for any.
 void add_rigid_contacts(const btSoftBody& body, SweptNodes& swept, const Collider& collider,
                         btScalar time_step, PinnedNodes pinned, std::vector<RigidContact>& contacts,
-                        fast::WorkerTeam* team = nullptr);
+                        fast::WorkerTeam* team = nullptr, std::span<const char> is_left_out = {});
+
+/// Whether the collider is a convex solid that stands still and whose distances are exact: one plane of a contact is in front
+/// of all of it.
+[[nodiscard]] bool is_still_solid(const Collider& collider);
 
 /// Whether two surfaces at a node face each other, as those that press cloth between them: normals within 37 degrees of opposite.
-[[nodiscard]] bool are_opposite(const RigidContact& one, const RigidContact& other);
+[[nodiscard]] inline bool are_opposite(const RigidContact& one, const RigidContact& other) {
+  constexpr btScalar kOpposite = btScalar(-0.8);
+  return btDot(one.normal, other.normal) <= kOpposite;
+}
 /// [m] For a node between two planes, its margins taken off.
-[[nodiscard]] btScalar room_between(const RigidContact& one, const RigidContact& other,
-                                    const btSoftBody& body);
+[[nodiscard]] inline btScalar room_between(const RigidContact& one, const RigidContact& other,
+                                           const btSoftBody& body) {
+  const btVector3& position = body.m_nodes[one.node].m_x;
+  return btDot(one.normal + other.normal, position) - one.offset - other.offset;
+}
 
 /// Moves the plane of a contact with a dynamic object with the object to its pose at the end of the step.
 void follow_object(RigidContact& contact, const btTransform& object_pose);

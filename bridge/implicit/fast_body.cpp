@@ -87,6 +87,7 @@ void FastBody::wake() {
     excess_ = 0;
   }
   sleep_.wake();
+  steady_.forget();
 }
 
 btVector3 FastBody::in_world(int node) const {
@@ -148,14 +149,16 @@ void FastBody::predict(btSoftBody& body, btScalar time_step, const Matrix3X<btSc
     start_velocities_.middleCols(begin, count) = velocities.middleCols(begin, count);
   });
   last_num_substeps_ = std::exchange(num_substeps_, 1);
-  contacts_.clear();
+  steady_.begin_step(contacts_);
   colliders_.clear();
   led_links_.begin_step(time_step);
   pushed_.begin_step();
   is_support_missing_ = false;
   swept_.invalidate();
   if (is_plain(body)) {
-    predict_nodes(body, time_step, last_velocities_, scratch_, team_);
+    const bool keeps_tree =
+        settings_.keeps_node_tree || (body.m_cfg.collisions & btSoftBody::fCollision::VF_SS) != 0;
+    predict_nodes(body, time_step, last_velocities_, keeps_tree, scratch_, team_);
   } else {
     // Bullet would tell the broadphase, which all bodies share.
     btBroadphaseProxy* const proxy = body.getBroadphaseHandle();
@@ -222,7 +225,8 @@ void FastBody::set_free(const std::vector<bool>& is_free) {
   fast::SpringNetwork limited = network_;
   limited_.step = limited_.asked_step;
   limit_stiffness(limited_.step, masses_, limited);
-  solver_ = std::make_unique<fast::ImplicitSolver<btScalar>>(limited, masses_, is_free);
+  solver_ = prepared_ ? prepared_->make(limited, masses_, is_free)
+                      : std::make_unique<fast::ImplicitSolver<btScalar>>(limited, masses_, is_free);
   // A longer step needs a lower limit, of what the laws say.
   const bool may_be_limited =
       limit_stiffness(std::max(kLongestStep, limited_.step), masses_, limited);
@@ -300,10 +304,11 @@ void FastBody::end_solve(btSoftBody& body, btScalar time_step) {
 }
 
 void FastBody::update_normals(btSoftBody& body) {
+  has_normals_ = true;
+  if (!settings_.keeps_normals && !has_air(body.m_cfg)) return;
   const TraceScope trace("normals");
   const fast::WorkerTeam::Scope scope(team_, team_size());
   normals_.update(body, team_);
-  has_normals_ = true;
 }
 
 void FastBody::solve(btSoftBody& body, btScalar time_step,
@@ -363,6 +368,26 @@ void FastBody::redetect_contacts(btSoftBody& body, btScalar time_step) {
 
 bool FastBody::detects_alone() const {
   return std::all_of(colliders_.begin(), colliders_.end(), is_detected_alone);
+}
+
+bool FastBody::repeat_step(btSoftBody& body, btScalar time_step) {
+  // Neither a method that looks back, nor anything that the program has done since.
+  const bool may_repeat = last_step_ == 0 && method_ == Method::kImplicitEuler && excess_ == 0 &&
+                          pins_.empty() && impulses_.cols() == 0 && solver_ != nullptr;
+  const SteadyStep::State state{starts_,          last_starts_, positions_, start_velocities_,
+                                last_velocities_, predicted_,   velocities_};
+  const bool is_same = steady_.has_same_surroundings(body, colliders_, time_step) && may_repeat;
+  if (!steady_.is_known(is_same && begins_as_last(body, state), solver_.get())) return false;
+  is_predicted_ = false;
+  steady_.restore(contacts_);
+  step_error_.include(solver_->report(), static_cast<double>(inertia_step_), masses_.sum());
+  stay(velocities_, body);
+  return true;
+}
+
+bool FastBody::is_alone(const btSoftBody& body) const {
+  std::vector<MovableObject> dynamic;
+  return list_dynamic(body, dynamic), dynamic.empty() && detects_alone();
 }
 
 // Momentum goes from one body to another in the same step only if both integrate by the same formula.

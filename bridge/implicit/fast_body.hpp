@@ -11,14 +11,17 @@
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/classic/node_normals.hpp>
 #include <weft/bridge/contact/backed_nodes.hpp>
+#include <weft/bridge/contact/known_contacts.hpp>
 #include <weft/bridge/contact/pinch.hpp>
 #include <weft/bridge/contact/rigid_contacts.hpp>
+#include <weft/bridge/contact/settled_nodes.hpp>
 #include <weft/bridge/fast_settings.hpp>
 #include <weft/bridge/implicit/bending_forces.hpp>
 #include <weft/bridge/implicit/body_sleep.hpp>
 #include <weft/bridge/implicit/explicit_substeps.hpp>
 #include <weft/bridge/implicit/force_history.hpp>
 #include <weft/bridge/implicit/node_team.hpp>
+#include <weft/bridge/implicit/steady_step.hpp>
 #include <weft/bridge/implicit/stiffness_limit.hpp>
 #include <weft/bridge/implicit/substep_count.hpp>
 #include <weft/bridge/rigid/coupled_bodies.hpp>
@@ -28,26 +31,28 @@
 #include <weft/bridge/step_error.hpp>
 #include <weft/custom_forces/law_info.hpp>
 #include <weft/fast_solver/implicit_solver.hpp>
+#include <weft/fast_solver/prepared_solvers.hpp>
 #include <weft/mesh/cloth_mesh.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// Implicit springs for one btSoftBody of the classic world, instead of btSoftBody::solveConstraints.
-/// Bullet's bookkeeping stays: nodes are predicted as by btSoftBody::predictMotion, m_q keeps
-/// the positions at the start of the step, m_v follows from positions, m_f is cleared.
+/// Implicit springs for one btSoftBody of the classic world, instead of btSoftBody::solveConstraints. Bullet's bookkeeping stays:
+/// nodes are predicted as by predictMotion(), m_q keeps positions at the start of the step, m_v follows from them, m_f is cleared.
 ///
 /// Solved together: springs and dampers of the network, stabilised bending, anchors, contact with rigid
-/// shapes and Coulomb friction. Contacts with cloth (m_scontacts) are projected afterwards, as Bullet
-/// does it. A dynamic body is coupled with its inertia; at the end of the step it gets the impulses, and is moved by them.
-/// Bullet's own links are not looked at.
+/// shapes and Coulomb friction. Contacts with cloth (m_scontacts) are projected afterwards, as Bullet does it. A dynamic body is
+/// coupled with its inertia; at the end of the step it gets the impulses, and is moved by them. Bullet's own links are not looked at.
 class FastBody : public NodeTeam {
  public:
+  using PreparedSolvers = fast::PreparedSolvers<btScalar>;
   /// laws: all of the body's; those that are not implicit only lend their stiffness. masses: n [kg].
   /// Throws InvalidArgument as make_network() and for fewer than one iteration.
   FastBody(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
            VectorX<double> masses, const FastSettings& settings);
 
+  /// Before the first step: bodies with equal springs that share these are set up once.
+  void share(std::shared_ptr<PreparedSolvers> prepared) { prepared_ = std::move(prepared); }
   [[nodiscard]] const FastSettings& settings() const { return settings_; }
   void set_settings(const FastSettings& settings) { settings_ = settings, wake(); }
 
@@ -75,7 +80,7 @@ class FastBody : public NodeTeam {
     sleep_.end_step(body, time_step, settings_);
   }
 
-  /// Forces that somebody else has added to m_f become velocities: impulses, which count once. Before the laws add theirs.
+  /// Forces that others have added to m_f become velocities: impulses, which count once. Before the laws add theirs.
   void apply_external_impulses(btSoftBody& body, btScalar time_step);
   /// btSoftBody::predictMotion. positions and velocities: m_x [m] and m_v [m/s], 3 x n. Touches only the body, but not
   /// its entry in the broadphase: predictions of several bodies may run at the same time.
@@ -90,9 +95,11 @@ class FastBody : public NodeTeam {
   void list_coupled(const btSoftBody& body, std::vector<const void*>& list) const;
   /// Whether detect_contacts() and redetect_contacts() touch only the body too.
   [[nodiscard]] bool detects_alone() const;
+  /// Whether all stages of this step touch only the body, if no cloth does: no dynamic object is near it or holds it.
+  [[nodiscard]] bool is_alone(const btSoftBody& body) const;
   /// After prepare(), once Bullet has moved rigid bodies.
   void detect_contacts(const btSoftBody& body, btScalar time_step);
-  /// How many substeps the step is to be divided into, after detect_contacts() (SubstepCount).
+  /// Into how many substeps the step is to be divided, after detect_contacts() (SubstepCount).
   [[nodiscard]] int num_substeps(const btSoftBody& body, btScalar time_step) const;
   [[nodiscard]] int last_num_substeps() const { return last_num_substeps_; }
   /// How many explicit ones would be stable.
@@ -108,22 +115,21 @@ class FastBody : public NodeTeam {
   void end_substeps(btSoftBody& body, btScalar time_step);
   /// Instead of btSoftBody::solveConstraints. prepare(), begin_solve(), solve_again() and end_solve() change only the
   /// body, so that those of several bodies may run at the same time; apply_solution() pushes and moves rigid bodies.
-  /// pushed: those of all bodies, in order. Each of several that push one rigid body has a share of its inertia: they are
-  /// solved apart, and each alone would stop it.
+  /// pushed: those of all bodies, in order. Each of several that push one has a share of its inertia: each alone would stop it.
   void prepare(const btSoftBody& body);
   void begin_solve(btSoftBody& body, btScalar time_step, std::span<const void* const> pushed);
-  /// Looks for contacts that the solution needs, and for bodies that it has pushed into others: is_unfinished() says
-  /// whether it found any.
+  /// Looks for contacts that the solution needs, and bodies that it has pushed into others: is_unfinished() if there are any.
   void redetect_contacts(btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool is_unfinished() const { return is_contact_missing_ || is_support_missing_; }
   /// is_moved: with the impulses that have moved nodes from where write_positions() has put them.
   void solve_again(btSoftBody& body, btScalar time_step, std::span<const void* const> pushed,
                    bool is_moved = false);
-  /// A step of the method of ForceHistory that has more energy than there was is solved by implicit Euler instead, which
-  /// cannot.
+  /// In place of prepare() to end_solve() of a body that is alone: ends a step that begins as the last two, at rest (SteadyStep).
+  [[nodiscard]] bool repeat_step(btSoftBody& body, btScalar time_step);
+  /// A step of the method of ForceHistory with more energy than there was is solved by implicit Euler instead, which cannot.
   void solve_anew_if_it_gains(btSoftBody& body, btScalar time_step);
-  /// Writes the solution to m_x, if anybody looks at it before end_solve(). Contacts with cloth are projected then, over all bodies, as often as
-  /// kClothContactSweeps says, for what one body does to another would be lost otherwise.
+  /// Writes the solution to m_x, if anybody looks at it before end_solve(). Contacts with cloth are projected then, over all bodies
+  /// kClothContactSweeps times, for what one body does to another would be lost otherwise.
   void apply_solution(btSoftBody& body, btScalar time_step, bool is_looked_at);
   void project_cloth_contacts(btSoftBody& body);
   static constexpr int kClothContactSweeps = 16;
@@ -131,13 +137,12 @@ class FastBody : public NodeTeam {
   void end_solve(btSoftBody& body, btScalar time_step);  ///< velocities, from m_x
   /// The velocities that this step leaves: what differs at the start of the next one has come from outside.
   void note_velocities(const btSoftBody& body);
-  /// btSoftBody::updateNormals, once no node moves any more in this step.
+  /// btSoftBody::updateNormals for a body that keeps normals, once no node moves any more in this step.
   void update_normals(btSoftBody& body);
   [[nodiscard]] bool has_normals() const { return has_normals_; }
   /// [s] The time for which a rate at the end of this step counts: with BDF2 two thirds of the step, the rest is in the steps before.
   [[nodiscard]] btScalar velocity_step() const { return velocity_step_; }
   static constexpr int kMostRedetections = 2;  ///< how often redetect_contacts() is called
-
   /// With rigid objects, of the last step.
   [[nodiscard]] const std::vector<RigidContact>& contacts() const { return contacts_; }
   /// The largest over the substeps of a step.
@@ -166,13 +171,10 @@ class FastBody : public NodeTeam {
   void find_velocities();
   void keep_forces(const btSoftBody& body, btScalar time_step);
   [[nodiscard]] bool are_positions_kept();
-  void list_known(const btSoftBody& body);
-  [[nodiscard]] RigidContact* known_contact(const RigidContact& found, const btVector3& position,
-                                            btScalar margin);
   void follow_colliders(bool to_solution);
   [[nodiscard]] btTransform solved_pose(const MovableObject& object) const;
   void find_contacts(const btSoftBody& body, const Collider& collider, btScalar time_step,
-                     std::vector<RigidContact>& contacts);
+                     std::vector<RigidContact>& contacts, std::span<const char> is_left_out = {});
   /// Contacts that the solution would need, and that nobody looked for where Bullet had predicted the
   /// nodes. True if there are any.
   [[nodiscard]] bool find_missed_contacts(btSoftBody& body, btScalar time_step);
@@ -200,8 +202,9 @@ class FastBody : public NodeTeam {
   ExplicitSubsteps explicit_;
   FastSettings settings_;
   std::unique_ptr<fast::ImplicitSolver<btScalar>> solver_;
-  std::vector<bool> is_free_;     ///< that solver_ knows
-  std::vector<int> solver_pins_;  ///< likewise
+  std::shared_ptr<PreparedSolvers> prepared_;  ///< none: this body alone
+  std::vector<bool> is_free_;                  ///< that solver_ knows
+  std::vector<int> solver_pins_;               ///< likewise
   NetworkHistory history_;
   std::vector<int> pins_;  ///< of the present step
   BodySleep sleep_;
@@ -245,13 +248,14 @@ class FastBody : public NodeTeam {
   bool is_contact_missing_ = false;  ///< in the present solution, for all that is known
   bool is_support_missing_ = false;  ///< likewise
   std::vector<Collider> colliders_;  ///< of this step
+  SteadyStep steady_;
   SweptNodes swept_;
   NodeNormals normals_;
   std::vector<RigidContact> contacts_;
   std::vector<RigidContact> found_;  ///< of a second look
   std::vector<RigidContact> deep_;   ///< of it, with what is immovable, where it is far inside
-  std::vector<int> last_contact_;    ///< of each node, or -1; contact_before_: the one before it
-  std::vector<int> contact_before_;
+  KnownContacts known_;
+  SettledNodes settled_;
   std::vector<fast::PlaneContact<btScalar>> plane_contacts_;
   std::vector<fast::KinematicNode<btScalar>> kinematic_;
   CoupledBodies pushed_;

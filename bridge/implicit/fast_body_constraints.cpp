@@ -14,19 +14,22 @@ Vector3<btScalar> lever_arm(const MovableObject& object, const btVector3& point)
   return from_bullet<btScalar>(point - object.center());
 }
 
+MovableObject movable_of(const RigidContact& contact) {
+  return contact.is_dynamic ? MovableObject(contact.object) : MovableObject();
+}
+
 /// How far below its plane a node may end a step, as a share of the margin [-].
 constexpr btScalar kProjectedShare = btScalar(0.5);
-/// By how much a plane may be wrong where the node has come to, as a share of the margin [-].
-constexpr btScalar kPlaneShare = btScalar(0.02);
-/// Planes whose normals have this cosine at least are alike: 8 degrees.
-constexpr btScalar kAlike = btScalar(0.99);
+static_assert(SettledNodes::kDepthShare < kProjectedShare);
 
 }  // namespace
 
 void FastBody::find_contacts(const btSoftBody& body, const Collider& collider, btScalar time_step,
-                             std::vector<RigidContact>& contacts) {
+                             std::vector<RigidContact>& contacts,
+                             std::span<const char> is_left_out) {
   swept_.update(body, &team_);
-  add_rigid_contacts(body, swept_, collider, time_step, PinnedNodes::kLeftOut, contacts, &team_);
+  add_rigid_contacts(body, swept_, collider, time_step, PinnedNodes::kLeftOut, contacts, &team_,
+                     is_left_out);
 }
 
 // The pose of a rigid body at the end of the step: as Bullet has moved it, and as the last solution moves it further.
@@ -55,34 +58,6 @@ void FastBody::follow_colliders(bool to_solution) {
   }
 }
 
-// The contact that is known of a node and a collider, after list_known(). Triangles of a concave one that make one plane where the
-// node is are one contact.
-RigidContact* FastBody::known_contact(const RigidContact& found, const btVector3& position,
-                                      btScalar margin) {
-  const btScalar gap = btDot(found.normal, position) - found.offset;
-  for (int c = last_contact_[static_cast<std::size_t>(found.node)]; c >= 0;
-       c = contact_before_[static_cast<std::size_t>(c)]) {
-    RigidContact& known = contacts_[static_cast<std::size_t>(c)];
-    if (known.collider != found.collider) continue;
-    if (known.triangle == found.triangle) return &known;
-    const btScalar known_gap = btDot(known.normal, position) - known.offset;
-    const bool is_same_plane = std::abs(gap - known_gap) <= kPlaneShare * margin &&
-                               btDot(found.normal, known.normal) > kAlike;
-    if (is_same_plane) return &known;
-  }
-  return nullptr;
-}
-
-void FastBody::list_known(const btSoftBody& body) {
-  last_contact_.assign(static_cast<std::size_t>(body.m_nodes.size()), -1);
-  contact_before_.resize(contacts_.size());
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    int& last = last_contact_[static_cast<std::size_t>(contacts_[c].node)];
-    contact_before_[c] = last;
-    last = static_cast<int>(c);
-  }
-}
-
 // Whether the solution needs contacts that are not known. Those that it keeps to anyway are left out. Where a dynamic object
 // was met at another position of the node than it has come to, the plane there counts from now on.
 bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
@@ -91,26 +66,29 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
   write_positions(body);
   found_.clear();
   swept_.invalidate();
-  for (const Collider& collider : colliders_) find_contacts(body, collider, time_step, found_);
+  for (const Collider& collider : colliders_) {
+    settled_.find(body, contacts_, collider);
+    if (!settled_.are_all()) find_contacts(body, collider, time_step, found_, settled_.flags());
+  }
   if (found_.empty()) return false;
-  list_known(body);
+  known_.list(contacts_, body.m_nodes.size());
   const btScalar margin = body.getCollisionShape()->getMargin();
   const std::size_t num_known = contacts_.size();
   bool is_any_wrong = false;
   for (RigidContact& found : found_) {
     if (pinches_.has(found.node)) continue;
-    if (backed_.has(found.node) && !MovableObject(found.object)) continue;
+    if (backed_.has(found.node) && !found.is_dynamic) continue;
     const btVector3& position = body.m_nodes[found.node].m_x;
     const btScalar gap = btDot(found.normal, position) - found.offset;
-    const MovableObject object{found.object};
+    const MovableObject object = movable_of(found);
     if (gap < -kProjectedShare * margin && !object) deep_.push_back(found);
-    RigidContact* const known = known_contact(found, position, margin);
+    RigidContact* const known = known_.find(found, position, margin, contacts_);
     if (known != nullptr && object) {
       RigidContact solved = *known;
       follow_object(solved, solved_pose(object));
       const btScalar known_gap = btDot(solved.normal, position) - solved.offset;
       if (std::abs(std::min(gap, known_gap)) < margin &&
-          std::abs(gap - known_gap) > kPlaneShare * margin) {
+          std::abs(gap - known_gap) > KnownContacts::kPlaneShare * margin) {
         *known = found;
         is_any_wrong = true;
       }
@@ -119,7 +97,7 @@ bool FastBody::find_missed_contacts(btSoftBody& body, btScalar time_step) {
     }
   }
   for (RigidContact& contact : contacts_) {
-    if (const MovableObject object{contact.object}) follow_object(contact, object.pose());
+    if (contact.is_dynamic) follow_object(contact, MovableObject(contact.object).pose());
   }
   return is_any_wrong || contacts_.size() > num_known;
 }
@@ -131,7 +109,7 @@ void FastBody::project_out_of_missed_colliders(btSoftBody& body, btScalar time_s
   const std::size_t num_solved = contacts_.size();
   for (int look = 0; look <= kMostRedetections && find_missed_contacts(body, time_step); ++look) {
     for (const RigidContact& contact : contacts_) {
-      if (MovableObject(contact.object) || is_between(contact.node)) continue;
+      if (contact.is_dynamic || is_between(contact.node)) continue;
       is_projected_ = true;
       if (look == kMostRedetections && &contact >= &contacts_[num_solved]) {  // between two facets
         positions_.col(contact.node) =
@@ -162,7 +140,7 @@ void FastBody::project_out_of_planes() {
 // Other cloth may have pushed nodes into what does not move.
 void FastBody::project_out_of_colliders(btSoftBody& body) const {
   for (const RigidContact& contact : contacts_) {
-    if (MovableObject(contact.object) || is_between(contact.node)) continue;
+    if (contact.is_dynamic || is_between(contact.node)) continue;
     btSoftBody::Node& node = body.m_nodes[contact.node];
     const btScalar gap = btDot(contact.normal, node.m_x) - contact.offset;
     if (gap < 0 && node.m_im > 0) node.m_x -= gap * contact.normal;
@@ -179,8 +157,8 @@ void FastBody::list_coupled(const btSoftBody& body, std::vector<const void*>& li
   };
   for_anchors(body, [&](const NodeAnchor& anchor) { add(MovableObject(anchor.object)); });
   for (const RigidContact& contact : contacts_) {
+    if (!contact.is_dynamic) continue;
     const MovableObject object{contact.object};
-    if (!object) continue;
     const bool is_inside = btDot(contact.normal, body.m_nodes[contact.node].m_x) < contact.offset;
     if (is_inside || !pushed_.displacement_of(object).isZero(0)) add(object);
   }
@@ -202,7 +180,7 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     plane.squeeze = pinches_.squeeze_of(c);
     const bool is_replaced = pinches_.is_replaced(c) || backed_.is_behind(c);
     plane.offset -= is_replaced ? BackedNodes::kFarAway : pinches_.depth_of(c);
-    const MovableObject object{contact.object};
+    const MovableObject object = movable_of(contact);
     if (object && !pinches_.has(contact.node)) {
       plane.body = pushed_.number_of(object, body.m_worldInfo->m_dispatcher, time_step, is_again);
       // The surface holds the node there, which is predicted to be deep inside.
@@ -247,7 +225,7 @@ void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
   sticking_points_.begin_update();
   for (std::size_t c = 0; c < plane_contacts_.size(); ++c) {
     RigidContact& contact = contacts_[c];
-    const MovableObject object{contact.object};
+    const MovableObject object = movable_of(contact);
     const auto [active, state] =
         active_solver().contact_of(static_cast<std::size_t>(contacts_[c].node));
     if (active != static_cast<int>(c)) continue;

@@ -26,6 +26,21 @@ bool leads_movable(const btSoftBody& body) {
   return leads;
 }
 
+/// Whether what cloth touches may do work that nobody knows.
+bool may_do_work(const std::vector<RigidContact>& contacts) {
+  const btCollisionObject* known = nullptr;  // that does none but by its motion
+  for (const RigidContact& contact : contacts) {
+    if (contact.motion.length2() > 0 && !contact.is_dynamic) return true;
+    if (contact.object == known) continue;
+    known = contact.object;
+    const MovableObject object{contact.object};
+    // Nobody knows how a ghost moves, and what the motors of joints do.
+    if (object ? object.is_articulated() : btRigidBody::upcast(contact.object) == nullptr)
+      return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 // BDF2 extrapolates a change of velocity between steps and makes 4/3 of it: such a step is implicit
@@ -139,14 +154,7 @@ void FastBody::find_velocities() {
 
 // Pins and anchors that lead, kinematic colliders and other cloth do work that nobody knows.
 bool FastBody::gets_work_from_outside() const {
-  if (!kinematic_.empty()) return true;
-  for (const RigidContact& contact : contacts_) {
-    const MovableObject object{contact.object};
-    if (contact.motion.length2() > 0 && !object) return true;
-    // Nobody knows how a ghost moves, and what the motors of joints do.
-    if (object ? object.is_articulated() : btRigidBody::upcast(contact.object) == nullptr)
-      return true;
-  }
+  if (!kinematic_.empty() || may_do_work(contacts_)) return true;
   return std::any_of(pins_.begin(), pins_.end(),
                      [&](int pin) { return positions_.col(pin) != starts_.col(pin); });
 }

@@ -26,10 +26,6 @@ btVector3 vector_of(const Four& v) {
   return {v[0], v[1], v[2]};
 }
 
-bool has_air(const btSoftBody::Config& settings) {
-  return settings.kLF > 0 || settings.kDG > 0 || settings.kPR != 0 || settings.kVC > 0;
-}
-
 struct Box {
   Four low;
   Four high;
@@ -183,25 +179,31 @@ void update_face_tree(btSoftBody& body) {
 
 }  // namespace
 
+bool has_air(const btSoftBody::Config& settings) {
+  return settings.kLF > 0 || settings.kDG > 0 || settings.kPR != 0 || settings.kVC > 0;
+}
+
 bool is_plain(const btSoftBody& body) {
   return !body.m_bUpdateRtCst && body.m_clusters.size() == 0 && !body.m_pose.m_bframe &&
          body.m_cfg.timescale == btScalar(1) && !has_air(body.m_cfg) && body.m_nodes.size() > 0;
 }
 
 void predict_nodes(btSoftBody& body, btScalar time_step, ConstMatrix3XRef<btScalar> last_velocities,
-                   std::vector<int>& scratch, fast::WorkerTeam& team) {
+                   bool keeps_tree, std::vector<int>& scratch, fast::WorkerTeam& team) {
   body.m_sst.sdt = time_step;
   body.m_sst.isdt = 1 / time_step;
   body.m_sst.velmrg = 3 * time_step;
   body.m_sst.radmrg = body.getCollisionShape()->getMargin();
   body.m_sst.updmrg = body.m_sst.radmrg * btScalar(0.25);
   integrate(body, time_step, team);
-  update_tree(body, last_velocities, scratch, team);
+  if (keeps_tree) {
+    update_tree(body, last_velocities, scratch, team);
+    body.m_ndbvt.optimizeIncremental(1);
+  }
   update_face_tree(body);
+  body.m_fdbvt.optimizeIncremental(1);
   body.m_rcontacts.resizeNoInitialize(0);
   body.m_scontacts.resizeNoInitialize(0);
-  body.m_ndbvt.optimizeIncremental(1);
-  body.m_fdbvt.optimizeIncremental(1);
 }
 
 void publish_bounds(btSoftBody& body) {

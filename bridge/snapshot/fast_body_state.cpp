@@ -126,6 +126,7 @@ void FastBodyState::serialize(StateArchive& archive, const ObjectTable& objects,
   if (body.solver_) fast::SolverState::serialize(archive, *body.solver_);
   if (!archive.is_reading()) return;
   body.contacts_.clear();
+  body.steady_.forget();
   body.colliders_.clear();
   body.impulses_.resize(3, 0);
   body.sticking_points_ = {};  // those of links, which no snapshot has

@@ -3,9 +3,11 @@
 #include <weft/core/index.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <span>
 
 namespace weft::fast {
 namespace {
@@ -38,7 +40,7 @@ int basis_size_for(int num_unknowns) {
 
 CoarseCorrection::CoarseCorrection(const ConnectivityGraph& network, const EdgeSlots& slots)
     : num_nodes_(network.matrix.size()), parts_(num_nodes_), weights_(at(padded_size(num_nodes_))) {
-  alone_.resize(weights_.size());
+  alone_.change().resize(weights_.size());
   aggregates_ = find_aggregates(network, basis_size_for(num_nodes_));
   num_basis_ = aggregates_.count;
   if (num_basis_ == 0) return;
@@ -67,7 +69,7 @@ void CoarseCorrection::make_factor() {
   sums_.assign(at(factor_.num_blocks()) * kBlockNumbers, 0.0F);
   for (auto* numbers : {&masses_, &inertia_}) numbers->assign(at(num_basis_), 0.0F);
   for (int node = 0; node < num_nodes_; ++node) note_alone(node);
-  blocks_.clear();
+  blocks_.change().clear();
 }
 
 void CoarseCorrection::set_free(const ConnectivityGraph& network, const Neighborhood& neighborhood,
@@ -237,18 +239,18 @@ void CoarseCorrection::add_terms(const Row& row, std::vector<CoarseTerm>& terms)
 void CoarseCorrection::note_alone(int node) {
   std::vector<CoarseTerm> terms;
   add_terms(row_of(node), terms);
-  alone_[at(node)].num_terms = static_cast<int>(terms.size());
-  std::copy(terms.begin(), terms.end(), alone_[at(node)].terms);
+  CoarseNode& alone = alone_.change()[at(node)];
+  alone.num_terms = static_cast<int>(terms.size());
+  std::copy(terms.begin(), terms.end(), alone.terms);
 }
 
 void CoarseCorrection::add_copies(const std::vector<int>& origins) {
   parts_ = NodePartition(num_nodes_ + static_cast<int>(origins.size()));
   of_parts_.clear();
-  residuals_.clear();
   for (const int origin : origins) {
     const int node = num_nodes_++;
     weights_.resize(at(padded_size(num_nodes_)));
-    alone_.resize(weights_.size());
+    alone_.change().resize(weights_.size());
     weights_[at(node)] = weights_[at(origin)];
     aggregates_.of_unknown.push_back(aggregates_.of_unknown[at(origin)]);
     note_alone(node);
@@ -265,12 +267,13 @@ bool CoarseCorrection::is_in_sample(int node, int slot) const {
 
 void CoarseCorrection::note_springs(const EdgeSlots& slots, const std::vector<char>& blocks) {
   if (num_basis_ == 0) return;
-  const auto num_before = blocks_.size();
+  std::vector<Block>& all = blocks_.change();
+  const auto num_before = all.size();
   const auto is_changed = [&](int b) { return at(b) >= num_before || blocks[at(b)] != 0; };
-  blocks_.resize(at(slots.num_blocks()));
+  all.resize(at(slots.num_blocks()));
   for (int b = 0; b < slots.num_blocks(); ++b) {
     if (!is_changed(b)) continue;
-    Block& block = blocks_[at(b)];
+    Block& block = all[at(b)];
     block.springs.clear();
     block.terms.clear();
     const SlotRange& range = slots.blocks[at(b)];
@@ -300,11 +303,6 @@ void CoarseCorrection::note_springs(const EdgeSlots& slots, const std::vector<ch
     }
     if (any) find_ranges(p);
   }
-  residuals_.clear();
-  for (const Part& part : of_parts_) {
-    residuals_.push_back(
-        {part.residual.data(), part.basis_functions.begin, part.basis_functions.end});
-  }
 }
 
 // Finds the interval of basis functions of a node range. It is narrow because the nodes are well ordered.
@@ -322,11 +320,11 @@ void CoarseCorrection::find_ranges(int p) {
     for (const int basis : weights_[at(i)].basis_functions) include(basis, part.basis_functions);
   }
   for (int b = nodes.begin / kNodeBlock; b < nodes.end / kNodeBlock; ++b) {
-    if (at(b) >= blocks_.size()) break;
-    for (const CoarseTerm& term : blocks_[at(b)].terms) include(term.sum, part.sums);
-    for (const CoarseSpring& spring : blocks_[at(b)].springs) {
+    if (at(b) >= blocks_->size()) break;
+    for (const CoarseTerm& term : (*blocks_)[at(b)].terms) include(term.sum, part.sums);
+    for (const CoarseSpring& spring : (*blocks_)[at(b)].springs) {
       for (const int node : {spring.node, spring.other}) {
-        const CoarseNode& alone = alone_[at(node)];
+        const CoarseNode& alone = (*alone_)[at(node)];
         for (int k = 0; k < alone.num_terms; ++k) include(alone.terms[k].sum, part.sums);
       }
     }
@@ -390,11 +388,11 @@ void CoarseCorrection::factorize(const unsigned short* linear, float root_scale,
     std::fill(part.blocks.begin(), part.blocks.end(), 0.0F);
     const NodeRange nodes = parts_[p];
     for (int b = nodes.begin / kNodeBlock; b < nodes.end / kNodeBlock; ++b) {
-      if (at(b) >= blocks_.size()) break;
-      const Block& block = blocks_[at(b)];
+      if (at(b) >= blocks_->size()) break;
+      const Block& block = (*blocks_)[at(b)];
       kernel.add_springs(
           {block.springs.data(), static_cast<int>(block.springs.size()), block.terms.data(),
-           alone_.data(), reinterpret_cast<const unsigned char*>(holds.data()), linear, scale,
+           alone_->data(), reinterpret_cast<const unsigned char*>(holds.data()), linear, scale,
            part.sums.begin},
           part.blocks.data());
     }
@@ -443,7 +441,12 @@ void CoarseCorrection::restrict_residual(int part, const std::vector<int>& const
 
 void CoarseCorrection::solve(WorkerTeam& team) {
   if (num_basis_ == 0) return;
-  factor_.solve(residuals_, solution_.data(), team);
+  std::array<DissectedCholesky::Summand, WorkerTeam::kMostParts> residuals;
+  for (std::size_t p = 0; p < of_parts_.size(); ++p) {
+    const Part& part = of_parts_[p];
+    residuals[p] = {part.residual.data(), part.basis_functions.begin, part.basis_functions.end};
+  }
+  factor_.solve(std::span(residuals).first(of_parts_.size()), solution_.data(), team);
 }
 
 void CoarseCorrection::prolongate(int part, const std::vector<int>& constrained,

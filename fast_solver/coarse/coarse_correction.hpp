@@ -14,6 +14,7 @@
 #include <weft/fast_solver/network/network_kernel.hpp>
 #include <weft/fast_solver/network/node_arrays.hpp>
 #include <weft/fast_solver/node_constraints.hpp>
+#include <weft/fast_solver/shared_value.hpp>
 #include <weft/fast_solver/simd/aligned_matrix.hpp>
 #include <weft/fast_solver/threads/node_partition.hpp>
 #include <weft/fast_solver/threads/worker_team.hpp>
@@ -34,11 +35,6 @@ using Fours = AlignedMatrix<float, 4, Eigen::Dynamic>;
 class CoarseCorrection {
  public:
   CoarseCorrection() = default;
-  CoarseCorrection(const CoarseCorrection&) = delete;  // residuals_ would be those of the other one
-  CoarseCorrection& operator=(const CoarseCorrection&) = delete;
-  CoarseCorrection(CoarseCorrection&&) = default;
-  CoarseCorrection& operator=(CoarseCorrection&&) = default;
-  ~CoarseCorrection() = default;
   /// network: all nodes, which are free. slots: of the same springs. set_masses() is due then.
   CoarseCorrection(const ConnectivityGraph& network, const EdgeSlots& slots);
 
@@ -137,16 +133,15 @@ class CoarseCorrection {
   std::vector<std::pair<int, int>> pairs_of_free_;  ///< those of the free network, ascending
   std::vector<int>
       first_pairs_;  ///< for each coarse basis function as the lower one, and behind the last
-  std::vector<Block> blocks_;
-  std::vector<CoarseNode> alone_;  ///< for each node
+  SharedValue<std::vector<Block>> blocks_;
+  SharedValue<std::vector<CoarseNode>> alone_;  ///< for each node
   DissectedCholesky factor_;
   std::vector<Part> of_parts_;
   AlignedVector<float> sums_;     ///< blocks, of all parts
   std::vector<float> bending_;    ///< for blocks, the same in all directions; empty: none
   AlignedVector<float> masses_;   ///< for coarse basis functions
   AlignedVector<float> inertia_;  ///< for coarse basis functions [N/m]
-  std::vector<DissectedCholesky::Summand> residuals_;  ///< in of_parts_
-  Fours solution_;                                     ///< for coarse basis functions
+  Fours solution_;                ///< for coarse basis functions
 };
 
 }  // namespace weft::fast

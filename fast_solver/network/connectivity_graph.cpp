@@ -32,9 +32,9 @@ ConnectivityGraph NetworkForces<Scalar>::connectivity_graph(const std::vector<in
   matrix.starts.push_back(0);
   for (const int node : names) {
     double sum = 0;
-    for_each_spring(slots_, node, [&](int other, std::size_t place) {
+    for_each_spring(*slots_, node, [&](int other, std::size_t place) {
       const Scalar* const spring =
-          springs_.data() + place / kNodeBlock * 3 * kNodeBlock + place % kNodeBlock;
+          springs_->data() + place / kNodeBlock * 3 * kNodeBlock + place % kNodeBlock;
       const double stiffness =
           static_cast<double>(spring[kNodeBlock]) +
           (has_damping_ ? static_cast<double>(damping_[place]) / kTimeStep : 0.0) +
@@ -61,7 +61,7 @@ Neighborhood NetworkForces<Scalar>::neighborhood_of(const std::vector<int>& node
   std::size_t next = 0;
   for (int ring = 1; ring <= num_springs; ++ring) {
     for (; next < at(neighborhood.ends.back()); ++next) {
-      for_each_spring(slots_, neighborhood.nodes[next], [&](int other, std::size_t) {
+      for_each_spring(*slots_, neighborhood.nodes[next], [&](int other, std::size_t) {
         if (is_in[at(other)] != 0) return;
         is_in[at(other)] = 1;
         neighborhood.nodes.push_back(other);

@@ -30,10 +30,10 @@ std::uint64_t place_of(const EdgeLane& lane) {
 template <class Scalar>
 void NetworkForces<Scalar>::reserve(std::size_t num_slots) {
   const std::size_t num_lanes = num_slots * kNodeBlock;
-  slots_.slots.reserve(num_slots);
-  slots_.others.reserve(num_lanes);
-  slots_.edges.reserve(num_lanes);
-  springs_.reserve(3 * num_lanes);
+  EdgeSlots& slots = slots_.change();
+  slots.slots.reserve(num_slots);
+  for (std::vector<int>* lanes : {&slots.others, &slots.edges}) lanes->reserve(num_lanes);
+  springs_.change().reserve(3 * num_lanes);
   if (has_damping_) {
     damping_.reserve(num_lanes);
     dampers_.reserve(2 * num_lanes);
@@ -48,10 +48,10 @@ NetworkForces<Scalar>::NetworkForces(const SpringNetwork& network, int num_nodes
   has_damping_ = (network.damping.array() != 0).any();
   has_bending_ = (network.bending.array() != 0).any();
   note_stiffest(network);
-  reserve(static_cast<std::size_t>(kRoom * slots_.num_slots()));
+  reserve(static_cast<std::size_t>(kRoom * slots_->num_slots()));
   resize_arrays();
-  for (std::size_t place = 0; place < slots_.edges.size(); ++place) {
-    const int e = slots_.edges[place];
+  for (std::size_t place = 0; place < slots_->edges.size(); ++place) {
+    const int e = slots_->edges[place];
     if (e < 0) continue;
     write(place, {0,
                   {},
@@ -61,7 +61,7 @@ NetworkForces<Scalar>::NetworkForces(const SpringNetwork& network, int num_nodes
                   static_cast<Scalar>(network.damping[e]),
                   static_cast<float>(network.bending[e])});
   }
-  for (const SlotRange& range : slots_.blocks) room_.push_back(range.end - range.begin);
+  for (const SlotRange& range : slots_->blocks) room_.push_back(range.end - range.begin);
 }
 
 template <class Scalar>
@@ -86,11 +86,12 @@ void NetworkForces<Scalar>::choose_scale(double time_step) {
 template <class Scalar>
 void NetworkForces<Scalar>::resize_arrays() {
   const std::size_t block = kNodeBlock;
-  const std::size_t num_lanes = slots_.edges.size();
-  const std::size_t num_before = springs_.size() / 3;
-  springs_.resize(3 * num_lanes, Scalar(0));
+  const std::size_t num_lanes = slots_->edges.size();
+  AlignedVector<Scalar>& springs = springs_.change();
+  const std::size_t num_before = springs.size() / 3;
+  springs.resize(3 * num_lanes, Scalar(0));
   for (std::size_t place = num_before; place < num_lanes; ++place) {
-    springs_[place / block * 3 * block + place % block] = Scalar(1);
+    springs[place / block * 3 * block + place % block] = Scalar(1);
   }
   if (has_damping_) {
     damping_.resize(num_lanes, Scalar(0));
@@ -105,9 +106,8 @@ void NetworkForces<Scalar>::resize_arrays() {
 template <class Scalar>
 void NetworkForces<Scalar>::write(std::size_t place, const Spring& values) {
   const std::size_t block = kNodeBlock;
-  Scalar* const spring = springs_.data() + place / block * 3 * block + place % block;
-  spring[0] = values.rest_length;
-  spring[block] = values.stiffness;
+  Scalar* const spring = springs_.change().data() + place / block * 3 * block + place % block;
+  spring[0] = values.rest_length, spring[block] = values.stiffness;
   spring[2 * block] = values.compressed;
   if (has_damping_) damping_[place] = values.damping;
   if (has_bending_) bending_[place] = values.bending;
@@ -117,11 +117,11 @@ template <class Scalar>
 void NetworkForces<Scalar>::set_rest_length(int first, int second, double rest_length) {
   const std::size_t block = kNodeBlock;
   for (const auto& [node, other] : {std::pair(first, second), std::pair(second, first)}) {
-    const SlotRange& range = slots_.blocks[at(node / kNodeBlock)];
+    const SlotRange& range = slots_->blocks[at(node / kNodeBlock)];
     for (int slot = range.begin; slot < range.end; ++slot) {
       const std::size_t place = at(slot) * block + at(node % kNodeBlock);
-      if (slots_.edges[place] < 0 || slots_.others[place] != other) continue;
-      springs_[place / block * 3 * block + place % block] = static_cast<Scalar>(rest_length);
+      if (slots_->edges[place] < 0 || slots_->others[place] != other) continue;
+      springs_.change()[place / block * 3 * block + place % block] = Scalar(rest_length);
     }
   }
 }
@@ -135,7 +135,7 @@ std::vector<char> NetworkForces<Scalar>::replace(const SpringNetwork& springs,
   note_stiffest(springs);
   std::vector<char> blocks = blocks_to_change(springs, is_changed);
   std::vector<std::vector<Spring>> of_block(blocks.size());
-  for (int block = 0; block < slots_.num_blocks(); ++block) {
+  for (int block = 0; block < slots_->num_blocks(); ++block) {
     if (blocks[at(block)] != 0) keep_springs(block, is_changed, of_block[at(block)]);
   }
   for (int e = 0; e < static_cast<int>(springs.edges.cols()); ++e) {
@@ -153,9 +153,10 @@ std::vector<char> NetworkForces<Scalar>::replace(const SpringNetwork& springs,
       if (blocks[at(block)] != 0) of_block[at(block)].push_back(spring);
     }
   }
-  slots_.num_nodes = num_nodes;
-  const int end = slots_.num_slots();
-  slots_.blocks.resize(blocks.size(), SlotRange{end, end, end});
+  EdgeSlots& slots = slots_.change();
+  slots.num_nodes = num_nodes;
+  const int end = slots.num_slots();
+  slots.blocks.resize(blocks.size(), SlotRange{end, end, end});
   room_.resize(blocks.size(), 0);
   for (int block = 0; block < static_cast<int>(blocks.size()); ++block) {
     if (blocks[at(block)] != 0) lay_out(block, of_block[at(block)]);
@@ -175,14 +176,14 @@ std::vector<char> NetworkForces<Scalar>::blocks_to_change(
   if (!has_bending_) return blocks;
   const std::vector<char> changed = blocks;
   for (const int node : springs.edges.reshaped()) blocks[at(node / kNodeBlock)] = 1;
-  for (int block = 0; block < slots_.num_blocks();
+  for (int block = 0; block < slots_->num_blocks();
        ++block) {  // neighbors that may be none any more
     if (changed[at(block)] == 0) continue;
-    const SlotRange& range = slots_.blocks[at(block)];
+    const SlotRange& range = slots_->blocks[at(block)];
     for (int place = range.begin * kNodeBlock; place < range.end * kNodeBlock; ++place) {
       const int node = block * kNodeBlock + place % kNodeBlock;
       if (node >= num_nodes() || is_changed[at(node)] == 0) continue;
-      blocks[at(slots_.others[at(place)] / kNodeBlock)] = 1;
+      blocks[at(slots_->others[at(place)] / kNodeBlock)] = 1;
     }
   }
   return blocks;
@@ -192,16 +193,16 @@ std::vector<char> NetworkForces<Scalar>::blocks_to_change(
 template <class Scalar>
 void NetworkForces<Scalar>::keep_springs(int block, const std::vector<char>& is_changed,
                                          std::vector<Spring>& result) const {
-  const SlotRange& range = slots_.blocks[at(block)];
+  const SlotRange& range = slots_->blocks[at(block)];
   result.reserve(at((range.end - range.begin) * kNodeBlock));
   for (int slot = range.begin; slot < range.end; ++slot) {
     for (int lane = 0; lane < kNodeBlock; ++lane) {
       const int node = block * kNodeBlock + lane;
       const std::size_t place = at(slot * kNodeBlock + lane);
-      const int other = slots_.others[place];
-      if (node >= num_nodes() || slots_.edges[place] < 0) continue;
+      const int other = slots_->others[place];
+      if (node >= num_nodes() || slots_->edges[place] < 0) continue;
       if (is_changed[at(node)] != 0 || is_changed[at(other)] != 0) continue;
-      const Scalar* const spring = springs_.data() + at(slot * 3 * kNodeBlock + lane);
+      const Scalar* const spring = springs_->data() + at(slot * 3 * kNodeBlock + lane);
       result.push_back({place_of({node, other, 0}),
                         {node, other, 0},
                         spring[0],
@@ -226,24 +227,25 @@ void NetworkForces<Scalar>::lay_out(int block, std::vector<Spring>& springs) {
   EdgeSlots laid_out;
   laid_out.num_nodes = num_nodes();
   maker_.append(block, lanes, laid_out);
-  SlotRange& range = slots_.blocks[at(block)];
+  EdgeSlots& slots = slots_.change();
+  SlotRange& range = slots.blocks[at(block)];
   const int num_slots = laid_out.num_slots();
   if (num_slots > room_[at(block)]) {  // to the end, with room to grow
-    range.begin = slots_.num_slots();
+    range.begin = slots.num_slots();
     room_[at(block)] = num_slots + kSpareSlots;
-    slots_.slots.resize(at(range.begin + room_[at(block)]), EdgeSlot{0, true});
-    slots_.others.resize(slots_.slots.size() * kNodeBlock, 0);
-    slots_.edges.resize(slots_.slots.size() * kNodeBlock, -1);
+    slots.slots.resize(at(range.begin + room_[at(block)]), EdgeSlot{0, true});
+    slots.others.resize(slots.slots.size() * kNodeBlock, 0);
+    slots.edges.resize(slots.others.size(), -1);
     resize_arrays();
   }
   range.rows_end = range.begin + laid_out.blocks[0].rows_end;
   range.end = range.begin + num_slots;
   const std::size_t first = at(range.begin) * kNodeBlock;
-  std::copy(laid_out.slots.begin(), laid_out.slots.end(), slots_.slots.begin() + range.begin);
+  std::copy(laid_out.slots.begin(), laid_out.slots.end(), slots.slots.begin() + range.begin);
   for (std::size_t lane = 0; lane < laid_out.edges.size(); ++lane) {
     const int e = laid_out.edges[lane];
-    slots_.others[first + lane] = laid_out.others[lane];
-    slots_.edges[first + lane] = e < 0 ? -1 : 0;
+    slots.others[first + lane] = laid_out.others[lane];
+    slots.edges[first + lane] = e < 0 ? -1 : 0;
     write(first + lane, e < 0 ? Spring{0, {}, 1, 0, 0, 0, 0} : springs[at(e)]);
   }
 }
@@ -251,17 +253,17 @@ void NetworkForces<Scalar>::lay_out(int block, std::vector<Spring>& springs) {
 template <class Scalar>
 double NetworkForces<Scalar>::unused_share() const {
   int used = 0;
-  for (const SlotRange& range : slots_.blocks) used += range.end - range.begin;
-  return slots_.num_slots() > 0 ? 1.0 - static_cast<double>(used) / slots_.num_slots() : 0.0;
+  for (const SlotRange& range : slots_->blocks) used += range.end - range.begin;
+  return slots_->num_slots() > 0 ? 1.0 - static_cast<double>(used) / slots_->num_slots() : 0.0;
 }
 
 template <class Scalar>
 NetworkView<Scalar> NetworkForces<Scalar>::view() const {
-  return {slots_.blocks.data(),
-          slots_.slots.data(),
-          slots_.others.data(),
+  return {slots_->blocks.data(),
+          slots_->slots.data(),
+          slots_->others.data(),
           static_cast<int>(diagonal_.rows()),
-          springs_.data(),
+          springs_->data(),
           dampers_.empty() ? nullptr : dampers_.data(),
           bending_.empty() ? nullptr : bending_.data(),
           least_transverse_,
@@ -299,7 +301,7 @@ template <class Scalar>
 void NetworkForces<Scalar>::note_bending(CoarseCorrection& correction) const {
   if (!has_bending_) return;
   correction.set_bending(
-      slots_, [this](std::size_t place) { return static_cast<double>(bending_[place]); });
+      *slots_, [this](std::size_t place) { return static_cast<double>(bending_[place]); });
 }
 
 template <class Scalar>

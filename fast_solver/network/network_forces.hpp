@@ -11,6 +11,7 @@
 #include <weft/fast_solver/network/network_kernel.hpp>
 #include <weft/fast_solver/network/node_arrays.hpp>
 #include <weft/fast_solver/network/spring_network.hpp>
+#include <weft/fast_solver/shared_value.hpp>
 
 namespace weft::fast {
 
@@ -26,18 +27,15 @@ class NetworkForces {
  public:
   NetworkForces(const SpringNetwork& network, int num_nodes);
 
-  [[nodiscard]] int num_nodes() const { return slots_.num_nodes; }
+  [[nodiscard]] int num_nodes() const { return slots_->num_nodes; }
 
-  /// Puts springs in the place of all that have an end among the nodes that are changed (flags of
-  /// num_nodes nodes; there may be more nodes than before, and all new ones are changed). springs: each
-  /// has such an end; without bending, those with one such end only are taken to be as they were.
-  /// Takes time for what changes only: blocks that grow are laid out anew behind the others. Results are
-  /// those of a network made anew, but for the order in which the springs of some nodes are summed.
-  /// Returns flags of the blocks of kNodeBlock nodes that were laid out anew.
+  /// Puts springs in the place of all that have an end among the nodes that are changed (flags of num_nodes nodes; there may be
+  /// more than before, all new ones changed). springs: each has such an end; without bending, those with one only are as they were.
+  /// Takes time for what changes only: blocks that grow are laid out anew behind the others. Results are those of a network made
+  /// anew, but for the order in which the springs of some nodes are summed. Returns flags of the blocks that were laid out anew.
   std::vector<char> replace(const SpringNetwork& springs, const std::vector<char>& is_changed,
                             int num_nodes);
-  /// Another rest length [m], > 0, of the spring between two nodes, from the next add_forces() on. Does nothing without
-  /// such a spring.
+  /// Another rest length [m], > 0, of the spring between two nodes, from the next add_forces() on. Nothing without such a spring.
   void set_rest_length(int first, int second, double rest_length);
   /// Share of the slots that no block uses any more [-].
   [[nodiscard]] double unused_share() const;
@@ -73,7 +71,7 @@ class NetworkForces {
   /// The 3 x 3 blocks of the diagonal of that stiffness [N/m].
   [[nodiscard]] const BlockArrays& diagonal_blocks() const { return diagonal_; }
 
-  [[nodiscard]] const EdgeSlots& slots() const { return slots_; }
+  [[nodiscard]] const EdgeSlots& slots() const { return *slots_; }
   /// The springs between some nodes; what couples them to others is in the diagonal only. Dampers count as in steps of 1/60 s.
   [[nodiscard]] ConnectivityGraph connectivity_graph(const std::vector<int>& names) const;
   /// Neighborhood 0 to num_springs around some nodes.
@@ -109,10 +107,10 @@ class NetworkForces {
   void lay_out(int block, std::vector<Spring>& springs);
   void write(std::size_t place, const Spring& spring);
 
-  EdgeSlots slots_;
+  SharedValue<EdgeSlots> slots_;
   std::vector<int> room_;  ///< for each block: slots from its first one on
   SlotMaker maker_;
-  AlignedVector<Scalar> springs_;
+  SharedValue<AlignedVector<Scalar>> springs_;
   bool has_damping_ = false;  ///< without: no array
   bool has_bending_ = false;
   AlignedVector<Scalar> damping_;  ///< for each lane [N s/m]

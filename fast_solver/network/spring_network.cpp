@@ -1,8 +1,8 @@
 #include <weft/fast_solver/network/spring_network.hpp>
 
 #include <algorithm>
-#include <map>
 #include <utility>
+#include <vector>
 
 #include <weft/custom_forces/law_input.hpp>
 #include <weft/custom_forces/registry.hpp>
@@ -19,9 +19,23 @@ struct Entry {
   double damping = 0;
   double bending = 0;
 };
-using Entries = std::map<std::pair<int, int>, Entry>;
+/// By edge; those of one edge in the order in which they were added.
+struct Part {
+  std::pair<int, int> nodes;  ///< the lower one first
+  int number;
+  Entry entry;
 
-void add_springs(const forces::LawSpecification& law, const ClothMesh& mesh, Entries& entries) {
+  [[nodiscard]] bool operator<(const Part& other) const {
+    return nodes != other.nodes ? nodes < other.nodes : number < other.number;
+  }
+};
+using Parts = std::vector<Part>;
+
+void add_part(int a, int b, const Entry& entry, Parts& parts) {
+  parts.push_back({std::minmax(a, b), static_cast<int>(parts.size()), entry});
+}
+
+void add_springs(const forces::LawSpecification& law, const ClothMesh& mesh, Parts& parts) {
   const Edges edges = forces::law_edges(law, mesh);
   const VectorX<double> lengths = forces::law_rest_lengths(law, mesh, edges);
   const bool is_tension = forces::role_of(law.law) == forces::LawRole::kSpring;
@@ -29,12 +43,29 @@ void add_springs(const forces::LawSpecification& law, const ClothMesh& mesh, Ent
   const double ratio = is_tension ? forces::law_scalar(law, "compression_ratio") : 1.0;
   const double damping = is_tension ? 0.0 : forces::law_scalar(law, "damping");
   for (Eigen::Index e = 0; e < edges.cols(); ++e) {
-    Entry& entry = entries[std::minmax(edges(0, e), edges(1, e))];
-    entry.rest_length = lengths[e];
-    entry.stiffness += stiffness;
-    entry.compressed += ratio * stiffness;
-    entry.damping += damping;
+    add_part(edges(0, e), edges(1, e), {lengths[e], stiffness, ratio * stiffness, damping, 0},
+             parts);
   }
+}
+
+/// One for each edge, ascending. The last spring's rest length counts.
+Parts sum_up(Parts parts) {
+  std::sort(parts.begin(), parts.end());
+  std::size_t count = 0;
+  for (const Part& part : parts) {
+    if (count == 0 || parts[count - 1].nodes != part.nodes) {
+      parts[count++] = part;
+      continue;
+    }
+    Entry& sum = parts[count - 1].entry;
+    if (part.entry.rest_length > 0) sum.rest_length = part.entry.rest_length;
+    sum.stiffness += part.entry.stiffness;
+    sum.compressed += part.entry.compressed;
+    sum.damping += part.entry.damping;
+    sum.bending += part.entry.bending;
+  }
+  parts.resize(count);
+  return parts;
 }
 
 }  // namespace
@@ -50,7 +81,7 @@ bool is_implicit(const forces::LawSpecification& law) {
 
 SpringNetwork make_network(const ClothMesh& mesh,
                            const std::vector<forces::LawSpecification>& laws) {
-  Entries entries;
+  Parts entries;
   std::vector<forces::LawSpecification> bending;
   for (const forces::LawSpecification& given : laws) {
     const forces::LawSpecification law = forces::checked(given);
@@ -58,11 +89,13 @@ SpringNetwork make_network(const ClothMesh& mesh,
     if (is_bending(law.law)) bending.push_back(law);
   }
   for (const MatrixPart& part : rest_stiffness(mesh, bending)) {
-    Entry& entry = entries[{part.row, part.column}];
-    entry.bending -= part.value;
+    add_part(part.row, part.column, {0, 0, 0, 0, -part.value}, entries);
+  }
+  entries = sum_up(std::move(entries));
+  for (auto& [nodes, number, entry] : entries) {
     if (entry.rest_length > 0) continue;
     const double distance =
-        (mesh.rest_positions.col(part.row) - mesh.rest_positions.col(part.column)).norm();
+        (mesh.rest_positions.col(nodes.first) - mesh.rest_positions.col(nodes.second)).norm();
     entry.rest_length =
         distance > 0 ? distance : 1.0;  // of no spring, but a length to compare with
   }
@@ -74,7 +107,7 @@ SpringNetwork make_network(const ClothMesh& mesh,
     values->resize(m);
   }
   Eigen::Index e = 0;
-  for (const auto& [nodes, entry] : entries) {
+  for (const auto& [nodes, number, entry] : entries) {
     network.edges.col(e) << nodes.first, nodes.second;
     network.rest_lengths[e] = entry.rest_length;
     network.stiffness[e] = entry.stiffness;

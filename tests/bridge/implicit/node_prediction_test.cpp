@@ -55,7 +55,7 @@ TEST(NodePrediction, MovesNodesAsBulletDoes) {
   const fast::WorkerTeam::Scope scope(team, 2);
   for (int k = 0; k < 5; ++k) {
     std::vector<int> scratch;
-    predict_nodes(ours.body(), step, Matrix3X<btScalar>(3, 0), scratch, team);
+    predict_nodes(ours.body(), step, Matrix3X<btScalar>(3, 0), true, scratch, team);
     bullets.body().predictMotion(step);
     for (int i = 0; i < ours.body().m_nodes.size(); ++i) {
       const btSoftBody::Node& a = ours.body().m_nodes[i];
