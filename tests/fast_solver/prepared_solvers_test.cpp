@@ -11,9 +11,9 @@
 namespace weft::fast {
 namespace {
 
-constexpr double kTimeStep = 1.0 / 60;  // [s]
+constexpr double kStepOfCopies = 1.0 / 60;  // [s]
 
-ClothMesh cloth(const Vector3<double>& center = {0, 0, 0}) {
+ClothMesh sheet_of_copies(const Vector3<double>& center = {0, 0, 0}) {
   ClothGrid grid;
   grid.nodes = {12, 12};
   grid.center = center;
@@ -21,7 +21,7 @@ ClothMesh cloth(const Vector3<double>& center = {0, 0, 0}) {
   return make_cloth_grid(grid);
 }
 
-SpringNetwork springs(const ClothMesh& mesh, double stiffness) {
+SpringNetwork tension_of(const ClothMesh& mesh, double stiffness) {
   return make_network(mesh, {{"tension", {}, {{"stiffness", {stiffness}}}}});
 }
 
@@ -32,15 +32,15 @@ Matrix3X<float> pulled(ImplicitSolver<float>& solver, const ClothMesh& mesh) {
   for (Eigen::Index i = 0; i < target.cols(); ++i) target(1, i) += 0.01F * target(0, i);
   target.row(0) *= 1.05F;
   Matrix3X<float> x = start;
-  solver.solve({target, start, kTimeStep, kTimeStep}, {}, x);
+  solver.solve({target, start, kStepOfCopies, kStepOfCopies}, {}, x);
   return x;
 }
 
 TEST(PreparedSolvers, HaveTheBitsOfASolverOfOnesOwn) {
-  const ClothMesh mesh = cloth();
+  const ClothMesh mesh = sheet_of_copies();
   std::vector<bool> is_free(static_cast<std::size_t>(mesh.num_nodes()), true);
   is_free[0] = false;
-  const SpringNetwork network = springs(mesh, 200);
+  const SpringNetwork network = tension_of(mesh, 200);
   ImplicitSolver<float> own(network, mesh.masses, is_free);
   const Matrix3X<float> expected = pulled(own, mesh);
   EXPECT_GT((expected - mesh.rest_positions.cast<float>()).norm(), 0.01F);
@@ -53,7 +53,7 @@ TEST(PreparedSolvers, HaveTheBitsOfASolverOfOnesOwn) {
 
 // One body after another of four kinds, which differ in one thing each.
 TEST(PreparedSolvers, TellKindsApart) {
-  const ClothMesh mesh = cloth();
+  const ClothMesh mesh = sheet_of_copies();
   const std::vector<bool> all_free(static_cast<std::size_t>(mesh.num_nodes()), true);
   std::vector<bool> one_pinned = all_free;
   one_pinned[5] = false;
@@ -62,11 +62,11 @@ TEST(PreparedSolvers, TellKindsApart) {
     VectorX<double> masses;
     std::vector<bool> is_free;
   };
-  std::vector<Kind> kinds = {{springs(mesh, 200), mesh.masses, all_free},
-                             {springs(mesh, 300), mesh.masses, all_free},
-                             {springs(mesh, 200), 2 * mesh.masses, all_free},
-                             {springs(mesh, 200), mesh.masses, one_pinned},
-                             {springs(mesh, 200), mesh.masses, all_free}};
+  std::vector<Kind> kinds = {{tension_of(mesh, 200), mesh.masses, all_free},
+                             {tension_of(mesh, 300), mesh.masses, all_free},
+                             {tension_of(mesh, 200), 2 * mesh.masses, all_free},
+                             {tension_of(mesh, 200), mesh.masses, one_pinned},
+                             {tension_of(mesh, 200), mesh.masses, all_free}};
   kinds.back().network.rest_lengths[7] *= 1.01;
   PreparedSolvers<float> prepared;
   for (int round = 0; round < 4; ++round) {
@@ -82,15 +82,15 @@ TEST(PreparedSolvers, TellKindsApart) {
 // Rest lengths of a mesh at another place differ in their last bits.
 TEST(PreparedSolvers, TakeMeshesAtOtherPlacesForAlike) {
   PreparedSolvers<float> prepared;
-  const ClothMesh mesh = cloth();
-  const ClothMesh other = cloth({3, 1, 7});
-  ASSERT_NE(springs(mesh, 200).rest_lengths, springs(other, 200).rest_lengths);
+  const ClothMesh mesh = sheet_of_copies();
+  const ClothMesh other = sheet_of_copies({3, 1, 7});
+  ASSERT_NE(tension_of(mesh, 200).rest_lengths, tension_of(other, 200).rest_lengths);
   const std::vector<bool> all_free(static_cast<std::size_t>(mesh.num_nodes()), true);
   for (int body = 0; body < 2; ++body) {
-    (void)prepared.make(springs(mesh, 200), mesh.masses, all_free);
+    (void)prepared.make(tension_of(mesh, 200), mesh.masses, all_free);
   }
   EXPECT_EQ(prepared.num_shared(), 0);
-  (void)prepared.make(springs(other, 200), mesh.masses, all_free);
+  (void)prepared.make(tension_of(other, 200), mesh.masses, all_free);
   EXPECT_EQ(prepared.num_shared(), 1);
 }
 
@@ -117,9 +117,9 @@ const std::vector<std::function<void(ImplicitSolver<float>&, const ClothMesh&)>>
 
 // Neither solvers that were made before nor those that are made afterwards, nor the one that they are copies of.
 TEST(PreparedSolvers, AreNotChangedWithACopy) {
-  const ClothMesh mesh = cloth();
+  const ClothMesh mesh = sheet_of_copies();
   const std::vector<bool> is_free(static_cast<std::size_t>(mesh.num_nodes()), true);
-  const SpringNetwork network = springs(mesh, 200);
+  const SpringNetwork network = tension_of(mesh, 200);
   ImplicitSolver<float> own(network, mesh.masses, is_free);
   const Matrix3X<float> expected = pulled(own, mesh);
   for (const auto& change : changes()) {

@@ -10,8 +10,8 @@
 namespace weft::fast {
 namespace {
 
-constexpr double kTimeStep = 1.0 / 60;  // [s]
-constexpr double kFall = 9.81 * kTimeStep * kTimeStep;
+constexpr double kPressedStep = 1.0 / 60;  // [s]
+constexpr double kFall = 9.81 * kPressedStep * kPressedStep;
 constexpr double kPlate = 2;  // [kg]
 
 RigidInertia<double> plate(double mass, double fall) {
@@ -32,7 +32,7 @@ class Pressed {
     mesh_ = make_cloth_grid(grid);
     starts_ = mesh_.rest_positions;
     inertial_ = starts_;
-    inertial_.row(0).array() += velocity * kTimeStep;
+    inertial_.row(0).array() += velocity * kPressedStep;
     inertial_.row(1).array() -= kFall;
     bodies_ = {plate(kPlate, kFall)};
     for (int i = 0; i < mesh_.num_nodes(); ++i) {
@@ -47,7 +47,7 @@ class Pressed {
       NodeSupport<double> support;
       support.node = i;
       support.normal = {0, 1, 0};
-      support.stiffness = 10 * kPlate / (kTimeStep * kTimeStep) / mesh_.num_nodes();
+      support.stiffness = 10 * kPlate / (kPressedStep * kPressedStep) / mesh_.num_nodes();
       supports_.push_back(support);
     }
   }
@@ -61,8 +61,8 @@ class Pressed {
     positions_ = inertial_;
     solver_->solve({inertial_,
                     starts_,
-                    kTimeStep,
-                    kTimeStep,
+                    kPressedStep,
+                    kPressedStep,
                     contacts_,
                     {},
                     bodies_,
@@ -75,13 +75,13 @@ class Pressed {
   const ImplicitSolver<double>& solver() { return *solver_; }
   /// [N] That the step has given to the cloth.
   Vector3<double> force_on_cloth() {
-    return (positions_ - inertial_) * mesh_.masses / (kTimeStep * kTimeStep);
+    return (positions_ - inertial_) * mesh_.masses / (kPressedStep * kPressedStep);
   }
   /// [N] Likewise to a plate.
   Vector3<double> force_on(int body) {
     return bodies_[static_cast<std::size_t>(body)].mass.cwiseProduct(
                solver_->body_motion(body).head<3>()) /
-           (kTimeStep * kTimeStep);
+           (kPressedStep * kPressedStep);
   }
   /// [N] That what is under it has given to both.
   Vector3<double> force_from_below() {
