@@ -209,11 +209,11 @@ TEST(SolverChecks, ATimescaleThatExplicitLawsDoNotKnowIsReported) {
 TEST(SolverChecks, PressureInASheetThatLiesFlatIsReported) {
   for (const bool is_fast : {false, true}) {
     SoftWorld world({});
-    btSoftBody& body = world.add(make_cloth_body(world.info(), cloth(), {}));
+    btSoftBody& body = world.add(make_cloth_body(world.info(), checked_cloth(), {}));
     if (is_fast) {
-      ASSERT_FALSE(world.solver().attach_fast(body, cloth(), {kSpring}));
+      ASSERT_FALSE(world.solver().attach_fast(body, checked_cloth(), {kSpring}));
     } else {
-      world.solver().attach(body, cloth(), {kGravity});
+      world.solver().attach(body, checked_cloth(), {kGravity});
     }
     body.m_cfg.kPR = 5;
     world.step(kTimeStep);
