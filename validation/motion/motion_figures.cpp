@@ -113,15 +113,21 @@ double gap_at_end(const Scene& scene, const MotionFrames& frames) {
 }
 
 /// The cloth between body and table bears the body's weight: margins give way by a tenth of a millimeter.
-MotionScene tablecloth_scene(Scene scene) {
-  const double end = scene.world.duration;
+MotionScene box_on_tablecloth_scene() {
   const auto speed = [](const SceneState& state) { return state.rigids[0].velocity.norm(); };
-  return {
-      std::move(scene),
-      1.0 / 8040,
-      {{"gap between body and table", "m", &gap_at_end, 1e-3, true, WrongMotion::kFrozen},
-       {"speed of the body at the end", "m/s", at(end, speed), 0.02, true, WrongMotion::kUntouched},
-       energy_figure()}};
+  return {box_on_tablecloth(),
+          1.0 / 8040,
+          {{"gap between box and table", "m", &gap_at_end, 1e-3, true, WrongMotion::kFrozen},
+           {"box's speed at 2 s", "m/s", at(2.0, speed), 0.02, true, WrongMotion::kUntouched},
+           energy_figure()}};
+}
+
+/// A ball may come between nodes, 4 mm deeper, and may roll on.
+MotionScene ball_onto_tablecloth_scene() {
+  return {ball_onto_tablecloth(),
+          1.0 / 8040,
+          {{"gap between ball and table", "m", &gap_at_end, 5e-3, true, WrongMotion::kFrozen},
+           energy_figure()}};
 }
 
 MotionScene free_scene() {
@@ -234,8 +240,8 @@ std::vector<MotionScene> judged_motions() {
           trampoline_scene(),
           hit_scene(ball_into_flag(), 1.0 / 20040, 0.25),
           hit_scene(ball_into_net(), 1.0 / 60000, 1.0),
-          tablecloth_scene(box_on_tablecloth()),
-          tablecloth_scene(ball_onto_tablecloth()),
+          box_on_tablecloth_scene(),
+          ball_onto_tablecloth_scene(),
           free_scene()};
 }
 

@@ -24,7 +24,7 @@ namespace weft::validation {
 [[nodiscard]] scenes::Scene ball_on_trampoline(double duration);
 /// A box of 1 kg that falls by 2 cm on a cloth that lies on a table, 2 s.
 [[nodiscard]] scenes::Scene box_on_tablecloth();
-/// A ball of 2 kg that comes down on such a cloth of 20 kN/m at 1 m/s, 0.5 s.
+/// A ball of 2 kg that is thrown on such a cloth at 4 m/s, 2 s.
 [[nodiscard]] scenes::Scene ball_onto_tablecloth();
 /// A ball of 0.2 kg that flies at 5 m/s into a sheet of 0.2 kg that hangs from its upper edge, 0.5 s.
 [[nodiscard]] scenes::Scene ball_into_flag();
