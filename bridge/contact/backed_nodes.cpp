@@ -30,7 +30,8 @@ bool yields(const RigidContact& one, const RigidContact& other) {
 
 }  // namespace
 
-void BackedNodes::find(std::span<const RigidContact> contacts, const btSoftBody& body) {
+void BackedNodes::find(std::span<const RigidContact> contacts, const btSoftBody& body,
+                       const Pinches& pinches) {
   backings_.clear();
   is_behind_.clear();
   presses_.clear();
@@ -48,7 +49,7 @@ void BackedNodes::find(std::span<const RigidContact> contacts, const btSoftBody&
     const auto last = std::find_if(first, order_.end(), [&](int c) { return at(c).node != node; });
     Backing best;
     btScalar least_room = 0;
-    for (auto one = first; one != last; ++one) {
+    for (auto one = first; one != last && !pinches.has(node); ++one) {
       if (!is_dynamic_rigid(at(*one))) continue;
       for (auto other = first; other != last; ++other) {
         if (at(*one).object == at(*other).object || is_link(at(*other))) continue;

@@ -8,6 +8,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/bullet/precision.hpp>
+#include <weft/bridge/contact/pinch.hpp>
 #include <weft/bridge/contact/rigid_contacts.hpp>
 #include <weft/bridge/rigid/coupled_bodies.hpp>
 #include <weft/fast_solver/node_constraints.hpp>
@@ -26,7 +27,8 @@ class BackedNodes {
     int behind = 0;   ///< with the surface behind, which replaces that constraint
   };
 
-  void find(std::span<const RigidContact> contacts, const btSoftBody& body);
+  /// Without nodes that pinches hold.
+  void find(std::span<const RigidContact> contacts, const btSoftBody& body, const Pinches& pinches);
   /// [m] Behind which a plane holds nothing: those of contacts that are replaced are moved back by so much.
   static constexpr btScalar kFarAway = 1000;
   /// Ascending by node.

@@ -168,7 +168,7 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
   pushed_.clear();
   plane_contacts_.clear();
   pinches_.find(contacts_, body, body.m_sst.sdt);
-  backed_.find(contacts_, body);
+  backed_.find(contacts_, body, pinches_);
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const RigidContact& contact = contacts_[c];
     fast::PlaneContact<btScalar> plane;

@@ -169,5 +169,20 @@ TEST(ClothBetweenBoxes, BearsTheUpperOne) {
   }
 }
 
+// A body that presses on nodes between two plates that the program holds has no say there.
+TEST(ClothBetweenPlates, IsHeldByThemBesideABody) {
+  Scene scene(cloth(21, 0.8, 0, 0.2), {kGravity, law("tension", "stiffness", 2000)}, 1.0);
+  for (const double height : {-0.05, 0.05}) {
+    btRigidBody& plate = scene.add(box(0.3, 0.045, 0.3), 0, at(0, height, 0));
+    plate.setCollisionFlags(plate.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+    plate.setActivationState(DISABLE_DEACTIVATION);
+  }
+  const btRigidBody& body = scene.add(box(0.1, 0.045, 0.1), 1, at(0.05, 0.0495, 0));
+  scene.step(30);
+  EXPECT_GT(scene.solver().num_contacts(scene.body()), 400);
+  EXPECT_LT(scene.velocities().colwise().norm().maxCoeff(), 5);
+  EXPECT_TRUE(std::isfinite(height_of(body)));
+}
+
 }  // namespace
 }  // namespace weft::bridge
