@@ -21,7 +21,8 @@ enum class ElementKind {
   kNodeSets,     ///< node sets: regions of the mesh
 };
 
-/// What solvers, readers and windows that treat some laws in a way of their own know a law by, in place of its id.
+/// The part that a law plays for solvers, readers and windows that treat some laws in a way of their own. They ask for it in place of
+/// the id.
 enum class LawRole {
   kOther,
   kSpring,        ///< elastic force along edges: parameters stiffness, compression_ratio

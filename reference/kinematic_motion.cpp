@@ -1,4 +1,4 @@
-// What moves nodes and colliders of a system from outside: everything else of the solver is in solver.cpp.
+// The motion of nodes and colliders that is prescribed from outside. Everything else of the solver is in solver.cpp.
 // Tested by tests/reference/self_contact_test.cpp, tests/engines/attach_test.cpp.
 #include <string>
 

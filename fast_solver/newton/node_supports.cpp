@@ -4,15 +4,9 @@
 
 #include <Eigen/LU>
 
+#include <weft/core/index.hpp>
+
 namespace weft::fast {
-namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 template <class Scalar>
 void NodeSupports<Scalar>::load(std::span<const NodeSupport<Scalar>> given) {
   given_ = given;

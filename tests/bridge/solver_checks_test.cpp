@@ -45,7 +45,7 @@ std::string error_of(const std::function<void()>& work) {
   return "no error";
 }
 
-/// What attaching a mesh to a body of checked_cloth() says, in each of the ways; it is the same.
+/// The error of attaching a mesh to a body of checked_cloth(). Expects the same one from each way to attach.
 std::string error_of_attaching(const ClothMesh& mesh) {
   SoftWorld world({});
   btSoftBody& body = world.add(make_cloth_body(world.info(), checked_cloth(), {}));

@@ -94,7 +94,7 @@ TEST(PreparedSolvers, TakeMeshesAtOtherPlacesForAlike) {
   EXPECT_EQ(prepared.num_shared(), 1);
 }
 
-/// What bodies may do to their solvers at run time.
+/// The changes that a body may make to its solver at run time.
 const std::vector<std::function<void(ImplicitSolver<float>&, const ClothMesh&)>>& changes() {
   using Solver = ImplicitSolver<float>;
   static const std::vector<std::function<void(Solver&, const ClothMesh&)>> all = {

@@ -63,7 +63,7 @@ class Cloths {
   btRigidBody* floor_ = nullptr;
 };
 
-/// What a program does to a body, or to what is around it.
+/// A change that a program makes at run time to a body, or to its surroundings.
 struct Change {
   std::string name;
   std::function<void(Cloths&, btSoftBody&)> make;
@@ -317,7 +317,7 @@ TEST_P(SharedSetUp, IsNotChangedByOneOfTheBodies) {
 
 INSTANTIATE_TEST_SUITE_P(Heights, SharedSetUp, testing::ValuesIn(kHeights));
 
-// What a change may do to bodies whose solvers are made afterwards, from what those before have left.
+// A body that is added after the change shares the set-up that earlier bodies have left. It must not see the change.
 TEST(BodyAlone, LeavesASolverBehindThatNothingChanges) {
   for (const Change& change : changes_of_a_body()) {
     if (change.name == "scale") continue;  // new bodies have other rest lengths then

@@ -58,7 +58,7 @@ double drop_over_reach(const scenes::SceneState& state, const scenes::Scene& sce
   return drop / reach;
 }
 
-/// What H / W of the reference still owes to its step, against a tenth of the bound of the engines.
+/// The discretization error that H / W of the reference still has, against a tenth of the bound of the engines.
 CheckResult discretization_error_check(const CaseInfo& info, const std::array<double, 3>& levels,
                                        double stiffer, double bound) {
   const auto error = [&](double finest) {

@@ -12,7 +12,7 @@
 
 namespace weft::validation {
 
-/// What the bounds of a catalog scene are held against, and how exact that is.
+/// The solution that the bounds of a catalog scene are measured from, and its own error.
 class ReferenceSolution {
  public:
   /// scene: as the engines run it. bounds: those of the engines that are judged.
