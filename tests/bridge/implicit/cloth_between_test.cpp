@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <ostream>
 #include <vector>
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
@@ -92,24 +93,47 @@ TEST_P(ClothBetween, GivesAThrownBallNothing) {
   const double first = energy();
   double most = -first;
   double fastest = 0;
+  double lowest = height_of(ball);
   const int num_steps =
       static_cast<int>(std::lround((0.1 / thrown.velocity + 0.15) / thrown.time_step));
   for (int step = 0; step < num_steps; ++step) {
     table.scene().step(1, thrown.time_step);
     most = std::max(most, energy());
     fastest = std::max(fastest, static_cast<double>(ball.getLinearVelocity().y()));
+    lowest = std::min(lowest, height_of(ball));
   }
   EXPECT_LE(most, first);
   EXPECT_LT(fastest, 0.5 * thrown.velocity) << "it does not bounce";
-  EXPECT_GT(height_of(ball), Table::kTop + 2 * kMargin + 0.1 - 0.012)
-      << "it is not pressed through";
+  // Between nodes it may come 2 mm deeper, and an impact of 10 m/s takes the rest.
+  const double held = Table::kTop + 2 * kMargin + 0.1;
+  EXPECT_LT(lowest, held + 0.005) << "it has come down";
+  EXPECT_GT(lowest, held - 0.02) << "it is not pressed through";
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Throws, ClothBetween,
-    testing::Values(Throw{1.0 / 60, 1, 2, 20000}, Throw{1.0 / 60, 4, 0.2, 2000},
-                    Throw{1.0 / 60, 10, 2, 2000}, Throw{1.0 / 240, 1, 0.2, 2000},
-                    Throw{1.0 / 240, 1, 2, 20000}, Throw{1.0 / 240, 10, 0.2, 20000}));
+std::vector<Throw> throws() {
+  if (!WEFT_ALL_THROWS) {
+    return {{1.0 / 60, 1, 2, 20000},   {1.0 / 60, 4, 0.2, 2000}, {1.0 / 60, 10, 2, 2000},
+            {1.0 / 240, 1, 0.2, 2000}, {1.0 / 240, 1, 2, 20000}, {1.0 / 240, 10, 0.2, 20000}};
+  }
+  std::vector<Throw> all;
+  for (const double time_step : {1.0 / 60, 1.0 / 90, 1.0 / 240}) {
+    for (const double velocity : {1.0, 4.0, 7.0, 10.0}) {
+      for (const double mass : {0.02, 0.2, 0.7, 2.0}) {
+        for (const double stiffness : {200.0, 2000.0, 7000.0, 20000.0}) {
+          all.push_back({time_step, velocity, mass, stiffness});
+        }
+      }
+    }
+  }
+  return all;
+}
+
+void PrintTo(const Throw& one, std::ostream* out) {
+  *out << one.mass << " kg at " << one.velocity << " m/s, " << one.stiffness << " N/m, steps of "
+       << one.time_step << " s";
+}
+
+INSTANTIATE_TEST_SUITE_P(Throws, ClothBetween, testing::ValuesIn(throws()));
 
 // It flew off at 10 m/s and more. How deep it presses the margins together is a matter of its weight, not of the step.
 TEST(ClothOnATable, BearsABox) {
