@@ -12,7 +12,7 @@
 
 namespace weft::validation {
 
-/// The solution that the bounds of a catalog scene are measured from, and its own error.
+/// The solution that the bounds of a catalog scene are measured from, with its discretization error.
 class ReferenceSolution {
  public:
   /// scene: as the engines run it. bounds: those of the engines that are judged.
