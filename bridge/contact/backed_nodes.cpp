@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -26,6 +27,12 @@ bool yields(const RigidContact& one, const RigidContact& other) {
   const btScalar inverse_mass = MovableObject(one.object).inverse_mass();
   const MovableObject behind{other.object};
   return !behind || inverse_mass >= behind.inverse_mass();
+}
+
+/// [m] How far into the cloth's margin what begins a step by depth [m] too deep is left. inertia_step: h' [s].
+btScalar left_of(btScalar depth, btScalar inertia_step) {
+  const btScalar recovered = kBackingFrequency / (kBackingFrequency + 2 / inertia_step) * depth;
+  return depth - std::min(recovered, kFastestRecovery * inertia_step);
 }
 
 }  // namespace
@@ -109,13 +116,31 @@ void BackedNodes::make_supports(std::span<const RigidContact> contacts,
     };
     const btScalar depth =
         -gap_at_start(plane, support.offset) - gap_at_start(pressing, pressing.offset);
-    const btScalar recovered = spring / (spring + damper) * depth;
-    support.offset -= depth - std::min(recovered, kFastestRecovery * inertia_step);
+    support.offset -= left_of(depth, inertia_step);
     supports.push_back(support);
     // A body that has been moved on through the node comes to where it meets it.
     const btScalar gap = pressing.normal.dot(start + plane.motion) - pressing.offset;
     if (!is_again && gap < 0) pushed.add_to_guess(pressing.body, gap / num_nodes * pressing.normal);
   }
+}
+
+btScalar BackedNodes::depth_to_keep(const RigidContact& contact,
+                                    const fast::PlaneContact<btScalar>& plane,
+                                    const Matrix3X<btScalar>& starts, btScalar inertia_step) const {
+  if (sunken_.empty() || !is_sunken(contact.node)) return 0;
+  const Vector3<btScalar> start = starts.col(contact.node) + plane.motion;
+  return left_of(std::max(btScalar(0), plane.offset - plane.normal.dot(start)), inertia_step);
+}
+
+void BackedNodes::serialize(StateArchive& archive, int num_nodes) {
+  archive.value(sunken_);
+  for (const int node : sunken_) {
+    if (node >= 0 && node < num_nodes) continue;
+    archive.refuse("sunken node " + std::to_string(node) + " of " + std::to_string(num_nodes));
+  }
+  if (!archive.is_reading()) return;
+  backings_.clear();
+  is_behind_.clear();
 }
 
 int BackedNodes::num_pressed_by(const btCollisionObject& object) const {
@@ -128,7 +153,7 @@ bool BackedNodes::has(int node) const {
   const auto found =
       std::lower_bound(backings_.begin(), backings_.end(), node,
                        [](const Backing& one, int sought) { return one.node < sought; });
-  return found != backings_.end() && found->node == node;
+  return (found != backings_.end() && found->node == node) || is_sunken(node);
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -2,6 +2,7 @@
 
 // Tested by tests/bridge/implicit/cloth_between_test.cpp.
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include <weft/bridge/contact/pinch.hpp>
 #include <weft/bridge/contact/rigid_contacts.hpp>
 #include <weft/bridge/rigid/coupled_bodies.hpp>
+#include <weft/core/state_archive.hpp>
 #include <weft/fast_solver/node_constraints.hpp>
 
 namespace weft::bridge {
@@ -40,14 +42,40 @@ class BackedNodes {
                      const Matrix3X<btScalar>& starts, const Vector3<btScalar>& origin,
                      btScalar inertia_step, bool is_again, CoupledBodies& pushed,
                      std::vector<fast::NodeSupport<btScalar>>& supports) const;
+  /// How much of the depth at which a node begins the step inside of a surface it keeps there [m]: of nodes that a body has pressed
+  /// in and then left, which come out as slowly as that body would. At once, it would be a kick.
+  [[nodiscard]] btScalar depth_to_keep(const RigidContact& contact,
+                                       const fast::PlaneContact<btScalar>& plane,
+                                       const Matrix3X<btScalar>& starts,
+                                       btScalar inertia_step) const;
+  /// Remembers which nodes the step leaves inside of what is behind them. position_of(node) [m].
+  template <class Position>
+  void end_step(std::span<const RigidContact> contacts, const Position& position_of) {
+    if (backings_.empty() && sunken_.empty()) return;
+    still_sunken_.clear();
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const RigidContact& contact = contacts[c];
+      if (!is_behind(c) && !is_sunken(contact.node)) continue;
+      const bool is_inside = btDot(contact.normal, position_of(contact.node)) < contact.offset;
+      if (is_inside) still_sunken_.push_back(contact.node);
+    }
+    std::sort(still_sunken_.begin(), still_sunken_.end());
+    sunken_.swap(still_sunken_);
+  }
+  /// The sunken nodes, for snapshots.
+  void serialize(StateArchive& archive, int num_nodes);
   /// How many nodes an object presses.
   [[nodiscard]] int num_pressed_by(const btCollisionObject& object) const;
   [[nodiscard]] bool is_behind(std::size_t contact) const {
     return !is_behind_.empty() && is_behind_[contact] != 0;
   }
+  /// Also of nodes that are still inside of what was behind them.
   [[nodiscard]] bool has(int node) const;
 
  private:
+  [[nodiscard]] bool is_sunken(int node) const {
+    return std::binary_search(sunken_.begin(), sunken_.end(), node);
+  }
   struct Press {
     const btCollisionObject* object;
     int num_nodes;
@@ -56,6 +84,8 @@ class BackedNodes {
   std::vector<char> is_behind_;  ///< for each contact; empty: none
   std::vector<int> order_;       ///< of contacts, ascending by node
   std::vector<Press> presses_;
+  std::vector<int> sunken_;  ///< nodes, ascending
+  std::vector<int> still_sunken_;
 };
 
 }  // namespace WEFT_BULLET_PRECISION

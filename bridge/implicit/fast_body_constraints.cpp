@@ -179,7 +179,9 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     plane.friction = body.m_cfg.kDF * (contact.object->getFriction() + pinches_.other_friction(c));
     plane.squeeze = pinches_.squeeze_of(c);
     const bool is_replaced = pinches_.is_replaced(c) || backed_.is_behind(c);
-    plane.offset -= is_replaced ? BackedNodes::kFarAway : pinches_.depth_of(c);
+    plane.offset -= is_replaced ? BackedNodes::kFarAway
+                                : pinches_.depth_of(c) +
+                                      backed_.depth_to_keep(contact, plane, starts_, inertia_step_);
     const MovableObject object = movable_of(contact);
     if (object && !pinches_.has(contact.node)) {
       plane.body = pushed_.number_of(object, body.m_worldInfo->m_dispatcher, time_step, is_again);
@@ -240,6 +242,7 @@ void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
     contacts_[static_cast<std::size_t>(backed_.all()[k].behind)].impulse =
         whole_step * to_bullet(active_solver().support_force(k));
   }
+  backed_.end_step(contacts_, [&](int node) { return in_world(node); });
   pinches_.push_back(
       contacts_,
       [&](int node) -> btVector3 {

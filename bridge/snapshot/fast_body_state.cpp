@@ -122,6 +122,7 @@ void FastBodyState::serialize(StateArchive& archive, const ObjectTable& objects,
   body.sleep_.serialize(archive, objects);
   body.pushed_.serialize(archive, objects);
   body.pinches_.serialize(archive, num_nodes);
+  body.backed_.serialize(archive, num_nodes);
   body.swept_.serialize(archive, num_nodes);
   if (body.solver_) fast::SolverState::serialize(archive, *body.solver_);
   if (!archive.is_reading()) return;
