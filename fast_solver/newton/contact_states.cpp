@@ -163,17 +163,18 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
     return;
   }
   // Friction that slides is solved for as a drag that has Coulomb's size at the slip that is expected: unlike a constant force
-  // it never drives a node, however wrong the pressure still is. Forces foretell the slip of a node alone; after that the
-  // motion so far does (iteratively reweighted least squares, which converge for any pressure).
+  // it never drives a node, however wrong the pressure still is. Forces foretell the slip of a node alone, the motion so far
+  // that of others too (iteratively reweighted least squares, which converge for any pressure).
   friction_bounds_[i] = most;
-  const Scalar resistance = std::max(inertia + largest_stiffness(i), Scalar(kLeastInertia));
+  // Alone, a node slips by what its springs and its inertia leave; a drag for that would be many times the friction of nodes
+  // that slide together, which have only their inertia.
+  const auto slip_against = [&](Scalar resistance) {
+    return (size - most) / std::max(resistance, Scalar(kLeastInertia));
+  };
+  const Scalar alone = slip_against(inertia + largest_stiffness(i));
+  const Scalar together = std::min(slipped, slip_against(inertia));
   const bool is_foretold = is_first || did_stick || !(slipped > 0);
-  const Scalar foretold = (size - most) / resistance;
-  // Among pressed nodes that slide on, a drag for the slip of one alone would be many times its friction.
-  const bool slides_on = !supports_.empty() && !did_stick;
-  const Scalar expected = !is_foretold ? slipped
-                          : slides_on  ? std::max(slipped, foretold)
-                                       : foretold;
+  const Scalar expected = is_foretold ? std::max(alone, together) : slipped;
   set_friction(contact, expected);
 }
 
