@@ -28,8 +28,8 @@ namespace weft::fast {
 
 /// Minimizes the incremental potential of one implicit step by Newton's method with a line search (Baraff and Witkin 1998; Gast
 /// et al. 2015). docs/implicit_step.md describes the whole iteration.
-/// Flexible conjugate gradients (Notay 2000) solve each linear system. The preconditioner is additive and has two levels (Dryja
-/// and Widlund 1987). The fine level inverts the 3 x 3 diagonal blocks. The coarse level is smoothed aggregation with the
+/// Flexible conjugate gradients (Notay 2000) solve each linear system. The preconditioner is the sum of two levels (Dryja and
+/// Widlund 1987) and of a 6 x 6 block for each rigid body. The fine level inverts the 3 x 3 diagonal blocks. The coarse level is smoothed aggregation with the
 /// stiffness of the present step, because diagonal blocks do not see slow motions of the whole cloth.
 ///
 /// Contacts are eliminated from the linear system (Baraff and Witkin 1998): a sliding node moves in its plane and a sticking
@@ -88,7 +88,7 @@ class ImplicitSolver : TeamLoops {
     return supports_.force_of(support, positions_, start_positions_, bodies_);
   }
   /// After solve(): the generalized displacement of a two-way coupled body relative to its motion without the cloth: translation of
-  /// its center [m] and rotation about it [rad]. The force on the body is (inertia + held) motion / h'^2.
+  /// its center [m] and rotation about it [rad]. The force on the body is (inertia + held) motion / h'^2, for h'^2 / h.
   [[nodiscard]] Vector6 body_motion(int body) const {
     return bodies_[static_cast<std::size_t>(body)].motion;
   }

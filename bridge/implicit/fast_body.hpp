@@ -18,12 +18,12 @@
 #include <weft/bridge/fast_settings.hpp>
 #include <weft/bridge/implicit/bending_forces.hpp>
 #include <weft/bridge/implicit/body_sleep.hpp>
-#include <weft/bridge/implicit/explicit_substeps.hpp>
 #include <weft/bridge/implicit/force_history.hpp>
 #include <weft/bridge/implicit/node_team.hpp>
 #include <weft/bridge/implicit/steady_step.hpp>
 #include <weft/bridge/implicit/stiffness_limit.hpp>
-#include <weft/bridge/implicit/substep_count.hpp>
+#include <weft/bridge/implicit/substeps/explicit_substeps.hpp>
+#include <weft/bridge/implicit/substeps/substep_count.hpp>
 #include <weft/bridge/rigid/coupled_bodies.hpp>
 #include <weft/bridge/rigid/rigid_motion.hpp>
 #include <weft/bridge/rigid/rigid_substeps.hpp>

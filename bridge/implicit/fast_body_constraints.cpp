@@ -179,9 +179,8 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     plane.friction = body.m_cfg.kDF * (contact.object->getFriction() + pinches_.other_friction(c));
     plane.squeeze = pinches_.squeeze_of(c);
     const bool is_replaced = pinches_.is_replaced(c) || backed_.is_behind(c);
-    plane.offset -= is_replaced ? BackedNodes::kFarAway
-                                : pinches_.depth_of(c) +
-                                      backed_.depth_to_keep(contact, plane, starts_, inertia_step_);
+    plane.offset -= is_replaced ? BackedNodes::kFarAway : pinches_.depth_of(c);
+    plane.offset -= backed_.depth_to_keep(contact, plane, starts_, inertia_step_);
     const MovableObject object = movable_of(contact);
     if (object && !pinches_.has(contact.node)) {
       plane.body = pushed_.number_of(object, body.m_worldInfo->m_dispatcher, time_step, is_again);
@@ -242,13 +241,12 @@ void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
     contacts_[static_cast<std::size_t>(backed_.all()[k].behind)].impulse =
         whole_step * to_bullet(active_solver().support_force(k));
   }
-  backed_.end_step(contacts_, [&](int node) { return in_world(node); });
-  pinches_.push_back(
-      contacts_,
-      [&](int node) -> btVector3 {
-        return time_step * to_bullet(active_solver().constraint_force(node));
-      },
-      [&](int node) { return in_world(node); });
+  const auto position_of = [&](int node) { return in_world(node); };
+  const auto impulse_on = [&](int node) -> btVector3 {
+    return time_step * to_bullet(active_solver().constraint_force(node));
+  };
+  backed_.end_step(contacts_, position_of);
+  pinches_.push_back(contacts_, impulse_on, position_of);
   given_to_bodies_ = -pushed_.kinetic_energy();
   pushed_.exchange_impulses(time_step);
   for (int a = 0; a < body.m_anchors.size(); ++a) {  // that push with a share only

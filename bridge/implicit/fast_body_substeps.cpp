@@ -5,6 +5,7 @@
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/implicit/fast_body.hpp>
 #include <weft/bridge/implicit/node_anchors.hpp>
+#include <weft/bridge/implicit/substeps/pin_pull.hpp>
 #include <weft/bridge/rigid/rigid_substeps.hpp>
 
 namespace weft::bridge {
@@ -27,6 +28,7 @@ int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
     const MovableObject object{collider.object};
     if (object && !object.is_articulated()) substeps.include_nearby_body();
   }
+  const PinPull pull(pins_, positions_, starts_);
   for (const RigidContact& contact : contacts_) {
     const MovableObject object{contact.object};
     if (!object || object.is_articulated()) continue;
@@ -34,13 +36,15 @@ int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
     const btVector3 normal = collider.object_pose.getBasis() * contact.normal_by_object;
     const btVector3 velocity =
         object.velocity().at(contact.met) - to_bullet(start_velocities_.col(contact.node).eval());
-    substeps.include({.size = std::max(smallest_half_extent(*collider.shape),
-                                       body.getCollisionShape()->getMargin()),
-                      .approach = btDot(normal, body.m_nodes[contact.node].m_q - contact.met),
-                      .closing = time_step * btDot(normal, velocity),
-                      .pushed = pushed_.push_in(object, time_step),
-                      .fall = time_step * time_step * object.gravity().length(),
-                      .inverse_mass = object.inverse_mass()});
+    substeps.include(
+        {.size =
+             std::max(smallest_half_extent(*collider.shape), body.getCollisionShape()->getMargin()),
+         .approach = btDot(normal, body.m_nodes[contact.node].m_q - contact.met),
+         .closing = time_step * btDot(normal, velocity),
+         .pushed = pushed_.push_in(object, time_step),
+         .fall = time_step * time_step * object.gravity().length(),
+         .inverse_mass = object.inverse_mass(),
+         .pulled = pull.on(contact, time_step * start_velocities_.col(contact.node), contacts_)});
   }
   return substeps.count(last_num_substeps_);
 }

@@ -151,7 +151,11 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const Scalar slipped = (slip - normal.dot(slip) * normal).norm();
   // One that has slid would be drawn back to where the step began, and let go by the next decision: its drag stops it first.
   const bool has_stopped = inertia * slipped <= kStopped * most;
-  const bool sticks = size <= most - doubt && (!was_held || did_stick || has_stopped);
+  // A light node that a body presses could be stopped alone, but not all that have slid with it.
+  const bool slides_on =
+      is_first && !supports_.empty() && contact_states_before_[at(i)] == ContactState::kOnPlane;
+  const bool may_stick = did_stick || has_stopped || (!was_held && !slides_on);
+  const bool sticks = size <= most - doubt && may_stick;
   contact_states_[at(i)] = sticks ? ContactState::kFixed : ContactState::kOnPlane;
   normals_.col(i) = normal.template cast<float>();
   friction_.col(i).setZero();
@@ -166,8 +170,7 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   // it never drives a node, however wrong the pressure still is. Forces foretell the slip of a node alone, the motion so far
   // that of others too (iteratively reweighted least squares, which converge for any pressure).
   friction_bounds_[i] = most;
-  // Alone, a node slips by what its springs and its inertia leave; a drag for that would be many times the friction of nodes
-  // that slide together, which have only their inertia.
+  // Alone, a node has its springs and inertia against it. A drag for that slip would hold nodes that slide together too much.
   const auto slip_against = [&](Scalar resistance) {
     return (size - most) / std::max(resistance, Scalar(kLeastInertia));
   };

@@ -53,6 +53,11 @@ double rest_of(double gain, double shrinks) {
   return gain * limited / (1 - limited);
 }
 
+int num_first_decisions(bool has_supports, bool continues) {
+  if (has_supports) return kFirstDecisionsWithSupports;
+  return continues ? 0 : kFirstDecisions;
+}
+
 LinearAccuracy accuracy_of(int iteration, bool has_contacts, double asked) {
   LinearAccuracy accuracy = has_contacts || iteration < kRoughIterations ? kRough : kAccurate;
   accuracy.least_gain = kLastShare * asked;
@@ -95,7 +100,7 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
                                      const SolverSettings& solver_settings) {
   const bool has_contacts = !problem.contacts.empty();
-  const int first_decisions = supports_.empty() ? kFirstDecisions : kFirstDecisionsWithSupports;
+  const int first_decisions = num_first_decisions(!supports_.empty(), problem.continues);
   const double asked = 2 * solver_settings.tolerance * solver_settings.tolerance * step_energy_;
   double before = 0;
   energy_before_ = 0;
@@ -160,7 +165,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     report_.is_converged =
         is_solved && (!has_contacts || (decides && !are_contact_states_new) || !can_decide);
     if (is_over && !report_.is_converged && !can_decide) break;
-    decides = can_decide && ((iteration < first_decisions && !problem.continues) || is_over);
+    decides = can_decide && (iteration < first_decisions || is_over);
     if (decides) num_stalled = 0;
     before = last_gain_.total;
     if (are_contact_states_new) {

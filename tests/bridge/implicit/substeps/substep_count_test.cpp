@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <weft/bridge/implicit/explicit_substeps.hpp>
-#include <weft/bridge/implicit/substep_count.hpp>
+#include <weft/bridge/implicit/substeps/explicit_substeps.hpp>
+#include <weft/bridge/implicit/substeps/substep_count.hpp>
 #include <weft/fast_solver/network/spring_network.hpp>
 
 #include "tests/bridge/fast_scene.hpp"
@@ -35,6 +35,12 @@ TEST(SubstepCount, FollowsASurfaceThatComesFar) {
   encounter.inverse_mass = 0;  // a heavy body
   encounter.closing = encounter.approach = btScalar(0.055);
   EXPECT_EQ(substeps_of(encounter), 3);  // 0.2 of 0.1 m in each
+}
+
+TEST(SubstepCount, FollowsPinsThatPullPressedCloth) {
+  RigidEncounter encounter = kStill;
+  encounter.pulled = btScalar(0.016);    // 1 m/s in 1/60 s
+  EXPECT_EQ(substeps_of(encounter), 4);  // 5 mm in each
 }
 
 TEST(SubstepCount, ResolvesTheWavesOfAnImpact) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Tested by tests/bridge/implicit/fast_body_impact_test.cpp, tests/bridge/implicit/substep_count_test.cpp.
+// Tested by tests/bridge/implicit/fast_body_impact_test.cpp, tests/bridge/implicit/substeps/substep_count_test.cpp.
 
 #include <memory>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Tested by tests/bridge/implicit/substep_count_test.cpp, tests/bridge/implicit/fast_body_impact_test.cpp.
+// Tested by tests/bridge/implicit/substeps/substep_count_test.cpp, tests/bridge/implicit/fast_body_impact_test.cpp.
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/core/types.hpp>
@@ -23,6 +23,8 @@ struct RigidEncounter {
   btScalar pushed;        ///< how far the cloth has moved it in the last step [m]
   btScalar fall;          ///< how far gravity moves it in a step, g h^2 [m]
   btScalar inverse_mass;  ///< of the body [1/kg]
+  btScalar pulled =
+      0;  ///< how far pins that a program moves leave the node, if something is behind it [m]
 };
 
 /// Into how many substeps a step is divided. The surface of a body that comes far would turn away from the nodes that it

@@ -1,4 +1,4 @@
-#include <weft/bridge/implicit/substep_count.hpp>
+#include <weft/bridge/implicit/substeps/substep_count.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@ namespace {
 
 /// How far a shape may approach a node in one substep, as a share of its smallest half extent [-].
 constexpr btScalar kApproachShare = btScalar(0.2);
-/// Likewise: how far springs may push it back in one substep.
+/// Likewise: how far springs may push it back in one substep, or pins may pull the cloth that it presses.
 constexpr btScalar kPushShare = btScalar(0.05);
 /// An impact moves a body by more than this share of its size in a step, beside kLively.
 constexpr btScalar kImpactShare = btScalar(0.01);
@@ -29,9 +29,9 @@ btScalar wave_speed(const fast::SpringNetwork& network, const VectorX<double>& m
 
 void SubstepCount::include(const RigidEncounter& encounter) {
   is_any_ = true;
-  const auto& [size, approach, closing, pushed, fall, inverse_mass] = encounter;
-  most_ = std::max(
-      {most_, approach / (kApproachShare * size), (pushed - 2 * fall) / (kPushShare * size)});
+  const auto& [size, approach, closing, pushed, fall, inverse_mass, pulled] = encounter;
+  most_ = std::max({most_, approach / (kApproachShare * size),
+                    (pushed - 2 * fall) / (kPushShare * size), pulled / (kPushShare * size)});
   // Two masses that stick together share their momentum.
   const btScalar mass_share = mass_ * inverse_mass / (1 + mass_ * inverse_mass);
   const btScalar least = kImpactShare * size;

@@ -1,4 +1,4 @@
-#include <weft/bridge/implicit/explicit_substeps.hpp>
+#include <weft/bridge/implicit/substeps/explicit_substeps.hpp>
 
 #include <algorithm>
 #include <cmath>
