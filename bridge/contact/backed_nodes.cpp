@@ -14,12 +14,8 @@ constexpr btScalar kBackingFrequency = 300;
 /// How fast a body that a step begins inside of what is behind the cloth is pushed out at most [m/s].
 constexpr btScalar kFastestRecovery = btScalar(0.1);
 
-bool is_dynamic_rigid(const RigidContact& contact) {
-  return MovableObject(contact.object).rigid() != nullptr;
-}
-
-bool is_link(const RigidContact& contact) {
-  return link_of(contact.object) != nullptr;
+bool may_press(const RigidContact& contact) {
+  return MovableObject(contact.object).rigid() != nullptr && !is_jointed(contact.object);
 }
 
 /// Whether the first of two that are pressed on each other yields to the other: the lighter one.
@@ -42,7 +38,7 @@ void BackedNodes::find(std::span<const RigidContact> contacts, const btSoftBody&
   backings_.clear();
   is_behind_.clear();
   presses_.clear();
-  if (std::none_of(contacts.begin(), contacts.end(), is_dynamic_rigid)) return;
+  if (std::none_of(contacts.begin(), contacts.end(), may_press)) return;
   order_.resize(contacts.size());
   std::iota(order_.begin(), order_.end(), 0);
   const auto at = [&](int c) -> const RigidContact& {
@@ -57,9 +53,9 @@ void BackedNodes::find(std::span<const RigidContact> contacts, const btSoftBody&
     Backing best;
     btScalar least_room = 0;
     for (auto one = first; one != last && !pinches.has(node); ++one) {
-      if (!is_dynamic_rigid(at(*one))) continue;
+      if (!may_press(at(*one))) continue;
       for (auto other = first; other != last; ++other) {
-        if (at(*one).object == at(*other).object || is_link(at(*other))) continue;
+        if (at(*one).object == at(*other).object || is_jointed(at(*other).object)) continue;
         if (!are_opposite(at(*one), at(*other))) continue;
         if (!yields(at(*one), at(*other))) continue;
         const btScalar room = room_between(at(*one), at(*other), body);

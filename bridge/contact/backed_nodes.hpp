@@ -20,7 +20,7 @@ inline namespace WEFT_BULLET_PRECISION {
 
 /// Nodes that a dynamic rigid body presses on another surface: a box on a tablecloth, a ball that comes down on a rug. The body
 /// must be held up by the other surface through the cloth. The solver has one constraint for a node, which is the body's; the
-/// other surface backs it (fast::NodeSupport). Fingers that are links of a multibody are Pinches.
+/// other surface backs it (fast::NodeSupport). Fingers that joints hold are Pinches.
 class BackedNodes {
  public:
   struct Backing {
@@ -42,20 +42,21 @@ class BackedNodes {
                      const Matrix3X<btScalar>& starts, const Vector3<btScalar>& origin,
                      btScalar inertia_step, bool is_again, CoupledBodies& pushed,
                      std::vector<fast::NodeSupport<btScalar>>& supports) const;
-  /// How much of the depth at which a node begins the step inside of a surface it keeps there [m]: of nodes that a body has pressed
-  /// in and then left, which come out as slowly as that body would. At once, it would be a kick.
+  /// How much of the depth at which a node begins the step inside of a surface it keeps there [m]: of nodes that a body or fingers
+  /// have pressed in and then left, which come out as slowly as that body would. At once, it would be a kick.
   [[nodiscard]] btScalar depth_to_keep(const RigidContact& contact,
                                        const fast::PlaneContact<btScalar>& plane,
                                        const Matrix3X<btScalar>& starts,
                                        btScalar inertia_step) const;
   /// Remembers which nodes the step leaves inside of what is behind them. position_of(node) [m].
   template <class Position>
-  void end_step(std::span<const RigidContact> contacts, const Position& position_of) {
-    if (backings_.empty() && sunken_.empty()) return;
+  void end_step(std::span<const RigidContact> contacts, const Pinches& pinches,
+                const Position& position_of) {
+    if (backings_.empty() && sunken_.empty() && pinches.empty()) return;
     still_sunken_.clear();
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const RigidContact& contact = contacts[c];
-      if (!is_behind(c) && !is_sunken(contact.node)) continue;
+      if (!is_behind(c) && !is_sunken(contact.node) && !pinches.has(contact.node)) continue;
       const bool is_inside = btDot(contact.normal, position_of(contact.node)) < contact.offset;
       if (is_inside) still_sunken_.push_back(contact.node);
     }

@@ -1,6 +1,7 @@
 #include <weft/bridge/contact/pinch.hpp>
 
 #include <algorithm>
+#include <optional>
 
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
@@ -17,27 +18,30 @@ bool is_kinematic(const btCollisionObject& object) {
 }
 
 bool may_pinch(const btCollisionObject& one, const btCollisionObject& other) {
-  const bool has_link = link_of(&one) != nullptr || link_of(&other) != nullptr;
-  return &one != &other && (has_link || (is_kinematic(one) && is_kinematic(other)));
+  return &one != &other &&
+         (is_jointed(&one) || is_jointed(&other) || (is_kinematic(one) && is_kinematic(other)));
 }
 
 /// The part of the force that all nodes share alike: what has borne nothing so far must be able to begin [-].
 constexpr btScalar kEvenShare = btScalar(0.1);
 
-/// [N] With which Bullet presses two objects on each other.
-btScalar force_between(const btCollisionObject* one, const btCollisionObject* other,
-                       btDispatcher* dispatcher, btScalar time_step) {
-  btScalar impulse = 0;
+/// [N] With which Bullet presses two objects on each other, 0 if they are only near; none if they are not, or pass through each
+/// other, as neighboring links of a robot do.
+std::optional<btScalar> force_between(const btCollisionObject* one, const btCollisionObject* other,
+                                      btDispatcher* dispatcher, btScalar time_step) {
+  std::optional<btScalar> impulse;
   const int num_manifolds = dispatcher != nullptr ? dispatcher->getNumManifolds() : 0;
   for (int m = 0; m < num_manifolds; ++m) {
     const btPersistentManifold& manifold = *dispatcher->getManifoldByIndexInternal(m);
     const bool is_theirs = (manifold.getBody0() == one && manifold.getBody1() == other) ||
                            (manifold.getBody0() == other && manifold.getBody1() == one);
-    for (int p = 0; is_theirs && p < manifold.getNumContacts(); ++p) {
-      impulse += manifold.getContactPoint(p).getAppliedImpulse();
+    if (!is_theirs) continue;
+    if (!impulse) impulse = btScalar(0);
+    for (int p = 0; p < manifold.getNumContacts(); ++p) {
+      *impulse += manifold.getContactPoint(p).getAppliedImpulse();
     }
   }
-  return impulse / time_step;
+  return impulse ? std::optional(*impulse / time_step) : std::nullopt;
 }
 
 }  // namespace
@@ -59,7 +63,7 @@ void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& bod
   const bool is_any = std::any_of(contacts.begin(), contacts.end(), [&](const RigidContact& one) {
     if (one.object == known) return false;
     known = one.object;
-    return link_of(one.object) != nullptr || is_kinematic(*one.object);
+    return is_jointed(one.object) || is_kinematic(*one.object);
   });
   if (!is_any) return;
   held_.assign(contacts.size(), {});
@@ -85,19 +89,22 @@ void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& bod
   }
   for (Pair& pair : pairs_) {
     const bool yields = MovableObject(pair.first) || MovableObject(pair.second);
-    pair.force =
+    const std::optional<btScalar> force =
         yields ? force_between(pair.first, pair.second, body.m_worldInfo->m_dispatcher, time_step)
                : kUnyielding;
+    pair.may_press = force.has_value();
+    pair.force = force.value_or(btScalar(0));
   }
   for (const auto& [holding, replaced] : found) {
     const RigidContact& contact = contacts[holding];
     const RigidContact& other = contacts[replaced];
     const Pair& pair = pair_of(contact.object, other.object);
-    if (!(pair.force > 0)) continue;
+    if (!pair.may_press) continue;
     if (nodes_.empty()) nodes_.assign(static_cast<std::size_t>(body.m_nodes.size()), 0);
     nodes_[static_cast<std::size_t>(contact.node)] = 1;
     const btScalar even = 1 / static_cast<btScalar>(pair.num_nodes);
     const btScalar share = pair.load > 0 ? load_of(contact.node) / pair.load : even;
+    held_[holding].is_holding = true;
     held_[holding].squeeze = pair.force * (kEvenShare * even + (1 - kEvenShare) * share);
     held_[holding].depth = -room_between(contact, other, body) / 2;
     held_[holding].other_friction = other.object->getFriction();

@@ -2,6 +2,7 @@
 
 // Tested by tests/bridge/rigid/gripper_test.cpp.
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,8 +21,8 @@ inline namespace WEFT_BULLET_PRECISION {
 /// both sides of the cloth may count on. A node is held halfway between the surfaces, by one of them. Nodes share that force
 /// in proportion to what friction has borne at each in the last step: soft cloth between pads slides as a whole or not at all.
 ///
-/// This applies if a link of a multibody takes part, or two kinematic bodies do. The force between kinematic bodies is not
-/// defined: they hold whatever they pinch.
+/// This applies if a link of a multibody takes part, or a rigid body that Bullet lists a joint of, or two kinematic bodies do. The
+/// force between kinematic bodies is not defined: they hold whatever they pinch.
 class Pinches {
  public:
   /// time_step: of Bullet's step [s].
@@ -45,7 +46,7 @@ class Pinches {
     if (nodes_.empty()) return;
     WrenchSum sum;
     for (std::size_t c = 0; c < contacts.size() && c < held_.size(); ++c) {
-      if (!(held_[c].squeeze > 0)) continue;
+      if (!held_[c].is_holding) continue;
       const btVector3 impulse = impulse_on(contacts[c].node);
       const btVector3& normal = contacts[c].normal;
       loads_[static_cast<std::size_t>(contacts[c].node)] =
@@ -64,6 +65,13 @@ class Pinches {
     held_.clear();
     nodes_.clear();
   }
+  [[nodiscard]] bool empty() const { return nodes_.empty(); }
+  /// Whether an object is one of two that may press nodes between them.
+  [[nodiscard]] bool has_surface(const btCollisionObject* object) const {
+    return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
+      return pair.may_press && (pair.first == object || pair.second == object);
+    });
+  }
   [[nodiscard]] bool has(int node) const {
     return !nodes_.empty() && nodes_[static_cast<std::size_t>(node)] != 0;
   }
@@ -73,6 +81,7 @@ class Pinches {
     btScalar squeeze = 0;
     btScalar depth = 0;
     btScalar other_friction = 0;
+    bool is_holding = false;
     bool is_replaced = false;
   };
   /// Two objects that pinch nodes.
@@ -81,7 +90,8 @@ class Pinches {
     const btCollisionObject* second = nullptr;
     int num_nodes = 0;
     btScalar force = 0;  ///< [N]
-    btScalar load = 0;   ///< that friction has borne in the last step, over all nodes [N s]
+    bool may_press = false;
+    btScalar load = 0;  ///< that friction has borne in the last step, over all nodes [N s]
   };
   [[nodiscard]] const Held& held_of(std::size_t contact) const {
     static constexpr Held kNone;

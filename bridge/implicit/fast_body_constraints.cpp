@@ -180,7 +180,8 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     plane.squeeze = pinches_.squeeze_of(c);
     const bool is_replaced = pinches_.is_replaced(c) || backed_.is_behind(c);
     plane.offset -= is_replaced ? BackedNodes::kFarAway : pinches_.depth_of(c);
-    plane.offset -= backed_.depth_to_keep(contact, plane, starts_, inertia_step_);
+    if (!pinches_.has(contact.node))
+      plane.offset -= backed_.depth_to_keep(contact, plane, starts_, inertia_step_);
     const MovableObject object = movable_of(contact);
     if (object && !pinches_.has(contact.node)) {
       plane.body = pushed_.number_of(object, body.m_worldInfo->m_dispatcher, time_step, is_again);
@@ -245,7 +246,7 @@ void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
   const auto impulse_on = [&](int node) -> btVector3 {
     return time_step * to_bullet(active_solver().constraint_force(node));
   };
-  backed_.end_step(contacts_, position_of);
+  backed_.end_step(contacts_, pinches_, position_of);
   pinches_.push_back(contacts_, impulse_on, position_of);
   given_to_bodies_ = -pushed_.kinetic_energy();
   pushed_.exchange_impulses(time_step);
@@ -262,7 +263,7 @@ void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
                                  in_world(node) - object.center());
   }
   given_to_bodies_ += pushed_.kinetic_energy();
-  pushed_.move_at_once(time_step);
+  pushed_.move_at_once(time_step, [&](const MovableObject& one) { return moves_freely(one); });
 }
 
 }  // namespace WEFT_BULLET_PRECISION

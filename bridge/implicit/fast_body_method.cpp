@@ -70,7 +70,7 @@ bool FastBody::may_use_forces(const btSoftBody& body, btScalar time_step) {
   }
   const auto is_lively = [&](const btCollisionObject* other) {
     const MovableObject object{other};
-    if (!object || object.is_articulated()) return false;
+    if (!moves_freely(object)) return false;
     const btScalar least = SubstepCount::kLively * object.gravity().length() * time_step;
     const btScalar change = pushed_.displacement_of(object).template head<3>().norm() / time_step;
     return object.velocity().linear.length() > least || change > least;

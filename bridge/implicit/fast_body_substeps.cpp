@@ -26,12 +26,12 @@ int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
   SubstepCount substeps(time_step * wave_speed_, static_cast<btScalar>(masses_.sum()));
   for (const Collider& collider : colliders_) {
     const MovableObject object{collider.object};
-    if (object && !object.is_articulated()) substeps.include_nearby_body();
+    if (moves_freely(object)) substeps.include_nearby_body();
   }
   const PinPull pull(pins_, positions_, starts_);
   for (const RigidContact& contact : contacts_) {
     const MovableObject object{contact.object};
-    if (!object || object.is_articulated()) continue;
+    if (!moves_freely(object)) continue;
     const Collider& collider = colliders_[static_cast<std::size_t>(contact.collider)];
     const btVector3 normal = collider.object_pose.getBasis() * contact.normal_by_object;
     const btVector3 velocity =

@@ -249,14 +249,5 @@ void CoupledBodies::exchange_impulses(btScalar time_step) {
   }
 }
 
-void CoupledBodies::move_at_once(btScalar time_step) {
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const bool touches = std::any_of(supports_.begin(), supports_.end(),
-                                     [&](const Support& one) { return one.body == bodies_[b]; });
-    if (touches) continue;
-    bridge::move_at_once(bodies_[b], velocities_before_[b], time_step);
-  }
-}
-
 }  // namespace WEFT_BULLET_PRECISION
 }  // namespace weft::bridge

@@ -65,8 +65,16 @@ class CoupledBodies {
   /// The momentum of the motion that the solution has given to each.
   void exchange_impulses(btScalar time_step);
   /// That motion too: Bullet has moved them before, and would leave nodes inside of them until the next step. Not what touches
-  /// something else, whose friction may hold it.
-  void move_at_once(btScalar time_step);
+  /// something else, whose friction may hold it, and only what moves_freely(object).
+  template <class MovesFreely>
+  void move_at_once(btScalar time_step, const MovesFreely& moves_freely) {
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const bool touches = std::any_of(supports_.begin(), supports_.end(),
+                                       [&](const Support& one) { return one.body == bodies_[b]; });
+      if (touches || !moves_freely(bodies_[b])) continue;
+      bridge::move_at_once(bodies_[b], velocities_before_[b], time_step);
+    }
+  }
 
  private:
   /// The links of one multibody that are pushed.

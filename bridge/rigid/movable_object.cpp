@@ -25,6 +25,12 @@ btTransform kinematic_pose(const btCollisionObject& object, btScalar time_left) 
   return pose;
 }
 
+bool is_jointed(const btCollisionObject* object) {
+  if (link_of(object) != nullptr) return true;
+  const btRigidBody* const rigid = MovableObject(object).rigid();
+  return rigid != nullptr && rigid->getNumConstraintRefs() > 0;
+}
+
 RigidVelocity velocity_of(const btCollisionObject& object) {
   if (const btRigidBody* const rigid = btRigidBody::upcast(&object)) {
     return {rigid->getLinearVelocity(), rigid->getAngularVelocity(),
@@ -103,7 +109,7 @@ void MovableObject::set_pose(const btTransform& pose) const {
 
 bool MovableObject::is_placeable() const {
   if (object_->getActivationState() == DISABLE_SIMULATION) return false;
-  if (rigid_ != nullptr) return rigid_->getNumConstraintRefs() == 0;
+  if (rigid_ != nullptr) return true;
   return !is_articulated() && link_->m_link < 0;
 }
 

@@ -27,6 +27,10 @@ struct RigidVelocity {
 /// The object as a link (or the base) of a btMultiBody, or nullptr.
 [[nodiscard]] btMultiBodyLinkCollider* link_of(const btCollisionObject* object);
 
+/// Whether it is a link, or a dynamic rigid body on a joint that was added with disableCollisionsBetweenLinkedBodies: Bullet lists
+/// no others.
+[[nodiscard]] bool is_jointed(const btCollisionObject* object);
+
 /// The velocity of a rigid body or a link; zero for other objects.
 [[nodiscard]] RigidVelocity velocity_of(const btCollisionObject& object);
 /// Where a kinematic rigid body, which Bullet has moved already, was time_left [s] before the end of the step; of other objects the
@@ -68,7 +72,7 @@ class MovableObject {
   void activate() const;
   /// Puts the object elsewhere; of an articulated link only its collider.
   void set_pose(const btTransform& pose) const;
-  /// Whether nothing in Bullet holds a position of the object: it may be put elsewhere at the end of a step.
+  /// Whether it may be put elsewhere at the end of a step. Joints of rigid bodies draw them back in Bullet's next one.
   [[nodiscard]] bool is_placeable() const;
 
  private:

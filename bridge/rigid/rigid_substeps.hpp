@@ -19,7 +19,7 @@ class RigidSubsteps {
   /// Moves each to where it is at the end of the substep without cloth.
   void begin_substep();
   void end_substep();
-  /// Bodies that joints or contacts hold, and articulated links, stand where Bullet has put them; it turns their new velocities
+  /// Bodies that contacts hold, and articulated links, stand where Bullet has put them; it turns their new velocities
   /// into motion.
   void finish();
   /// The pose of a body at the beginning of the substep.
