@@ -284,12 +284,14 @@ LinearGain ImplicitSolver<Scalar>::solve_linear(const StepProblem<Scalar>& probl
       is_broken = !(gain == 0);
       break;
     }
-    const float beta = overlaps.by_direction / curvature;
+    float beta = overlaps.by_direction / curvature;
     curvature = overlaps.by_product - beta * overlaps.by_direction;
     if (!(curvature > kLeastCurvature * overlaps.by_product)) {
-      is_broken = k == 0;
-      break;
+      // Rounding has left nothing that is conjugate to the last direction: conjugate gradients begin anew.
+      beta = 0;
+      curvature = overlaps.by_product;
     }
+    if (is_broken = !(curvature > 0); is_broken) break;
     const float alpha = gain / curvature;
     directions_.add(beta, alpha);
     for (Body& body : bodies_) {

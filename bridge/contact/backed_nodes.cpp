@@ -15,7 +15,7 @@ constexpr btScalar kBackingFrequency = 300;
 constexpr btScalar kFastestRecovery = btScalar(0.1);
 
 bool may_press(const RigidContact& contact) {
-  return MovableObject(contact.object).rigid() != nullptr && !is_jointed(contact.object);
+  return MovableObject(contact.object).rigid() != nullptr;
 }
 
 /// Whether the first of two that are pressed on each other yields to the other: the lighter one.
@@ -55,7 +55,7 @@ void BackedNodes::find(std::span<const RigidContact> contacts, const btSoftBody&
     for (auto one = first; one != last && !pinches.has(node); ++one) {
       if (!may_press(at(*one))) continue;
       for (auto other = first; other != last; ++other) {
-        if (at(*one).object == at(*other).object || is_jointed(at(*other).object)) continue;
+        if (at(*one).object == at(*other).object || link_of(at(*other).object) != nullptr) continue;
         if (!are_opposite(at(*one), at(*other))) continue;
         if (!yields(at(*one), at(*other))) continue;
         const btScalar room = room_between(at(*one), at(*other), body);
@@ -132,9 +132,11 @@ void BackedNodes::serialize(StateArchive& archive, int num_nodes) {
   archive.value(sunken_);
   for (const int node : sunken_) {
     if (node >= 0 && node < num_nodes) continue;
-    archive.refuse("sunken node " + std::to_string(node) + " of " + std::to_string(num_nodes));
+    archive.refuse("sunken node " + std::to_string(node) + ", expected less than " +
+                   std::to_string(num_nodes));
   }
   if (!archive.is_reading()) return;
+  std::sort(sunken_.begin(), sunken_.end());
   backings_.clear();
   is_behind_.clear();
 }

@@ -48,17 +48,16 @@ class BackedNodes {
                                        const fast::PlaneContact<btScalar>& plane,
                                        const Matrix3X<btScalar>& starts,
                                        btScalar inertia_step) const;
-  /// Remembers which nodes the step leaves inside of what is behind them. position_of(node) [m].
-  template <class Position>
-  void end_step(std::span<const RigidContact> contacts, const Pinches& pinches,
-                const Position& position_of) {
+  /// Remembers which nodes the step leaves inside of what is behind them, by more than rounding. gap_of(contact): in the solution [m].
+  template <class Gap>
+  void end_step(std::span<const RigidContact> contacts, const Pinches& pinches, btScalar margin,
+                const Gap& gap_of) {
     if (backings_.empty() && sunken_.empty() && pinches.empty()) return;
     still_sunken_.clear();
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const RigidContact& contact = contacts[c];
       if (!is_behind(c) && !is_sunken(contact.node) && !pinches.has(contact.node)) continue;
-      const bool is_inside = btDot(contact.normal, position_of(contact.node)) < contact.offset;
-      if (is_inside) still_sunken_.push_back(contact.node);
+      if (gap_of(contact) < -kLeastDepth * margin) still_sunken_.push_back(contact.node);
     }
     std::sort(still_sunken_.begin(), still_sunken_.end());
     sunken_.swap(still_sunken_);
@@ -74,6 +73,8 @@ class BackedNodes {
   [[nodiscard]] bool has(int node) const;
 
  private:
+  /// Of the margin [-].
+  static constexpr btScalar kLeastDepth = btScalar(1e-3);
   [[nodiscard]] bool is_sunken(int node) const {
     return std::binary_search(sunken_.begin(), sunken_.end(), node);
   }

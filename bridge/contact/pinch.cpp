@@ -13,6 +13,9 @@ namespace {
 /// [N] Of surfaces that the program leads: more than any cloth pulls with.
 constexpr btScalar kUnyielding = btScalar(1e6);
 
+/// [N] Of nodes between surfaces that do not press yet: they are held from both sides.
+constexpr btScalar kLeastSqueeze = btScalar(1e-9);
+
 bool is_kinematic(const btCollisionObject& object) {
   return object.isKinematicObject() || (link_of(&object) != nullptr && !MovableObject(&object));
 }
@@ -105,7 +108,8 @@ void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& bod
     const btScalar even = 1 / static_cast<btScalar>(pair.num_nodes);
     const btScalar share = pair.load > 0 ? load_of(contact.node) / pair.load : even;
     held_[holding].is_holding = true;
-    held_[holding].squeeze = pair.force * (kEvenShare * even + (1 - kEvenShare) * share);
+    held_[holding].squeeze =
+        kLeastSqueeze + pair.force * (kEvenShare * even + (1 - kEvenShare) * share);
     held_[holding].depth = -room_between(contact, other, body) / 2;
     held_[holding].other_friction = other.object->getFriction();
     held_[replaced].is_replaced = true;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Tested by tests/bridge/rigid/gripper_test.cpp.
+// Tested by tests/bridge/rigid/gripper_test.cpp, tests/bridge/rigid/rigid_gripper_test.cpp.
 
 #include <algorithm>
 #include <span>
@@ -37,7 +37,7 @@ class Pinches {
   }
   /// Whether another contact holds the node of this one.
   [[nodiscard]] bool is_replaced(std::size_t contact) const { return held_of(contact).is_replaced; }
-  /// Gives links the reaction of the nodes that they hold: minus impulse_on(node) [N s] at position_of(node). Within the step a
+  /// Gives fingers the reaction of the nodes that they hold: minus impulse_on(node) [N s] at position_of(node). Within the step a
   /// pinched node follows its surface as one that nothing moves.
   template <class Impulse, class Position>
   void push_back(std::span<const RigidContact> contacts, const Impulse& impulse_on,
@@ -66,11 +66,11 @@ class Pinches {
     nodes_.clear();
   }
   [[nodiscard]] bool empty() const { return nodes_.empty(); }
-  /// Whether an object is one of two that may press nodes between them.
-  [[nodiscard]] bool has_surface(const btCollisionObject* object) const {
-    return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
-      return pair.may_press && (pair.first == object || pair.second == object);
-    });
+  /// Whether an object on a joint is one of two that may press nodes between them.
+  [[nodiscard]] bool has_finger(const btCollisionObject* object) const {
+    return is_jointed(object) && std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
+             return pair.may_press && (pair.first == object || pair.second == object);
+           });
   }
   [[nodiscard]] bool has(int node) const {
     return !nodes_.empty() && nodes_[static_cast<std::size_t>(node)] != 0;

@@ -184,11 +184,11 @@ class FastBody : public NodeTeam {
   [[nodiscard]] btVector3 in_world(int node) const;
   void read_constraints(const btSoftBody& body, btScalar time_step, bool is_again);
   void move_pins_evenly();
-  /// Whether a node is between two surfaces that press on each other.
-  /// Whether what cloth does to it in a step comes to pass. What motors do with it is seen in Bullet's next step only.
+  /// Whether what cloth does to it in a step comes to pass: what motors make of it is seen in Bullet's next step only.
   [[nodiscard]] bool moves_freely(const MovableObject& object) const {
-    return object && !object.is_articulated() && !pinches_.has_surface(object.object());
+    return object && !object.is_articulated() && !pinches_.has_finger(object.object());
   }
+  /// Whether a node is between two surfaces that press on each other.
   [[nodiscard]] bool is_between(int node) const { return pinches_.has(node) || backed_.has(node); }
   void exchange_impulses(btSoftBody& body, btScalar time_step);
   void project_out_of_missed_colliders(btSoftBody& body, btScalar time_step);

@@ -244,9 +244,14 @@ void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
   }
   const auto position_of = [&](int node) { return in_world(node); };
   const auto impulse_on = [&](int node) -> btVector3 {
-    return time_step * to_bullet(active_solver().constraint_force(node));
+    return whole_step * to_bullet(active_solver().constraint_force(node));
   };
-  backed_.end_step(contacts_, pinches_, position_of);
+  const auto gap_of = [&](RigidContact contact) {
+    if (const MovableObject object = movable_of(contact))
+      follow_object(contact, solved_pose(object));
+    return btDot(contact.normal, in_world(contact.node)) - contact.offset;
+  };
+  backed_.end_step(contacts_, pinches_, body.getCollisionShape()->getMargin(), gap_of);
   pinches_.push_back(contacts_, impulse_on, position_of);
   given_to_bodies_ = -pushed_.kinetic_energy();
   pushed_.exchange_impulses(time_step);

@@ -27,7 +27,8 @@ bool leads_movable(const btSoftBody& body) {
 }
 
 /// Whether what cloth touches may do work that nobody knows.
-bool may_do_work(const std::vector<RigidContact>& contacts) {
+template <class MovesFreely>
+bool may_do_work(const std::vector<RigidContact>& contacts, const MovesFreely& moves_freely) {
   const btCollisionObject* known = nullptr;  // that does none but by its motion
   for (const RigidContact& contact : contacts) {
     if (contact.motion.length2() > 0 && !contact.is_dynamic) return true;
@@ -35,7 +36,7 @@ bool may_do_work(const std::vector<RigidContact>& contacts) {
     known = contact.object;
     const MovableObject object{contact.object};
     // Nobody knows how a ghost moves, and what the motors of joints do.
-    if (object ? object.is_articulated() : btRigidBody::upcast(contact.object) == nullptr)
+    if (object ? !moves_freely(object) : btRigidBody::upcast(contact.object) == nullptr)
       return true;
   }
   return false;
@@ -154,7 +155,9 @@ void FastBody::find_velocities() {
 
 // Pins and anchors that lead, kinematic colliders and other cloth do work that nobody knows.
 bool FastBody::gets_work_from_outside() const {
-  if (!kinematic_.empty() || may_do_work(contacts_)) return true;
+  if (!kinematic_.empty() ||
+      may_do_work(contacts_, [&](const MovableObject& one) { return moves_freely(one); }))
+    return true;
   return std::any_of(pins_.begin(), pins_.end(),
                      [&](int pin) { return positions_.col(pin) != starts_.col(pin); });
 }

@@ -136,7 +136,7 @@ TEST(Gripper, HoldsATowelAboveTheThresholdOfFriction) {
   }
 }
 
-// From some 0.8 of the threshold on nodes may stick with more than friction bears: which, that is decided by rounding, also by that
+// From more than 0.75 of the threshold on nodes may stick with more than friction bears: which, that is decided by rounding, also by that
 // of the processor's vector unit.
 TEST(Gripper, ATowelSlipsBelowTheThreshold) {
   for (unsigned seed = 1; seed <= WEFT_NUM_SEEDS; ++seed) {
