@@ -73,7 +73,7 @@ class BackedNodes {
   [[nodiscard]] bool has(int node) const;
 
  private:
-  /// Of the margin [-].
+  /// A node that is less deep has been left there by rounding [share of the margin].
   static constexpr btScalar kLeastDepth = btScalar(1e-3);
   [[nodiscard]] bool is_sunken(int node) const {
     return std::binary_search(sunken_.begin(), sunken_.end(), node);
