@@ -25,8 +25,8 @@ bool yields(const RigidContact& one, const RigidContact& other) {
   return !behind || inverse_mass >= behind.inverse_mass();
 }
 
-/// [m] How far into the cloth's margin what begins a step by depth [m] too deep is left. inertia_step: h' [s].
-btScalar left_of(btScalar depth, btScalar inertia_step) {
+/// How much of the depth at which a node begins a step inside of what is behind it is left at the end [m]. inertia_step: h' [s].
+btScalar depth_after(btScalar depth, btScalar inertia_step) {
   const btScalar recovered = kBackingFrequency / (kBackingFrequency + 2 / inertia_step) * depth;
   return depth - std::min(recovered, kFastestRecovery * inertia_step);
 }
@@ -112,7 +112,7 @@ void BackedNodes::make_supports(std::span<const RigidContact> contacts,
     };
     const btScalar depth =
         -gap_at_start(plane, support.offset) - gap_at_start(pressing, pressing.offset);
-    support.offset -= left_of(depth, inertia_step);
+    support.offset -= depth_after(depth, inertia_step);
     supports.push_back(support);
     // A body that has been moved on through the node comes to where it meets it.
     const btScalar gap = pressing.normal.dot(start + plane.motion) - pressing.offset;
@@ -125,7 +125,7 @@ btScalar BackedNodes::depth_to_keep(const RigidContact& contact,
                                     const Matrix3X<btScalar>& starts, btScalar inertia_step) const {
   if (sunken_.empty() || !is_sunken(contact.node)) return 0;
   const Vector3<btScalar> start = starts.col(contact.node) + plane.motion;
-  return left_of(std::max(btScalar(0), plane.offset - plane.normal.dot(start)), inertia_step);
+  return depth_after(std::max(btScalar(0), plane.offset - plane.normal.dot(start)), inertia_step);
 }
 
 void BackedNodes::serialize(StateArchive& archive, int num_nodes) {

@@ -333,7 +333,7 @@ void FastBody::detect_contacts(const btSoftBody& body, btScalar time_step) {
   const fast::WorkerTeam::Scope scope(team_, team_size());
   follow_colliders(false);
   for (const Collider& collider : colliders_) find_contacts(body, collider, time_step, contacts_);
-  pinches_.find(contacts_, body, body.m_sst.sdt);
+  pinches_.find(contacts_, body, body.m_sst.sdt);  // fingers have no substeps
 }
 
 void FastBody::begin_solve(btSoftBody& body, btScalar time_step,

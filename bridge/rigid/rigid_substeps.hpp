@@ -19,8 +19,8 @@ class RigidSubsteps {
   /// Moves each to where it is at the end of the substep without cloth.
   void begin_substep();
   void end_substep();
-  /// Bodies that contacts hold, and articulated links, stand where Bullet has put them; it turns their new velocities
-  /// into motion.
+  /// Bodies that contacts hold, and articulated links, stand where Bullet has put them; it turns their new velocities into
+  /// motion.
   void finish();
   /// The pose of a body at the beginning of the substep.
   [[nodiscard]] const btTransform& start_of(const MovableObject& body) const;

@@ -23,8 +23,7 @@ struct RigidEncounter {
   btScalar pushed;        ///< how far the cloth has moved it in the last step [m]
   btScalar fall;          ///< how far gravity moves it in a step, g h^2 [m]
   btScalar inverse_mass;  ///< of the body [1/kg]
-  btScalar pulled =
-      0;  ///< how far pins that a program moves leave the node, if something is behind it [m]
+  btScalar pulled = 0;    ///< how far pins leave the node, if something is behind it: PinPull [m]
 };
 
 /// Into how many substeps a step is divided. The surface of a body that comes far would turn away from the nodes that it
