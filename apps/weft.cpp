@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/app.hpp"
-#include "apps/interruption.hpp"
+#include "apps/progress/interruption.hpp"
 #include "apps/terminal.hpp"
 
 namespace {

@@ -11,7 +11,7 @@
 
 #include <weft/bridge/adoption/suitable_body.hpp>
 #include <weft/bridge/classic/attachment.hpp>
-#include <weft/bridge/classic/position_limits.hpp>
+#include <weft/bridge/classic/nodes/position_limits.hpp>
 #include <weft/bridge/classic/torn_laws.hpp>
 #include <weft/bridge/cloth.hpp>
 #include <weft/core/error.hpp>

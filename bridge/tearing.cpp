@@ -4,7 +4,7 @@
 #include <utility>
 
 #include <weft/bridge/classic/cloth_links.hpp>
-#include <weft/bridge/classic/node_state.hpp>
+#include <weft/bridge/classic/nodes/node_state.hpp>
 #include <weft/bridge/classic/torn_laws.hpp>
 #include <weft/core/error.hpp>
 

@@ -14,7 +14,7 @@
 #include <weft/scenes/engine_kind.hpp>
 #include <weft/scenes/format/scene_words.hpp>
 #include <weft/scenes/live_laws.hpp>
-#include <weft/scenes/shape_surface.hpp>
+#include <weft/scenes/shapes/shape_surface.hpp>
 
 namespace weft::scenes {
 namespace {

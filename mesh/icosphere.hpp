@@ -1,6 +1,6 @@
 #pragma once
 
-// Tested by tests/custom_forces/body_sources_test.cpp, tests/mesh/hinges_test.cpp.
+// Tested by tests/custom_forces/body_sources_test.cpp, tests/mesh/topology/hinges_test.cpp.
 
 #include <optional>
 

@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <weft/core/error.hpp>
-#include <weft/mesh/hinges.hpp>
+#include <weft/mesh/topology/hinges.hpp>
 
 namespace weft {
 namespace {

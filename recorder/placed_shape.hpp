@@ -5,7 +5,7 @@
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 
 #include <weft/bridge/bullet/precision.hpp>
-#include <weft/scenes/shapes.hpp>
+#include <weft/scenes/shapes/shapes.hpp>
 
 namespace weft::recorder {
 inline namespace WEFT_BULLET_PRECISION {

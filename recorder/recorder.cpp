@@ -19,7 +19,7 @@
 #include <weft/scenes/recording/own_loop.hpp>
 #include <weft/scenes/recording/recording.hpp>
 #include <weft/scenes/recording/recording_output.hpp>
-#include <weft/scenes/shape_surface.hpp>
+#include <weft/scenes/shapes/shape_surface.hpp>
 
 namespace weft::recorder {
 inline namespace WEFT_BULLET_PRECISION {

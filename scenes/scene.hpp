@@ -20,7 +20,7 @@
 #include <weft/scenes/controllers/controller_settings.hpp>
 #include <weft/scenes/motion/path.hpp>
 #include <weft/scenes/reference_settings.hpp>
-#include <weft/scenes/shapes.hpp>
+#include <weft/scenes/shapes/shapes.hpp>
 
 namespace weft::scenes {
 

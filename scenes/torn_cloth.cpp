@@ -6,8 +6,8 @@
 #include <utility>
 
 #include <weft/core/error.hpp>
-#include <weft/mesh/hinges.hpp>
 #include <weft/mesh/mesh_state.hpp>
+#include <weft/mesh/topology/hinges.hpp>
 
 namespace weft::scenes {
 

@@ -99,7 +99,7 @@ def self_test():
         "playback/bullet.cpp": ("<LinearMath/btVector3.h>", "is Bullet's"),
         "engines/reference.cpp": ("<btBulletDynamicsCommon.h>", "is Bullet's"),
         "apps/unknown.cpp": ("<weft/physics/x.hpp>", "is in no module"),
-        "bridge/up.hpp": ("<weft/python/bindings/world.hpp>", "bridge may not include python"),
+        "bridge/up.hpp": ("<weft/python/bindings/world/world.hpp>", "bridge may not include python"),
         "python/viewer.cpp": ("<weft/viewer/session.hpp>", "python may not include viewer"),
         "python/clean.cpp": ("<BulletSoftBody/btSoftBody.h>", None),
         "bridge/clean.cpp": ("<BulletSoftBody/btSoftBody.h>", None),

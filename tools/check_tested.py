@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Checks that every library source says which test exercises it.
 
-The tree of tests mirrors the tree of the library: tests/mesh/hinges_test.cpp tests mesh/hinges.hpp and mesh/hinges.cpp.
+The tree of tests mirrors the tree of the library: tests/mesh/topology/hinges_test.cpp tests mesh/topology/hinges.hpp and mesh/topology/hinges.cpp.
 A source without such a test names those that exercise it in one line near the top of its header, or of its .cpp file
 if it has no header:
 
-    // Tested by tests/mesh/hinges_test.cpp, tests/mesh/cutting/tear_test.cpp.
+    // Tested by tests/mesh/topology/hinges_test.cpp, tests/mesh/cutting/tear_test.cpp.
 """
 import argparse
 import re

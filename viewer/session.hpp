@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <weft/viewer/live/live_source.hpp>
-#include <weft/viewer/model/file_watch.hpp>
+#include <weft/viewer/model/frames/file_watch.hpp>
 #include <weft/viewer/model/view_state.hpp>
 
 namespace weft::viewer {

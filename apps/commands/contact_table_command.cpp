@@ -13,7 +13,7 @@
 #include <weft/validation/contact_table/contact_table.hpp>
 
 #include "apps/app.hpp"
-#include "apps/progress_bar.hpp"
+#include "apps/progress/progress_bar.hpp"
 #include "apps/terminal.hpp"
 
 namespace weft::app {

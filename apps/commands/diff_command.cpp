@@ -19,8 +19,8 @@
 #include <weft/validation/recordings/recording_difference.hpp>
 
 #include "apps/app.hpp"
-#include "apps/partial_note.hpp"
-#include "apps/progress_bar.hpp"
+#include "apps/progress/partial_note.hpp"
+#include "apps/progress/progress_bar.hpp"
 #include "apps/terminal.hpp"
 
 namespace weft::app {

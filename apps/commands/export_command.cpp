@@ -23,8 +23,8 @@
 #include <weft/scenes/recording/recording.hpp>
 
 #include "apps/app.hpp"
-#include "apps/partial_note.hpp"
-#include "apps/progress_bar.hpp"
+#include "apps/progress/partial_note.hpp"
+#include "apps/progress/progress_bar.hpp"
 #include "apps/quantity_option.hpp"
 #include "apps/terminal.hpp"
 

@@ -15,8 +15,8 @@
 #include <weft/scenes/recording/recording_output.hpp>
 
 #include "apps/app.hpp"
-#include "apps/interruption.hpp"
-#include "apps/progress_bar.hpp"
+#include "apps/progress/interruption.hpp"
+#include "apps/progress/progress_bar.hpp"
 #include "apps/provenance.hpp"
 #include "apps/quantity_option.hpp"
 #include "apps/terminal.hpp"

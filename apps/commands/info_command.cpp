@@ -19,7 +19,7 @@
 #include <weft/validation/report/formats/json_text.hpp>
 
 #include "apps/app.hpp"
-#include "apps/partial_note.hpp"
+#include "apps/progress/partial_note.hpp"
 #include "apps/terminal.hpp"
 
 namespace weft::app {

@@ -22,8 +22,8 @@
 #include "apps/app.hpp"
 #include "apps/film/film.hpp"
 #include "apps/film/film_times.hpp"
-#include "apps/partial_note.hpp"
-#include "apps/progress_bar.hpp"
+#include "apps/progress/partial_note.hpp"
+#include "apps/progress/progress_bar.hpp"
 #include "apps/quantity_option.hpp"
 #include "apps/terminal.hpp"
 

@@ -26,8 +26,8 @@
 
 #include "apps/app.hpp"
 #include "apps/hand_over.hpp"
-#include "apps/interruption.hpp"
-#include "apps/progress_bar.hpp"
+#include "apps/progress/interruption.hpp"
+#include "apps/progress/progress_bar.hpp"
 #include "apps/provenance.hpp"
 #include "apps/quantity_option.hpp"
 #include "apps/terminal.hpp"

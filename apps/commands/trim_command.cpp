@@ -13,9 +13,9 @@
 #include <weft/scenes/recording/trim.hpp>
 
 #include "apps/app.hpp"
-#include "apps/interruption.hpp"
-#include "apps/partial_note.hpp"
-#include "apps/progress_bar.hpp"
+#include "apps/progress/interruption.hpp"
+#include "apps/progress/partial_note.hpp"
+#include "apps/progress/progress_bar.hpp"
 #include "apps/quantity_option.hpp"
 #include "apps/terminal.hpp"
 

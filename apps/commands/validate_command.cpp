@@ -20,9 +20,9 @@
 #include "apps/app.hpp"
 #include "apps/hand_over.hpp"
 #include "apps/judged_scenes.hpp"
-#include "apps/partial_note.hpp"
-#include "apps/progress_bar.hpp"
-#include "apps/progress_lines.hpp"
+#include "apps/progress/partial_note.hpp"
+#include "apps/progress/progress_bar.hpp"
+#include "apps/progress/progress_lines.hpp"
 #include "apps/provenance.hpp"
 #include "apps/terminal.hpp"
 

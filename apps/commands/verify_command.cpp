@@ -12,7 +12,7 @@
 #include <weft/scenes/recording/verify.hpp>
 
 #include "apps/app.hpp"
-#include "apps/progress_bar.hpp"
+#include "apps/progress/progress_bar.hpp"
 #include "apps/terminal.hpp"
 
 namespace weft::app {

@@ -9,7 +9,7 @@
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <tbb/task_arena.h>
 
-#include <weft/bridge/classic/node_state.hpp>
+#include <weft/bridge/classic/nodes/node_state.hpp>
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/soft_world.hpp>
 #include <weft/core/trace.hpp>

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "bench/bench.hpp"
-#include "bench/bullet/rest_drape.hpp"
+#include "bench/bullet/workloads/rest_drape.hpp"
 #include "bench/result_file.hpp"
 
 namespace weft::bench {

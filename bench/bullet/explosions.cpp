@@ -4,7 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include "bench/bench.hpp"
-#include "bench/bullet/random_cloth.hpp"
+#include "bench/bullet/workloads/random_cloth.hpp"
 #include "bench/result_file.hpp"
 
 namespace weft::bench {

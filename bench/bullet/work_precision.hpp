@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/bullet/workload.hpp"
+#include "bench/bullet/workloads/workload.hpp"
 #include "bench/result_file.hpp"
 
 namespace weft::bench {

@@ -4,8 +4,8 @@
 
 #include <weft/custom_forces/registry.hpp>
 #include <weft/mesh/cloth_grid.hpp>
-#include <weft/mesh/hinges.hpp>
 #include <weft/mesh/icosphere.hpp>
+#include <weft/mesh/topology/hinges.hpp>
 
 namespace weft::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
-#include <weft/mesh/winding.hpp>
+#include <weft/mesh/topology/winding.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {

@@ -10,9 +10,9 @@
 
 #include <weft/bridge/adoption/suitable_body.hpp>
 #include <weft/bridge/bullet/bullet_vector.hpp>
-#include <weft/bridge/classic/node_state.hpp>
-#include <weft/bridge/classic/position_limits.hpp>
-#include <weft/bridge/implicit/node_prediction.hpp>
+#include <weft/bridge/classic/nodes/node_state.hpp>
+#include <weft/bridge/classic/nodes/position_limits.hpp>
+#include <weft/bridge/implicit/history/node_prediction.hpp>
 #include <weft/core/trace.hpp>
 
 namespace weft::bridge {

@@ -14,7 +14,7 @@
 #include <weft/bridge/classic/attachment.hpp>
 #include <weft/bridge/classic/body_lists.hpp>
 #include <weft/bridge/cloth.hpp>
-#include <weft/bridge/implicit/node_prediction.hpp>
+#include <weft/bridge/implicit/history/node_prediction.hpp>
 #include <weft/bridge/rigid/rigid_substeps.hpp>
 #include <weft/core/trace.hpp>
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include <weft/bridge/contact/outward_faces.hpp>
+#include <weft/bridge/contact/surface/outward_faces.hpp>
 #include <weft/core/error.hpp>
 
 namespace weft::bridge {

@@ -12,8 +12,8 @@
 #include <LinearMath/btTransformUtil.h>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
-#include <weft/bridge/contact/concave_surface.hpp>
-#include <weft/bridge/contact/solid_distances.hpp>
+#include <weft/bridge/contact/surface/concave_surface.hpp>
+#include <weft/bridge/contact/surface/solid_distances.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {

@@ -11,7 +11,7 @@
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/contact/face_tree.hpp>
-#include <weft/bridge/contact/surface_distance.hpp>
+#include <weft/bridge/contact/surface/surface_distance.hpp>
 #include <weft/bridge/rigid/movable_object.hpp>
 #include <weft/fast_solver/threads/worker_team.hpp>
 

@@ -5,8 +5,8 @@
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/bullet/precision.hpp>
-#include <weft/bridge/contact/hull_facets.hpp>
 #include <weft/bridge/contact/rigid_contacts.hpp>
+#include <weft/bridge/contact/surface/hull_facets.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Tested by tests/bridge/implicit/steady_step_test.cpp.
+// Tested by tests/bridge/implicit/history/steady_step_test.cpp.
 
 #include <algorithm>
 #include <span>

@@ -8,9 +8,9 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
-#include <weft/bridge/classic/node_state.hpp>
+#include <weft/bridge/classic/nodes/node_state.hpp>
 #include <weft/bridge/implicit/energy_limit.hpp>
-#include <weft/bridge/implicit/node_prediction.hpp>
+#include <weft/bridge/implicit/history/node_prediction.hpp>
 #include <weft/core/trace.hpp>
 
 namespace weft::bridge {

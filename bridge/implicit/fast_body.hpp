@@ -9,7 +9,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/bullet/precision.hpp>
-#include <weft/bridge/classic/node_normals.hpp>
+#include <weft/bridge/classic/nodes/node_normals.hpp>
 #include <weft/bridge/contact/backed_nodes.hpp>
 #include <weft/bridge/contact/known_contacts.hpp>
 #include <weft/bridge/contact/pinch.hpp>
@@ -18,9 +18,9 @@
 #include <weft/bridge/fast_settings.hpp>
 #include <weft/bridge/implicit/bending_forces.hpp>
 #include <weft/bridge/implicit/body_sleep.hpp>
-#include <weft/bridge/implicit/force_history.hpp>
+#include <weft/bridge/implicit/history/force_history.hpp>
+#include <weft/bridge/implicit/history/steady_step.hpp>
 #include <weft/bridge/implicit/node_team.hpp>
-#include <weft/bridge/implicit/steady_step.hpp>
 #include <weft/bridge/implicit/stiffness_limit.hpp>
 #include <weft/bridge/implicit/substeps/explicit_substeps.hpp>
 #include <weft/bridge/implicit/substeps/substep_count.hpp>

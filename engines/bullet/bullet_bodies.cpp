@@ -3,8 +3,8 @@
 #include <utility>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
-#include <weft/bridge/classic/node_state.hpp>
-#include <weft/bridge/classic/pinned_nodes.hpp>
+#include <weft/bridge/classic/nodes/node_state.hpp>
+#include <weft/bridge/classic/nodes/pinned_nodes.hpp>
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/core/error.hpp>
 #include <weft/engines/blow_up_check.hpp>

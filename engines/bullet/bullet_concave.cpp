@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
-#include <weft/scenes/shape_surface.hpp>
+#include <weft/scenes/shapes/shape_surface.hpp>
 
 namespace weft::scenes {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
-#include <weft/scenes/shapes.hpp>
+#include <weft/scenes/shapes/shapes.hpp>
 
 namespace weft::scenes {
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include <weft/bridge/cloth_body.hpp>
-#include <weft/bridge/deformable_world.hpp>
+#include <weft/bridge/deformable/deformable_world.hpp>
 #include <weft/core/error.hpp>
 #include <weft/engines/blow_up_check.hpp>
 #include <weft/engines/bullet/bullet_bodies.hpp>

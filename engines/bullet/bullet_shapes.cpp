@@ -5,7 +5,7 @@
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/engines/bullet/bullet_concave.hpp>
-#include <weft/scenes/shape_surface.hpp>
+#include <weft/scenes/shapes/shape_surface.hpp>
 
 namespace weft::scenes {
 namespace {

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <set>
 
-#include <weft/scenes/shape_surface.hpp>
+#include <weft/scenes/shapes/shape_surface.hpp>
 
 namespace weft::scenes {
 namespace {

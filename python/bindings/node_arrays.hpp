@@ -4,7 +4,7 @@
 
 #include <pybind11/numpy.h>
 
-#include <weft/python/bindings/handles.hpp>
+#include <weft/python/bindings/world/handles.hpp>
 
 namespace weft::python {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <weft/core/error.hpp>
-#include <weft/mesh/hinges.hpp>
+#include <weft/mesh/topology/hinges.hpp>
 
 namespace weft::reference {
 namespace {

@@ -15,7 +15,7 @@
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 
 #include <weft/bridge/cloth_body.hpp>
-#include <weft/bridge/deformable_world.hpp>
+#include <weft/bridge/deformable/deformable_world.hpp>
 #include <weft/bridge/soft_world.hpp>
 #include <weft/core/error.hpp>
 #include <weft/custom_forces/laws/external/gravity.hpp>

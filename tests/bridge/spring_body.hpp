@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include <weft/bridge/deformable_world.hpp>
+#include <weft/bridge/deformable/deformable_world.hpp>
 #include <weft/mesh/cloth_mesh.hpp>
 
 namespace weft::bridge::testing {

@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include <weft/bridge/classic/node_state.hpp>
+#include <weft/bridge/classic/nodes/node_state.hpp>
 #include <weft/bridge/soft_world.hpp>
 #include <weft/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
-#include <weft/mesh/hinges.hpp>
+#include <weft/mesh/topology/hinges.hpp>
 
 namespace weft::bridge {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tests/contract/dual.hpp"
+#include "tests/contract/dual/dual.hpp"
 #include "tests/contract/sample.hpp"
 
 namespace weft::contract {

@@ -12,7 +12,7 @@
 #include <weft/custom_forces/law_set.hpp>
 #include <weft/custom_forces/registry.hpp>
 
-#include "tests/contract/dual_laws.hpp"
+#include "tests/contract/dual/dual_laws.hpp"
 #include "tests/contract/sample.hpp"
 #include "tests/contract/subject.hpp"
 

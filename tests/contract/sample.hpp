@@ -6,7 +6,7 @@
 #include <weft/custom_forces/force_law.hpp>
 #include <weft/mesh/cloth_mesh.hpp>
 
-#include "tests/contract/dual.hpp"
+#include "tests/contract/dual/dual.hpp"
 
 namespace weft::contract {
 

@@ -2,7 +2,7 @@
 
 #include <weft/custom_forces/registry.hpp>
 
-#include "tests/contract/dual_laws.hpp"
+#include "tests/contract/dual/dual_laws.hpp"
 
 namespace weft::contract {
 namespace {

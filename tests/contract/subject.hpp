@@ -8,7 +8,7 @@
 
 #include <weft/custom_forces/force_law.hpp>
 
-#include "tests/contract/dual.hpp"
+#include "tests/contract/dual/dual.hpp"
 #include "tests/contract/sample.hpp"
 
 namespace weft::contract {

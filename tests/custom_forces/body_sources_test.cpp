@@ -4,10 +4,10 @@
 #include <weft/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
 #include <weft/mesh/cloth_grid.hpp>
-#include <weft/mesh/hinges.hpp>
 #include <weft/mesh/icosphere.hpp>
 #include <weft/mesh/rope.hpp>
 #include <weft/mesh/surface_body.hpp>
+#include <weft/mesh/topology/hinges.hpp>
 
 #include "tests/custom_forces/one_law.hpp"
 

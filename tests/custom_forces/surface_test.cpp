@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <weft/core/error.hpp>
 #include <weft/mesh/cloth_grid.hpp>
-#include <weft/mesh/hinges.hpp>
 #include <weft/mesh/icosphere.hpp>
+#include <weft/mesh/topology/hinges.hpp>
 
 namespace weft {
 namespace {

@@ -10,7 +10,7 @@
 #include <weft/core/error.hpp>
 #include <weft/recorder/recorder.hpp>
 #include <weft/scenes/recording/recording.hpp>
-#include <weft/scenes/shape_surface.hpp>
+#include <weft/scenes/shapes/shape_surface.hpp>
 
 #include "tests/recorder/small_world.hpp"
 #include "tests/scenes/recording/recording_samples.hpp"

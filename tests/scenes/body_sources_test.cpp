@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <weft/core/input_file.hpp>
-#include <weft/mesh/hinges.hpp>
+#include <weft/mesh/topology/hinges.hpp>
 #include <weft/scenes/format/mesh_text.hpp>
 #include <weft/scenes/format/scene_file.hpp>
 

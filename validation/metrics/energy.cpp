@@ -8,7 +8,7 @@
 
 #include <weft/core/error.hpp>
 #include <weft/custom_forces/registry.hpp>
-#include <weft/scenes/shape_surface.hpp>
+#include <weft/scenes/shapes/shape_surface.hpp>
 
 namespace weft::validation {
 namespace {

@@ -3,8 +3,8 @@
 // Tested by tests/viewer/session_test.cpp.
 
 #include <weft/viewer/live/simulation.hpp>
+#include <weft/viewer/model/frames/source.hpp>
 #include <weft/viewer/model/law_edit.hpp>
-#include <weft/viewer/model/source.hpp>
 
 namespace weft::viewer {
 

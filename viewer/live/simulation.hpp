@@ -9,7 +9,7 @@
 
 #include <weft/engines/engine_table.hpp>
 #include <weft/viewer/live/pull.hpp>
-#include <weft/viewer/model/snapshot.hpp>
+#include <weft/viewer/model/frames/snapshot.hpp>
 
 namespace weft::viewer {
 

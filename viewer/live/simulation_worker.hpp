@@ -12,7 +12,7 @@
 #include <weft/viewer/live/run_recorder.hpp>
 #include <weft/viewer/live/simulation.hpp>
 #include <weft/viewer/live/step_parts.hpp>
-#include <weft/viewer/model/frame_ring.hpp>
+#include <weft/viewer/model/frames/frame_ring.hpp>
 
 namespace weft::viewer {
 

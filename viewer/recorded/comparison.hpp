@@ -10,7 +10,7 @@
 
 #include <weft/playback/rendering/renderer.hpp>
 #include <weft/scenes/recording/recording.hpp>
-#include <weft/viewer/model/snapshot.hpp>
+#include <weft/viewer/model/frames/snapshot.hpp>
 
 namespace weft::viewer {
 

@@ -2,7 +2,7 @@
 
 // Tested by tests/viewer/session_test.cpp.
 
-#include <weft/viewer/model/source.hpp>
+#include <weft/viewer/model/frames/source.hpp>
 #include <weft/viewer/recorded/comparison.hpp>
 
 namespace weft::viewer {

@@ -2,7 +2,7 @@
 
 // Tested by tests/viewer/window_test.py.
 
-#include <weft/viewer/ui/panels.hpp>
+#include <weft/viewer/ui/panels/panels.hpp>
 
 namespace weft::viewer {
 

@@ -6,7 +6,7 @@
 
 #include <weft/playback/rendering/paint/color_map.hpp>
 #include <weft/viewer/ui/contact_marks.hpp>
-#include <weft/viewer/ui/panels.hpp>
+#include <weft/viewer/ui/panels/panels.hpp>
 #include <weft/viewer/ui/theme.hpp>
 
 namespace weft::viewer {

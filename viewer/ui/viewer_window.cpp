@@ -12,7 +12,7 @@
 #include <weft/core/error.hpp>
 #include <weft/playback/rendering/image.hpp>
 #include <weft/scenes/output/output_file.hpp>
-#include <weft/viewer/ui/panels.hpp>
+#include <weft/viewer/ui/panels/panels.hpp>
 #include <weft/viewer/ui/theme.hpp>
 #include <weft/viewer/ui/thumbnails.hpp>
 #include <weft/viewer/ui/window_film.hpp>

@@ -6,7 +6,7 @@ import "./print.css";
 import { renderChecks } from "./checks";
 import { renderDepartures, renderLimits, renderProvenance } from "./closing";
 import { h } from "./dom";
-import { drawDistanceViews } from "./distance_view";
+import { drawDistanceViews } from "./distance/distance_view";
 import { redrawPlots } from "./plot";
 import { needsAttention, readReport, type Report } from "./report";
 import { renderSections, sectionAnchors } from "./sections";

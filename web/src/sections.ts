@@ -1,4 +1,4 @@
-import { renderDistanceView } from "./distance_view";
+import { renderDistanceView } from "./distance/distance_view";
 import { anchor, h, scrollBox, tableHead } from "./dom";
 import { count } from "./format";
 import { renderPictureRow } from "./pictures";

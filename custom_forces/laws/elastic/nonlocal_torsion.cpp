@@ -10,7 +10,7 @@
 #include <weft/custom_forces/instantiate_law.hpp>
 #include <weft/custom_forces/law_input.hpp>
 #include <weft/custom_forces/laws/elastic/turning_angle.hpp>
-#include <weft/mesh/hinges.hpp>
+#include <weft/mesh/topology/hinges.hpp>
 
 namespace weft::forces {
 namespace {

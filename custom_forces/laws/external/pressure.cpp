@@ -8,7 +8,7 @@
 #include <weft/core/error.hpp>
 #include <weft/custom_forces/instantiate_law.hpp>
 #include <weft/custom_forces/law_input.hpp>
-#include <weft/mesh/hinges.hpp>
+#include <weft/mesh/topology/hinges.hpp>
 
 namespace weft::forces {
 namespace {

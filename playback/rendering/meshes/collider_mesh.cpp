@@ -1,7 +1,7 @@
 #include <weft/playback/rendering/meshes/collider_mesh.hpp>
 
 #include <weft/playback/rendering/meshes/shape_mesh.hpp>
-#include <weft/scenes/shape_surface.hpp>
+#include <weft/scenes/shapes/shape_surface.hpp>
 
 namespace weft::scenes {
 namespace {

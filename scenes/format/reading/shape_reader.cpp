@@ -13,7 +13,7 @@
 #include <weft/scenes/format/quantity.hpp>
 #include <weft/scenes/format/reading/scene_reader.hpp>
 #include <weft/scenes/format/scene_words.hpp>
-#include <weft/scenes/shape_surface.hpp>
+#include <weft/scenes/shapes/shape_surface.hpp>
 
 namespace weft::scenes {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include <weft/scenes/shapes.hpp>
+#include <weft/scenes/shapes/shapes.hpp>
 
 namespace weft::scenes {
 

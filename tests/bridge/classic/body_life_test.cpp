@@ -9,7 +9,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <weft/bridge/cloth_body.hpp>
-#include <weft/bridge/deformable_world.hpp>
+#include <weft/bridge/deformable/deformable_world.hpp>
 #include <weft/bridge/soft_world.hpp>
 #include <weft/core/error.hpp>
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include <weft/bridge/classic/node_state.hpp>
+#include <weft/bridge/classic/nodes/node_state.hpp>
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/soft_world.hpp>
 

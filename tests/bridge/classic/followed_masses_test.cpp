@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <weft/bridge/cloth_body.hpp>
-#include <weft/bridge/deformable_world.hpp>
+#include <weft/bridge/deformable/deformable_world.hpp>
 #include <weft/bridge/soft_world.hpp>
 
 namespace weft::bridge {

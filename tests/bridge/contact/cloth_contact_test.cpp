@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <weft/bridge/classic/node_state.hpp>
+#include <weft/bridge/classic/nodes/node_state.hpp>
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/contact/face_tree.hpp>
 #include <weft/bridge/soft_world.hpp>

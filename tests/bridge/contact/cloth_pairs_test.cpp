@@ -10,7 +10,7 @@
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 
 #include <weft/bridge/adoption/adopting_solver.hpp>
-#include <weft/bridge/contact/outward_faces.hpp>
+#include <weft/bridge/contact/surface/outward_faces.hpp>
 
 #include "tests/bridge/bullet_scenes.hpp"
 #include "tests/bridge/rigid_objects.hpp"

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include <weft/bridge/deformable_world.hpp>
+#include <weft/bridge/deformable/deformable_world.hpp>
 
 namespace weft::bridge {
 namespace {

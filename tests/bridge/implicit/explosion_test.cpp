@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "bench/bullet/random_cloth.hpp"
+#include "bench/bullet/workloads/random_cloth.hpp"
 
 namespace weft::bench {
 namespace {

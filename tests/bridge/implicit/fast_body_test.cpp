@@ -10,7 +10,7 @@
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 
-#include <weft/bridge/classic/node_state.hpp>
+#include <weft/bridge/classic/nodes/node_state.hpp>
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/soft_world.hpp>
 #include <weft/core/error.hpp>

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <weft/bridge/classic/pinned_nodes.hpp>
+#include <weft/bridge/classic/nodes/pinned_nodes.hpp>
 
 #include "tests/bridge/fast_scene.hpp"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "bench/bullet/rest_drape.hpp"
+#include "bench/bullet/workloads/rest_drape.hpp"
 
 namespace weft::bench {
 namespace {

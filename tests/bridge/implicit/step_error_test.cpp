@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <weft/bridge/classic/node_state.hpp>
+#include <weft/bridge/classic/nodes/node_state.hpp>
 
 #include "tests/bridge/fast_scene.hpp"
 

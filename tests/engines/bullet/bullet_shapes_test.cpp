@@ -12,7 +12,7 @@
 
 #include <weft/core/error.hpp>
 #include <weft/engines/engine_table.hpp>
-#include <weft/scenes/shape_surface.hpp>
+#include <weft/scenes/shapes/shape_surface.hpp>
 #include <weft/validation/metrics/distance/shape_distance.hpp>
 
 namespace weft::scenes {

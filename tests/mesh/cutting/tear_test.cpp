@@ -12,8 +12,8 @@
 #include <weft/core/error.hpp>
 #include <weft/mesh/cloth_grid.hpp>
 #include <weft/mesh/cutting/tear_rule.hpp>
-#include <weft/mesh/hinges.hpp>
 #include <weft/mesh/icosphere.hpp>
+#include <weft/mesh/topology/hinges.hpp>
 
 namespace weft {
 namespace {

@@ -14,7 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <weft/mesh/hinges.hpp>
+#include <weft/mesh/topology/hinges.hpp>
 #include <weft/scenes/import/isolated_run.hpp>
 #include <weft/scenes/import/weld.hpp>
 #include "tests/scenes/import/broken_cases.hpp"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include <weft/scenes/shapes.hpp>
+#include <weft/scenes/shapes/shapes.hpp>
 
 namespace weft::validation {
 

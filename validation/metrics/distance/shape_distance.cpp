@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include <weft/scenes/shape_surface.hpp>
+#include <weft/scenes/shapes/shape_surface.hpp>
 #include <weft/validation/metrics/distance/mesh_distance.hpp>
 
 namespace weft::validation {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include <weft/scenes/shapes.hpp>
+#include <weft/scenes/shapes/shapes.hpp>
 
 namespace weft::validation {
 

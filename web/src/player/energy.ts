@@ -1,7 +1,7 @@
 // Energies of the cloths of a recording, frame by frame while the page has nothing else to do; as
 // playback/export/cloth_energy.cpp, which has put them into an exported page.
-import type { ClothMesh } from "./cloth_mesh";
-import type { Metric, Recording } from "./recording";
+import type { ClothMesh } from "./meshes/cloth_mesh";
+import type { Metric, Recording } from "./files/recording";
 
 export const KINETIC = "cloth_kinetic_energy_J";
 export const HEIGHT = "cloth_height_energy_J";

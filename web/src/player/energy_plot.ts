@@ -3,7 +3,7 @@ import uPlot from "uplot";
 
 import { h } from "../dom";
 import { formatNumber } from "../format";
-import type { Recording } from "./recording";
+import type { Recording } from "./files/recording";
 
 const HEIGHT = 190;
 const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3]];

@@ -1,11 +1,11 @@
 // A recording with what is needed to show it: its scene and the meshes of its cloths.
-import { characterMeshes } from "./character_mesh";
-import { makeClothMesh, type ClothMesh } from "./cloth_mesh";
+import { characterMeshes } from "./meshes/character_mesh";
+import { makeClothMesh, type ClothMesh } from "./meshes/cloth_mesh";
 import { computeEnergies, KINETIC } from "./energy";
-import type { Frame } from "./chunk_codec";
-import type { Metric, Recording } from "./recording";
+import type { Frame } from "./files/chunk_codec";
+import type { Metric, Recording } from "./files/recording";
 import { readScene, text, type Scene } from "./scene";
-import { nodeStrain, springsOf } from "./strain";
+import { nodeStrain, springsOf } from "./drawing/strain";
 
 export interface Exhibit {
   recording: Recording;

@@ -1,6 +1,6 @@
 // The page: head, picture, bar, panel, and what stands in the picture's place when there is none.
 import { h } from "../dom";
-import { DIVERGING_GRADIENT } from "./diverging";
+import { DIVERGING_GRADIENT } from "./drawing/diverging";
 
 export interface Layout {
   title: HTMLElement;

@@ -2,13 +2,13 @@ import "uplot/dist/uPlot.min.css";
 import "../style.css";
 import "./player.css";
 
-import { embeddedFiles } from "./embedded";
-import { Follower } from "./follower";
+import { embeddedFiles } from "./files/embedded";
+import { Follower } from "./files/follower";
 import { showHelp } from "./help";
 import { makeHook } from "./hook";
 import { installKeys } from "./keys";
 import { Player } from "./player";
-import { acceptChoice, acceptDrops, pairsOf, readPairs, type GivenFile, type Source } from "./sources";
+import { acceptChoice, acceptDrops, pairsOf, readPairs, type GivenFile, type Source } from "./files/sources";
 
 function connectKeys(player: Player): void {
   const { panel, viewer } = player;

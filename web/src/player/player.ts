@@ -5,17 +5,17 @@ import { h } from "../dom";
 import { formatNumber } from "../format";
 import { keepTimeInAddress, timeInAddress } from "./address";
 import { Clock } from "./clock";
-import type { Look } from "./cloth_view";
-import { engines } from "./engines";
+import type { Look } from "./drawing/cloth_view";
+import { engines } from "./files/engines";
 import { EnergyPlot } from "./energy_plot";
 import { makeExhibit, startEnergies, type Exhibit } from "./exhibit";
-import type { GivenFile } from "./sources";
+import type { GivenFile } from "./files/sources";
 import { makeLayout } from "./layout";
 import { makePanel, showFacts, showNotes, showRecordings } from "./panel";
-import { Recording, type Metric } from "./recording";
-import { Stage } from "./stage";
+import { Recording, type Metric } from "./files/recording";
+import { Stage } from "./drawing/stage";
 import { makeTransport, showPlaying, SPEEDS } from "./transport";
-import { makeRenderer, Viewer } from "./viewer";
+import { makeRenderer, Viewer } from "./drawing/viewer";
 
 interface Note {
   name: string;

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include <weft/scenes/shape_surface.hpp>
+#include <weft/scenes/shapes/shape_surface.hpp>
 #include <weft/validation/metrics/distance/surface_index.hpp>
 
 namespace weft::validation {

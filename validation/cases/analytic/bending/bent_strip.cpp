@@ -11,7 +11,7 @@
 
 #include <weft/custom_forces/registry.hpp>
 #include <weft/mesh/cloth_grid.hpp>
-#include <weft/mesh/hinges.hpp>
+#include <weft/mesh/topology/hinges.hpp>
 #include <weft/reference/statics/coupling.hpp>
 #include <weft/validation/cases/analytic/statics/lattice_strip.hpp>
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <weft/mesh/hinges.hpp>
+#include <weft/mesh/topology/hinges.hpp>
 
 namespace weft::validation {
 
