@@ -42,12 +42,13 @@ class BackedNodes {
                      const Matrix3X<btScalar>& starts, const Vector3<btScalar>& origin,
                      btScalar inertia_step, bool is_again, CoupledBodies& pushed,
                      std::vector<fast::NodeSupport<btScalar>>& supports) const;
-  /// How much of the depth at which a node begins the step inside of a surface it keeps there [m]: of nodes that a body or fingers
-  /// have pressed in and then left, which come out as slowly as that body would. At once, it would be a kick.
+  /// How much of the depth at which a node begins a step or substep inside of a surface it keeps there [m]; at once, it would be a
+  /// kick. Nodes that a body or fingers have pressed in and then left come out as slowly as that body would, others by the end
+  /// of the step. step_share: of the substep in the step [-].
   [[nodiscard]] btScalar depth_to_keep(const RigidContact& contact,
                                        const fast::PlaneContact<btScalar>& plane,
-                                       const Matrix3X<btScalar>& starts,
-                                       btScalar inertia_step) const;
+                                       const Matrix3X<btScalar>& starts, btScalar inertia_step,
+                                       btScalar step_share) const;
   /// Remembers which nodes the step leaves inside of what is behind them, by more than rounding. gap_of(contact): in the solution [m].
   template <class Gap>
   void end_step(std::span<const RigidContact> contacts, const Pinches& pinches, btScalar margin,

@@ -181,7 +181,8 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     const bool is_replaced = pinches_.is_replaced(c) || backed_.is_behind(c);
     plane.offset -= is_replaced ? BackedNodes::kFarAway : pinches_.depth_of(c);
     if (!pinches_.has(contact.node))
-      plane.offset -= backed_.depth_to_keep(contact, plane, starts_, inertia_step_);
+      plane.offset -=
+          backed_.depth_to_keep(contact, plane, starts_, inertia_step_, time_step / body.m_sst.sdt);
     const MovableObject object = movable_of(contact);
     if (object && !pinches_.has(contact.node)) {
       plane.body = pushed_.number_of(object, body.m_worldInfo->m_dispatcher, time_step, is_again);

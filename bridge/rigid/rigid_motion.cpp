@@ -42,8 +42,11 @@ void add_supports(const MovableObject& body, btDispatcher* dispatcher, btScalar 
       const btVector3 point =
           body.pose() * (is_first ? contact.m_localPointA : contact.m_localPointB);
       const btVector3 out = is_first ? contact.m_normalWorldOnB : -contact.m_normalWorldOnB;
+      const btVector3 other_point =
+          other.getWorldTransform() * (is_first ? contact.m_localPointB : contact.m_localPointA);
+      const btScalar distance = btDot(out, point - other_point);
       const btScalar speed = speed_out(*body.object(), point, out) - speed_out(other, point, out);
-      if (contact.getDistance() > reach || std::abs(time_step * speed) > reach) continue;
+      if (distance > reach || std::abs(time_step * speed) > reach) continue;
       supports.push_back(
           {body, from_bullet<btScalar>(point - body.center()), from_bullet<btScalar>(out)});
     }

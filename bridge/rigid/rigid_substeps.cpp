@@ -51,7 +51,7 @@ void RigidSubsteps::end_substep() {
   for (Entry& one : entries_) {
     const btTransform going_on = moved(one.start, one.body, substep_time_);
     const bool is_moved = !(one.body.pose() == one.alone);
-    one.is_held = one.is_held || (!is_moved && differ(going_on, one.alone));
+    one.is_held = !is_moved && differ(going_on, one.alone);
     one.start = is_moved ? one.body.pose() : going_on;
   }
 }

@@ -31,7 +31,7 @@ class RigidSubsteps {
     btTransform moved;     ///< by Bullet, over the whole step
     btTransform start;     ///< of the substep
     btTransform alone;     ///< at the end of the substep, without cloth
-    bool is_held = false;  ///< cloth has changed its velocity and not its position
+    bool is_held = false;  ///< cloth has changed its last velocity and not its position
   };
 
   std::vector<Entry> entries_;

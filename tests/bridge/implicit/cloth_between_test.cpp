@@ -106,23 +106,30 @@ TEST_P(ThrownBall, GainsNothing) {
   }
   EXPECT_LE(most, first);
   EXPECT_LT(fastest, 0.5 * thrown.velocity) << "it does not bounce";
-  // Between nodes it may come 2 mm deeper, and an impact of 10 m/s takes the rest.
+  // Between nodes it may come 2 mm deeper, and the impact takes the rest.
   const double held = Table::kTop + 2 * kMargin + 0.1;
   EXPECT_LT(lowest, held + 0.005) << "it has come down";
-  EXPECT_GT(lowest, held - 0.02) << "it is not pressed through";
+  EXPECT_GT(lowest, held - 0.002 * std::max(10.0, thrown.velocity)) << "it is not pressed through";
 }
 
 std::vector<Throw> throws() {
   if (!WEFT_ALL_THROWS) {
-    return {{1.0 / 60, 1, 2, 20000},    {1.0 / 60, 4, 0.2, 2000}, {1.0 / 60, 10, 2, 2000},
-            {1.0 / 240, 1, 0.2, 2000},  {1.0 / 240, 1, 2, 20000}, {1.0 / 240, 10, 0.2, 20000},
-            {1.0 / 240, 4, 0.02, 20000}};
+    return {{1.0 / 60, 1, 2, 20000},
+            {1.0 / 60, 4, 0.2, 2000},
+            {1.0 / 60, 10, 2, 2000},
+            {1.0 / 240, 1, 0.2, 2000},
+            {1.0 / 240, 1, 2, 20000},
+            {1.0 / 240, 10, 0.2, 20000},
+            {1.0 / 240, 4, 0.02, 20000},
+            // It touches the table, and leaves it within the substeps of one step.
+            {1.0 / 90, 15, 0.02, 1000},
+            {1.0 / 70, 15, 0.005, 200}};
   }
   std::vector<Throw> all;
   for (const double time_step : {1.0 / 60, 1.0 / 90, 1.0 / 240}) {
-    for (const double velocity : {1.0, 4.0, 7.0, 10.0}) {
-      for (const double mass : {0.02, 0.2, 0.7, 2.0}) {
-        for (const double stiffness : {200.0, 2000.0, 7000.0, 20000.0}) {
+    for (const double velocity : {1.0, 4.0, 7.0, 10.0, 15.0}) {
+      for (const double mass : {0.005, 0.02, 0.2, 0.7, 2.0}) {
+        for (const double stiffness : {50.0, 200.0, 2000.0, 7000.0, 20000.0}) {
           all.push_back({time_step, velocity, mass, stiffness});
         }
       }
@@ -164,6 +171,52 @@ TEST(ClothBetween, GoesOnFromASnapshot) {
     EXPECT_EQ(heights[0], heights[1]) << "after " << num_steps << " steps";
   }
 }
+
+// A light box that tumbles touches the table through the cloth with edges that come and go, and steps that are divided into many
+// substeps follow steps that are not. What was left inside of something at the end of a step was thrown out in the first substep.
+struct Tumble {
+  double time_step;
+  double turned;  ///< [rad] at the start
+};
+
+class TumblingBox : public testing::TestWithParam<Tumble> {};
+
+TEST_P(TumblingBox, GainsNothing) {
+  constexpr double kMass = 0.01;
+  constexpr double kSpeed = 2.0;
+  const Tumble& tumble = GetParam();
+  Table table(5000);
+  btRigidBody& body = table.scene().add(box(0.1, 0.05, 0.08), kMass, at(0.03, 0.3, 0.02));
+  btTransform start = body.getCenterOfMassTransform();
+  start.setRotation(btQuaternion(btVector3(1, 2, -2) / 3, btScalar(tumble.turned)));
+  body.setCenterOfMassTransform(start);
+  body.setFriction(btScalar(0.5));
+  body.setLinearVelocity(vector(0.4, -kSpeed, -0.2));
+  body.setAngularVelocity(vector(6, -5, 5));
+  const auto energy = [&] {
+    const btVector3 turning =
+        body.getCenterOfMassTransform().getBasis().transpose() * body.getAngularVelocity();
+    return table.scene().mechanical_energy(0) + energy_of(body) +
+           0.5 * static_cast<double>((body.getLocalInertia() * turning).dot(turning));
+  };
+  // Margins press each other apart: some 0.2 mJ. It was 14 to 130 mJ.
+  const double least = 0.02 * 0.5 * kMass * kSpeed * kSpeed;
+  double last = energy();
+  for (int step = 0; step * tumble.time_step < 0.6; ++step) {
+    table.scene().step(1, tumble.time_step);
+    const double now = energy();
+    EXPECT_LT(now, last + least) << "in step " << step;
+    last = now;
+  }
+}
+
+void PrintTo(const Tumble& one, std::ostream* out) {
+  *out << "turned by " << one.turned << " rad, steps of " << one.time_step << " s";
+}
+
+INSTANTIATE_TEST_SUITE_P(Tumbles, TumblingBox,
+                         testing::Values(Tumble{1.0 / 30, 0.3}, Tumble{1.0 / 30, 1.3},
+                                         Tumble{1.0 / 60, 0.3}, Tumble{1.0 / 60, 1.8}));
 
 // A jerk of 1 m/s gave the box ten times what friction on it can, 0.45 m/s, in a single step; now 1.2 times.
 TEST(ClothOnATable, IsPulledInSubsteps) {
