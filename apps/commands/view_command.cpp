@@ -61,7 +61,8 @@ int view(const CommandLine& command_line) {
   std::fflush(nullptr);
   execv(program.c_str(), arguments.data());
   throw Error(name + ": cannot be started (" + std::strerror(errno) +
-              "), expected the program with the window beside " + command_line.executable.string());
+              "), expected the program with the window beside " + command_line.executable.string() +
+              "; a whole build makes it (cmake --build --preset release)");
 }
 
 }  // namespace

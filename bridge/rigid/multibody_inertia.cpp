@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
+#include <weft/core/symmetric_matrix.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -114,7 +113,7 @@ MultiBodyInertia::MultiBodyInertia(const btMultiBody& multibody) : multibody_(&m
   Eigen::MatrixXd of_free = inertia_(free, free);
   of_free.diagonal().array() += kLeastInertia * of_free.diagonal().maxCoeff();
   const Eigen::MatrixXd inverse =
-      of_free.ldlt().solve(Eigen::MatrixXd::Identity(of_free.rows(), of_free.cols()));
+      solve_symmetric(of_free, Eigen::MatrixXd::Identity(of_free.rows(), of_free.cols()));
   inverse_(free, free) = inverse;
 }
 
@@ -182,11 +181,9 @@ Eigen::MatrixXd MultiBodyInertia::inertia_of(std::span<const int> links) const {
   }
   const Eigen::MatrixXd mobility =
       units.asDiagonal() * (jacobians * inverse_ * jacobians.transpose()) * units.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(mobility);
-  const VectorX<double> inertia =
-      modes.eigenvalues().cwiseMax(1 / kNoBaseTranslation).cwiseInverse();
-  return units.asDiagonal() *
-         (modes.eigenvectors() * inertia.asDiagonal() * modes.eigenvectors().transpose()) *
+  const SymmetricModes modes = symmetric_modes(mobility);
+  const VectorX<double> inertia = modes.values.cwiseMax(1 / kNoBaseTranslation).cwiseInverse();
+  return units.asDiagonal() * (modes.vectors * inertia.asDiagonal() * modes.vectors.transpose()) *
          units.asDiagonal();
 }
 

@@ -72,7 +72,7 @@ void append(MeshShape& mesh, const MeshShape& other) {
       other.triangles.array() + static_cast<int>(points);
 }
 
-struct Surface {
+struct SurfaceMaker {
   int divisions;
 
   MeshShape operator()(const SphereShape& s) const {
@@ -158,7 +158,7 @@ MeshShape height_field_surface(const HeightFieldShape& field) {
 }
 
 MeshShape shape_surface(const Shape& shape, int divisions) {
-  return std::visit(Surface{divisions}, shape);
+  return std::visit(SurfaceMaker{divisions}, shape);
 }
 
 SolidMoments solid_moments(const Shape& shape) {

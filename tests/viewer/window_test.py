@@ -376,7 +376,7 @@ def test_every_control_has_a_tooltip():
     """Every widget of Dear ImGui is followed by its tooltip, and those of actions come from the input map."""
     widget = re.compile(r"ImGui::(Button|SmallButton|Checkbox|RadioButton|Slider\w+|Drag\w+|Input\w+|Selectable|BeginCombo)\(")
     count = 0
-    for path in sorted((Path(__file__).resolve().parents[2] / "viewer" / "ui").glob("*.cpp")):
+    for path in sorted((Path(__file__).resolve().parents[2] / "viewer" / "ui").rglob("*.cpp")):
         lines = path.read_text(encoding="utf-8").splitlines()
         for number, line in enumerate(lines, 1):
             if not widget.search(line):

@@ -41,7 +41,13 @@ Eigen::Quaterniond upright(const Vector3<double>& gravity) {
   Eigen::Index axis = 0;
   if (gravity.cwiseAbs().maxCoeff(&axis) == 0.0) return Eigen::Quaterniond::Identity();
   const Vector3<double> up = -std::copysign(1.0, gravity[axis]) * Vector3<double>::Unit(axis);
-  return Eigen::Quaterniond::FromTwoVectors(up, Vector3<double>::UnitY());
+  if (axis == 1) {
+    return up.y() > 0.0 ? Eigen::Quaterniond::Identity() : Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+  }
+  Eigen::Quaterniond quarter;
+  quarter.vec() = up.cross(Vector3<double>::UnitY()) * std::sqrt(0.5);
+  quarter.w() = std::sqrt(0.5);
+  return quarter;
 }
 
 bool has_surface(const ClothMesh& mesh) {

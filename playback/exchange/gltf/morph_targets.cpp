@@ -6,11 +6,10 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <weft/core/error.hpp>
+#include <weft/core/symmetric_matrix.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -57,11 +56,11 @@ Eigen::MatrixXd modes_over_frames(const Eigen::MatrixXd& displacements, Eigen::I
   const auto frames = some_frames(displacements, stride);
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(frames.cols(), frames.cols());
   gram.selfadjointView<Eigen::Lower>().rankUpdate(frames.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
-  const double smallest = kSmallestEigenvalue * solver.eigenvalues().reverse()[0];
+  const SymmetricModes modes = symmetric_modes(gram);
+  const double smallest = kSmallestEigenvalue * modes.values.reverse()[0];
   Eigen::Index rank = 0;
-  while (rank < gram.cols() && solver.eigenvalues().reverse()[rank] > smallest) ++rank;
-  return solver.eigenvectors().rowwise().reverse().leftCols(rank);
+  while (rank < gram.cols() && modes.values.reverse()[rank] > smallest) ++rank;
+  return modes.vectors.rowwise().reverse().leftCols(rank);
 }
 
 void check_arguments(const Eigen::MatrixXd& motion, double error, int most_targets) {
@@ -132,7 +131,7 @@ MorphNormals fit_morph_normals(const Eigen::MatrixXf& normals, const Eigen::Matr
   factors.row(0).setOnes();
   factors.bottomRows(num_targets) = weights.cast<double>();
   const Eigen::MatrixXd gram = factors * factors.transpose();
-  const Eigen::MatrixXd solution = gram.ldlt().solve(factors);
+  const Eigen::MatrixXd solution = solve_symmetric(gram, factors);
   Eigen::MatrixXf fitted = normals * solution.transpose().cast<float>();
 
   MorphNormals result;

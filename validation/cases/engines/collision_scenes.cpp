@@ -8,6 +8,7 @@
 #include <weft/scenes/format/scene_file.hpp>
 
 namespace weft::validation {
+namespace collision_rows {
 namespace {
 
 // Mass: 250 g/m^2, a heavy cotton. Time step: by Gershgorin omega_max^2 <= 64 k / m at a corner, so with 26 nodes along
@@ -176,16 +177,20 @@ orientation = { axis = [0, 0, 1], angle = "20 deg" })",
 };
 
 }  // namespace
+}  // namespace collision_rows
 
 Sabotage body_moved() {
+  using namespace collision_rows;
   return colliders_moved({0.04, -0.05, 0.04});
 }
 
 std::span<const CollisionScene> collision_scenes() {
+  using namespace collision_rows;
   return kScenes;
 }
 
 scenes::Scene written_collision_scene(const CollisionScene& scene, int nodes) {
+  using namespace collision_rows;
   const std::string text =
       fmt::format(fmt::runtime(kCloth), fmt::arg("id", scene.id), fmt::arg("nodes", nodes),
                   fmt::arg("duration", scene.duration),
@@ -198,6 +203,7 @@ scenes::Scene written_collision_scene(const CollisionScene& scene, int nodes) {
 }
 
 scenes::Scene make_collision_scene(const CollisionScene& scene, int nodes) {
+  using namespace collision_rows;
   return scenes::with_bullets_time_step(written_collision_scene(scene, nodes));
 }
 

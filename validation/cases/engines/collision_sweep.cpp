@@ -15,6 +15,7 @@
 #include <weft/validation/referee/start_check.hpp>
 
 namespace weft::validation {
+namespace collision_sweep {
 namespace {
 
 /// The gap that is asked, while the cloth moves, of an engine whose step damps, as a share of the cloth's size [-].
@@ -199,8 +200,10 @@ bool is_judged(const CaseOptions& options, const CollisionScene& row, int nodes)
 }
 
 }  // namespace
+}  // namespace collision_sweep
 
 std::vector<scenes::Scene> sweep_scenes(const CaseInfo&) {
+  using namespace collision_sweep;
   std::vector<scenes::Scene> scenes;
   for (const CollisionScene& row : collision_scenes()) {
     for (const int nodes : sweep_resolutions(row)) {
@@ -211,6 +214,7 @@ std::vector<scenes::Scene> sweep_scenes(const CaseInfo&) {
 }
 
 void plan_collision_sweep(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
+  using namespace collision_sweep;
   for (const CollisionScene& row : collision_scenes()) {
     for (const int nodes : sweep_resolutions(row)) {
       if (is_judged(options, row, nodes)) Comparison(info, row, nodes).plan(options, runs);
@@ -220,6 +224,7 @@ void plan_collision_sweep(const CaseInfo& info, const CaseOptions& options, Engi
 
 void evaluate_collision_sweep(const CaseInfo& info, const CaseOptions& options,
                               const EngineRuns& runs, Report& report) {
+  using namespace collision_sweep;
   Section section{std::string(info.id), std::string(info.summary), {}, {}, {}, ""};
   Table distances{"RMS distance to the reference [% of cloth size], 0 to 0.5 s / at rest",
                   {"scene", "nodes"},

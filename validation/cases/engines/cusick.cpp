@@ -22,6 +22,7 @@
 #include <weft/validation/metrics/rim_folds.hpp>
 
 namespace weft::validation {
+namespace cusick {
 namespace {
 
 constexpr double kClothRadius = 0.15;    // [m]
@@ -271,8 +272,10 @@ Series spectrum_of(const char* name, const Statistics& of) {
 }
 
 }  // namespace
+}  // namespace cusick
 
 void evaluate_cusick(const CaseInfo& info, const CaseOptions&, const EngineRuns&, Report& report) {
+  using namespace cusick;
   const CusickRing coarse{72, 6};
   const CusickRing fine{96, 8};
   const Tolerance plate{0.02, Basis::kTruncation, "cells 4 % wider outside than inside"};

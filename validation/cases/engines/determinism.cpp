@@ -11,6 +11,7 @@
 #include <weft/validation/cases/scenes/scene_history.hpp>
 
 namespace weft::validation {
+namespace determinism {
 namespace {
 
 constexpr double kDuration = 1.2;  // [s]: falls, lies down on the sphere, starts to fold
@@ -52,8 +53,10 @@ std::string hash_of(const EngineRuns& runs, const std::string& run_label) {
 }
 
 }  // namespace
+}  // namespace determinism
 
 void plan_determinism(const CaseInfo&, const CaseOptions& options, EngineRuns& runs) {
+  using namespace determinism;
   scenes::Scene scene = scenes::load_scene("drape_sphere");
   scene.world.duration = kDuration;
   scenes::Scene moved = scene;
@@ -69,6 +72,7 @@ void plan_determinism(const CaseInfo&, const CaseOptions& options, EngineRuns& r
 
 void evaluate_determinism(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
                           Report& report) {
+  using namespace determinism;
   const Tolerance tolerance{0, Basis::kExact, "equal bits give equal hashes"};
   Table table{"Content hashes of drape_sphere, 1.2 s", {"engine"}, {}};
   for (const Variant& variant : kVariants) table.columns.emplace_back(variant.name);

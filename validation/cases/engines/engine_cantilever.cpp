@@ -15,6 +15,7 @@
 #include <weft/validation/cases/support/sabotage.hpp>
 
 namespace weft::validation {
+namespace engine_cantilever {
 namespace {
 
 constexpr double kEngineBound = 0.01;  ///< of H / W between engines [-]
@@ -86,8 +87,10 @@ CheckResult discretization_error_check(const CaseInfo& info, const std::array<do
 }
 
 }  // namespace
+}  // namespace engine_cantilever
 
 void plan_engine_cantilever(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
+  using namespace engine_cantilever;
   for (const EngineChoice& engine : cantilever_engines(options.bullet)) {
     runs.add(
         {engine.label(std::string(info.id)), scene_for(engine), engine.engine, engine.precision});
@@ -97,6 +100,7 @@ void plan_engine_cantilever(const CaseInfo& info, const CaseOptions& options, En
 
 void evaluate_engine_cantilever(const CaseInfo& info, const CaseOptions& options,
                                 const EngineRuns& runs, Report& report) {
+  using namespace engine_cantilever;
   const scenes::Scene scene = scenes::load_scene("heavy_strip");
   const HeavyElastica elastica = solve_heavy_elastica(kGamma);
   const double exact = elastica.drop / elastica.reach;

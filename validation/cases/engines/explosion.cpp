@@ -10,6 +10,7 @@
 #include <weft/validation/cases/scenes/scene_history.hpp>
 
 namespace weft::validation {
+namespace explosion {
 namespace {
 
 constexpr const char* kScene = "drape_sphere";
@@ -50,8 +51,10 @@ double measure(const Attempt& attempt) {
 }
 
 }  // namespace
+}  // namespace explosion
 
 void plan_explosion(const CaseInfo&, const CaseOptions&, EngineRuns& runs) {
+  using namespace explosion;
   constexpr auto kDouble = scenes::StoredPrecision::kFloat64;
   runs.add({kExplicit, scene_with(scenes::Integrator::kExplicitEuler), "reference", kDouble});
   runs.add({kControl, scene_with(scenes::Integrator::kModifiedEuler), "reference", kDouble});
@@ -59,6 +62,7 @@ void plan_explosion(const CaseInfo&, const CaseOptions&, EngineRuns& runs) {
 
 void evaluate_explosion(const CaseInfo& info, const CaseOptions&, const EngineRuns& runs,
                         Report& report) {
+  using namespace explosion;
   const Attempt attempt = load(runs, kExplicit, "explicit Euler");
   const Attempt control = load(runs, kControl, "modified Euler");
   const Tolerance tolerance{0, Basis::kExact, "it is reported as data, or it is not"};

@@ -12,6 +12,7 @@
 #include <weft/validation/cases/support/engine_cases.hpp>
 
 namespace weft::validation {
+namespace materials {
 namespace {
 
 constexpr std::size_t kMaterials = 4;
@@ -194,8 +195,10 @@ CheckResult rest_check(const CaseInfo& info, const History& history) {
 }
 
 }  // namespace
+}  // namespace materials
 
 void plan_materials(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
+  using namespace materials;
   const std::string id(info.id);
   for (const EngineChoice& engine : material_engines(options.bullet)) {
     runs.add({engine.label(id), damped(kFactors), engine.engine, engine.precision});
@@ -211,6 +214,7 @@ void plan_materials(const CaseInfo& info, const CaseOptions& options, EngineRuns
 
 void evaluate_materials(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
                         Report& report) {
+  using namespace materials;
   const std::string id(info.id);
   Section section{id, std::string(info.summary), {}, {}, {}, ""};
   Plot heights{

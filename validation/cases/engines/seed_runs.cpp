@@ -11,6 +11,7 @@
 #include <weft/validation/cases/support/sabotage.hpp>
 
 namespace weft::validation {
+namespace seed_runs {
 namespace {
 
 constexpr int kDivisions[] = {2, 4};
@@ -54,8 +55,10 @@ SeedRuns::OwnError error_of(const std::vector<double>& values) {
 }
 
 }  // namespace
+}  // namespace seed_runs
 
 void plan_seeds(const SeedPlan& plan, EngineRuns& runs) {
+  using namespace seed_runs;
   for (const int division : kDivisions) {
     for (int seed = 0; seed < kNumSeeds; ++seed) {
       runs.add({kReference.label(seed_id(plan, division, seed)), seed_scene(plan, division, seed),
@@ -67,6 +70,7 @@ void plan_seeds(const SeedPlan& plan, EngineRuns& runs) {
 SeedRuns::SeedRuns(const SeedPlan& plan, const SceneMetrics& metrics, std::vector<Window> windows,
                    const EngineRuns& runs)
     : windows_(std::move(windows)), values_(windows_.size()) {
+  using namespace seed_runs;
   for (const int division : kDivisions) {
     for (int seed = 0; seed < kNumSeeds; ++seed) {
       const Frames frames = load_history(runs, seed_id(plan, division, seed), kReference).frames;
@@ -79,6 +83,7 @@ SeedRuns::SeedRuns(const SeedPlan& plan, const SceneMetrics& metrics, std::vecto
 }
 
 std::size_t SeedRuns::index_of(const Window& window) const {
+  using namespace seed_runs;
   const auto found = std::find_if(windows_.begin(), windows_.end(), [&](const Window& one) {
     return one.quantity == window.quantity && one.begin == window.begin && one.end == window.end;
   });
@@ -86,14 +91,17 @@ std::size_t SeedRuns::index_of(const Window& window) const {
 }
 
 double SeedRuns::mean(const Window& window) const {
+  using namespace seed_runs;
   return mean_of(values_.at(index_of(window)));
 }
 
 SeedRuns::OwnError SeedRuns::discretization_error(const Window& window) const {
+  using namespace seed_runs;
   return error_of(values_.at(index_of(window)));
 }
 
 SeedRuns::OwnError SeedRuns::discretization_error(const Window& window, double first) const {
+  using namespace seed_runs;
   std::vector<double> values = values_.at(index_of(window));
   values.front() = first;
   return error_of(values);
@@ -101,6 +109,7 @@ SeedRuns::OwnError SeedRuns::discretization_error(const Window& window, double f
 
 CheckResult seeds_check(const SeedRuns& seeds, const SceneMetrics& metrics, const Window& window,
                         double bound) {
+  using namespace seed_runs;
   const SeedRuns::OwnError own = seeds.discretization_error(window);
   CheckResult check;
   check.engine = kReference.title();

@@ -9,15 +9,18 @@
 #include <weft/validation/stability/stability_map.hpp>
 
 namespace weft::validation {
+namespace stability_maps {
 namespace {
 
 /// Threads alone, a stiff strip with hinges, and the lattice of 24 neighbors.
 constexpr const char* kScenes[] = {"hang", "heavy_strip", "drape_sphere"};
 
 }  // namespace
+}  // namespace stability_maps
 
 void evaluate_stability_maps(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                              Report& report) {
+  using namespace stability_maps;
   Section section{std::string(info.id), std::string(info.summary), {}, {}, {}, ""};
   for (const char* scene : kScenes) {
     for (const StabilityMap& map : map_stability(scenes::load_scene(scene))) {

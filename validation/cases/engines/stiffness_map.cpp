@@ -14,6 +14,7 @@
 #include <weft/validation/cases/support/sabotage.hpp>
 
 namespace weft::validation {
+namespace stiffness_map {
 namespace {
 
 constexpr double kStiffness = 200.0;  // of every spring [N/m]
@@ -215,8 +216,10 @@ void add_deviation(const std::vector<std::vector<double>>& ratios, Report& repor
 }
 
 }  // namespace
+}  // namespace stiffness_map
 
 void plan_stiffness_map(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
+  using namespace stiffness_map;
   if (!options.bullet) return;
   for (const EngineChoice& engine : engines()) {
     for (const int springs : kSprings) {
@@ -231,6 +234,7 @@ void plan_stiffness_map(const CaseInfo& info, const CaseOptions& options, Engine
 
 void evaluate_stiffness_map(const CaseInfo& info, const CaseOptions& options,
                             const EngineRuns& runs, Report& report) {
+  using namespace stiffness_map;
   if (!options.bullet) return;
   Section section{std::string(info.id), std::string(info.summary), {}, {}, {}, ""};
   Table matrix{

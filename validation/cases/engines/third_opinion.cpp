@@ -13,6 +13,7 @@
 #include <weft/validation/peers/peer_result.hpp>
 
 namespace weft::validation {
+namespace third_opinion {
 namespace {
 
 std::vector<PeerResult> peer_results() {
@@ -123,8 +124,10 @@ void add_tables(Section& section, const PeerResult& peer) {
 }
 
 }  // namespace
+}  // namespace third_opinion
 
 void plan_third_opinion(const CaseInfo&, const CaseOptions& options, EngineRuns& runs) {
+  using namespace third_opinion;
   for (const PeerResult& peer : peer_results()) {
     for (const EngineChoice& engine : engines_of(options.bullet)) {
       runs.add({engine.label(label_of(peer)), peer.scene, engine.engine, engine.precision});
@@ -134,6 +137,7 @@ void plan_third_opinion(const CaseInfo&, const CaseOptions& options, EngineRuns&
 
 void evaluate_third_opinion(const CaseInfo& info, const CaseOptions& options,
                             const EngineRuns& runs, Report& report) {
+  using namespace third_opinion;
   Section section{std::string(info.id), std::string(info.summary), {}, {}, {}, ""};
   for (const PeerResult& peer : peer_results()) {
     const SceneMetrics metrics(peer.scene);

@@ -14,6 +14,7 @@
 #include <weft/validation/cases/support/sabotage.hpp>
 
 namespace weft::validation {
+namespace work_precision {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -194,8 +195,10 @@ Table converged_table(const WorkStudy& study, const Converged& converged) {
 }
 
 }  // namespace
+}  // namespace work_precision
 
 void plan_work_precision(const CaseInfo&, const CaseOptions& options, EngineRuns& runs) {
+  using namespace work_precision;
   for (const WorkStudy& study : work_studies()) {
     for (const auto& list : {work_runs(study, options.bullet), converged_runs(study)}) {
       for (const WorkRun& run : list) {
@@ -208,6 +211,7 @@ void plan_work_precision(const CaseInfo&, const CaseOptions& options, EngineRuns
 
 void evaluate_work_precision(const CaseInfo& info, const CaseOptions& options,
                              const EngineRuns& runs, Report& report) {
+  using namespace work_precision;
   Section section{std::string(info.id), std::string(info.summary), {}, {}, {}, ""};
   for (const WorkStudy& study : work_studies()) {
     const SceneMetrics metrics(work_scene(study, converged_runs(study).back()));

@@ -11,6 +11,7 @@
 #include <weft/validation/cases/engines/work_precision.hpp>
 
 namespace weft::validation {
+namespace work_precision_runs {
 namespace {
 
 using scenes::Integrator;
@@ -31,8 +32,10 @@ void add_series(std::vector<WorkRun>& runs, const WorkStudy& study, const Engine
 }
 
 }  // namespace
+}  // namespace work_precision_runs
 
 std::string WorkRun::label(const std::string& study) const {
+  using namespace work_precision_runs;
   return fmt::format("work_{}_{}_{}_{}", engine.label(study), static_cast<int>(integrator),
                      steps_per_frame, iterations);
 }
@@ -48,6 +51,7 @@ const std::vector<WorkStudy>& work_studies() {
 }
 
 std::vector<WorkRun> work_runs(const WorkStudy& study, bool with_bullet) {
+  using namespace work_precision_runs;
   std::vector<WorkRun> runs;
   const EngineChoice reference{"reference", StoredPrecision::kFloat64};
   if (with_bullet) {
@@ -75,6 +79,7 @@ std::vector<WorkRun> work_runs(const WorkStudy& study, bool with_bullet) {
 }
 
 std::vector<WorkRun> converged_runs(const WorkStudy& study) {
+  using namespace work_precision_runs;
   std::vector<WorkRun> runs;
   const EngineChoice reference{"reference", StoredPrecision::kFloat64};
   for (const int divisor : {4, 2, 1}) {
@@ -85,6 +90,7 @@ std::vector<WorkRun> converged_runs(const WorkStudy& study) {
 }
 
 scenes::Scene work_scene(const WorkStudy& study, const WorkRun& run) {
+  using namespace work_precision_runs;
   scenes::Scene scene = scenes::load_scene(study.scene);
   scene.world.duration = study.duration;
   scene.world.frame_interval = kFrameInterval;
@@ -97,6 +103,7 @@ scenes::Scene work_scene(const WorkStudy& study, const WorkRun& run) {
 
 std::vector<std::size_t> pareto_front(const std::vector<double>& work,
                                       const std::vector<double>& error) {
+  using namespace work_precision_runs;
   std::vector<std::size_t> order(work.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::erase_if(order, [&](std::size_t i) {

@@ -14,7 +14,7 @@ constexpr double kTensionStiffness = 20.0;  // [N/m]
 constexpr double kRestLength = 2.0;         // [m]
 const Matrix3X<double> kStill = Matrix3X<double>::Zero(3, 2);
 
-LawSpecification tension(double compression_ratio) {
+LawSpecification tension_of_ratio(double compression_ratio) {
   return {.law = "tension",
           .sets = {},
           .parameters = {{"stiffness", {kTensionStiffness}},
@@ -28,14 +28,14 @@ Matrix3X<double> apart(double length) {
 }
 
 double pull_at(double length, double compression_ratio) {
-  return forces_on(tension(compression_ratio), one_spring(kRestLength), apart(length), kStill)(0,
-                                                                                               0);
+  return forces_on(tension_of_ratio(compression_ratio), one_spring(kRestLength), apart(length),
+                   kStill)(0, 0);
 }
 
 double energy_at(double length, double compression_ratio) {
   const ClothMesh mesh = one_spring(kRestLength);
   const Matrix3X<double> positions = apart(length);
-  return make_law<double>(tension(compression_ratio), mesh)
+  return make_law<double>(tension_of_ratio(compression_ratio), mesh)
       ->potential_energy({positions, kStill, mesh.masses});
 }
 
@@ -48,7 +48,7 @@ TEST(Tension, PullsAlongTheSpringInSpace) {
   Matrix3X<double> positions(3, 2);
   positions << 1, 3, 1, 4, 1, 7;  // difference (2, 3, 6), length 7
   const Matrix3X<double> force =
-      forces_on(tension(1.0), one_spring(kRestLength), positions, kStill);
+      forces_on(tension_of_ratio(1.0), one_spring(kRestLength), positions, kStill);
   const Vector3<double> expected = kTensionStiffness * 5.0 * Vector3<double>(2, 3, 6) / 7.0;
   EXPECT_LE((force.col(0) - expected).norm(), expected.norm() * kRoundoff);
   EXPECT_EQ(Vector3<double>(force.col(0)), Vector3<double>(-force.col(1)));
@@ -77,7 +77,7 @@ TEST(Tension, ASpringWithoutDirectionExertsNoForce) {
   for (const double length : {0.0, 0.5 * kMinLengthRatio * kRestLength}) {
     EXPECT_EQ(pull_at(length, 1.0), 0.0);
     const ClothMesh mesh = one_spring(kRestLength);
-    const auto law = make_law<double>(tension(1.0), mesh);
+    const auto law = make_law<double>(tension_of_ratio(1.0), mesh);
     const Matrix3X<double> positions = apart(length);
     Matrix3X<double> scratch(3, law->scratch_columns());
     Matrix3X<double> product = kStill;
@@ -96,14 +96,14 @@ TEST(Tension, AWeightHangsByMassTimesGravityOverStiffness) {
 TEST(Tension, ActsOnTheNamedSetsOnly) {
   ClothMesh mesh = one_spring(kRestLength);
   mesh.edge_sets.push_back({"none", Edges(2, 0)});
-  LawSpecification specification = tension(1.0);
+  LawSpecification specification = tension_of_ratio(1.0);
   specification.sets = {"none"};
   EXPECT_EQ(forces_on(specification, mesh, apart(3.0), kStill), kStill);
 }
 
 TEST(Tension, AnEdgeWithoutRestLengthIsRefused) {
   try {
-    (void)make_law<double>(tension(1.0), one_spring(0.0));
+    (void)make_law<double>(tension_of_ratio(1.0), one_spring(0.0));
     FAIL();
   } catch (const InvalidArgument& error) {
     EXPECT_THAT(error.what(),
@@ -115,9 +115,9 @@ TEST(Tension, AnEdgeWithoutRestLengthIsRefused) {
 TEST(Tension, AnEdgeToANodeThatIsNotThereIsRefused) {
   ClothMesh mesh = one_spring(kRestLength);
   mesh.edge_sets.front().edges(1, 0) = 2;
-  EXPECT_THROW((void)make_law<double>(tension(1.0), mesh), InvalidArgument);
+  EXPECT_THROW((void)make_law<double>(tension_of_ratio(1.0), mesh), InvalidArgument);
   mesh.edge_sets.front().edges << -1, 1;
-  EXPECT_THROW((void)make_law<double>(tension(1.0), mesh), InvalidArgument);
+  EXPECT_THROW((void)make_law<double>(tension_of_ratio(1.0), mesh), InvalidArgument);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include <weft/validation/cases/analytic/statics/lattice_strip.hpp>
 
 namespace weft::validation {
+namespace bent_strip {
 namespace {
 
 constexpr double kGravity = 9.81;  // [m/s^2]
@@ -265,8 +266,10 @@ double width_of(const ClothMesh& mesh) {
 }
 
 }  // namespace
+}  // namespace bent_strip
 
 ClothMesh make_strip(const Strip& strip) {
+  using namespace bent_strip;
   ClothMesh mesh = is_odd(strip)       ? odd_strip(strip)
                    : strip.angle == 45 ? diagonal_strip(strip)
                                        : straight_strip(strip);
@@ -279,6 +282,7 @@ ClothMesh make_strip(const Strip& strip) {
 }
 
 StripTip strip_tip(const ClothMesh& mesh, ConstMatrix3XRef<double> positions) {
+  using namespace bent_strip;
   const double end = mesh.rest_positions.row(0).maxCoeff();
   StripTip tip;
   int count = 0;
@@ -292,6 +296,7 @@ StripTip strip_tip(const ClothMesh& mesh, ConstMatrix3XRef<double> positions) {
 }
 
 reference::Body make_strip_body(const StripModel& model) {
+  using namespace bent_strip;
   const Strip& strip = model.strip;
   reference::Body body;
   body.name = "strip";
@@ -326,6 +331,7 @@ reference::Body make_strip_body(const StripModel& model) {
 }
 
 BentStrip bend_strip(const StripModel& model, const Matrix3X<double>& start) {
+  using namespace bent_strip;
   constexpr double kFirstGamma = 2.0;  // a straight strip finds its way to this load at once
   if (start.cols() == 0 && model.gamma > kFirstGamma) {
     StripModel softer = model;

@@ -13,6 +13,7 @@
 #include <weft/validation/cases/support/parameters.hpp>
 
 namespace weft::validation {
+namespace buckling {
 namespace {
 
 constexpr double kColumn = 7.8373;    ///< rho g L^3 / D of a column: (9/4) j(-1/3, 1)^2
@@ -150,13 +151,16 @@ constexpr std::array kParameters = {
 };
 
 }  // namespace
+}  // namespace buckling
 
 std::span<const CaseParameter> buckling_parameters() {
+  using namespace buckling;
   return kParameters;
 }
 
 void evaluate_buckling(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
                        Report& report) {
+  using namespace buckling;
   const auto whole = [&](const char* name) {
     return static_cast<int>(value_of(info, options, name));
   };

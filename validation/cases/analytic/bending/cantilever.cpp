@@ -18,6 +18,7 @@
 #include <weft/validation/metrics/series/convergence.hpp>
 
 namespace weft::validation {
+namespace cantilever {
 namespace {
 
 constexpr int kNumGammas = 12;
@@ -276,13 +277,16 @@ constexpr std::array kParameters = {
 };
 
 }  // namespace
+}  // namespace cantilever
 
 std::span<const CaseParameter> cantilever_parameters() {
+  using namespace cantilever;
   return kParameters;
 }
 
 void evaluate_cantilever(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
                          Report& report) {
+  using namespace cantilever;
   if (asks_for_point(options)) {
     const auto value = [&](const char* name) { return value_of(info, options, name); };
     const double gamma = value("gamma");

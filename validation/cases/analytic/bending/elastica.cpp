@@ -9,6 +9,7 @@
 #include <weft/core/error.hpp>
 
 namespace weft::validation {
+namespace elastica {
 namespace {
 
 constexpr int kSteps = 4000;
@@ -50,8 +51,10 @@ void check(const ElasticaLoad& load) {
 }
 
 }  // namespace
+}  // namespace elastica
 
 HeavyElastica solve_elastica(const ElasticaLoad& load) {
+  using namespace elastica;
   check(load);
   const double end = std::numbers::pi / 2 - load.tilt;
   // A long strip hangs straight but for its clamp: its tip's angle is found by its logarithm.
@@ -68,10 +71,12 @@ HeavyElastica solve_elastica(const ElasticaLoad& load) {
 }
 
 HeavyElastica solve_heavy_elastica(double gamma) {
+  using namespace elastica;
   return solve_elastica({.gamma = gamma});
 }
 
 double gamma_of_chord(double angle) {
+  using namespace elastica;
   const auto miss = [&](double log_gamma) {
     const HeavyElastica tip = solve_heavy_elastica(std::exp(log_gamma));
     return std::atan2(tip.drop, tip.reach) - angle;

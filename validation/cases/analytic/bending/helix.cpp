@@ -15,6 +15,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace helix {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -258,13 +259,16 @@ constexpr std::array kParameters = {
 };
 
 }  // namespace
+}  // namespace helix
 
 std::span<const CaseParameter> helix_parameters() {
+  using namespace helix;
   return kParameters;
 }
 
 void evaluate_helix(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
                     Report& report) {
+  using namespace helix;
   if (asks_for_point(options)) {
     const int nodes = static_cast<int>(value_of(info, options, "nodes"));
     add_helix_checks(info,

@@ -9,9 +9,11 @@
 #include <weft/custom_forces/registry.hpp>
 #include <weft/mesh/cloth_grid.hpp>
 #include <weft/validation/cases/support/analytic_cases.hpp>
+#include <weft/validation/cases/support/closed_form_check.hpp>
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace nonlocal_torsion {
 namespace {
 
 constexpr double kSpacing = 0.1;    // [m]
@@ -119,14 +121,12 @@ CheckResult base_check(const CaseInfo& info) {
   return check;
 }
 
-void add_sabotage(CheckResult& check, const std::string& name, double measured) {
-  check.sabotages.push_back({name, measured, judge(measured, *check.tolerance) == Verdict::kFail});
-}
-
 }  // namespace
+}  // namespace nonlocal_torsion
 
 void evaluate_nonlocal_torsion(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                                Report& report) {
+  using namespace nonlocal_torsion;
   CheckResult flap = base_check(info);
   flap.claim = "a flap flipped over to its mirror image comes back";
   flap.metric = "RMS distance from the rest shape over the flap's length, after 12 s";

@@ -9,6 +9,7 @@
 #include <weft/core/error.hpp>
 
 namespace weft::validation {
+namespace pinned_elastica {
 namespace {
 
 constexpr int kSteps = 1000;
@@ -100,13 +101,16 @@ void require(const char* name, double value, double largest) {
 }
 
 }  // namespace
+}  // namespace pinned_elastica
 
 PinnedElastica pinned_elastica_of_ratio(double ratio) {
+  using namespace pinned_elastica;
   require("ratio", ratio, 0.5);
   return follow(ratio, [](const PinnedElastica& e) { return e.ratio; });
 }
 
 PinnedElastica pinned_elastica_of_compression(double compression) {
+  using namespace pinned_elastica;
   require("compression", compression, 0.45);
   return follow(compression, [](const PinnedElastica& e) { return e.compression; });
 }

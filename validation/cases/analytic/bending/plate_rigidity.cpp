@@ -12,6 +12,7 @@
 #include <weft/validation/cases/support/analytic_cases.hpp>
 
 namespace weft::validation {
+namespace plate_rigidity {
 namespace {
 
 constexpr double kSpacing = 0.01;   // [m]
@@ -141,9 +142,11 @@ void judge_with(CheckResult& check, double measured, const Tolerance& tolerance,
 }
 
 }  // namespace
+}  // namespace plate_rigidity
 
 void evaluate_plate_rigidity(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                              Report& report) {
+  using namespace plate_rigidity;
   const Sheet one_way{0.0, true};
   CheckResult plate = base_check(info);
   plate.claim = "a grid of hinges is an isotropic plate of rigidity D";

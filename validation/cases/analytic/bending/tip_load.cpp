@@ -13,6 +13,7 @@
 #include <weft/validation/cases/support/parameters.hpp>
 
 namespace weft::validation {
+namespace tip_load {
 namespace {
 
 constexpr double kStrain = 1e-3;  ///< of the springs under the whole weight [-]
@@ -154,16 +155,20 @@ constexpr std::array kTestParameters = {
 };
 
 }  // namespace
+}  // namespace tip_load
 
 std::span<const CaseParameter> tip_load_parameters() {
+  using namespace tip_load;
   return kLoadParameters;
 }
 std::span<const CaseParameter> peirce_parameters() {
+  using namespace tip_load;
   return kTestParameters;
 }
 
 void evaluate_tip_load(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
                        Report& report) {
+  using namespace tip_load;
   Matrix3X<double> start;
   if (asks_for_point(options)) {
     const double load = value_of(info, options, "load");
@@ -178,6 +183,7 @@ void evaluate_tip_load(const CaseInfo& info, const CaseOptions& options, const E
 
 void evaluate_peirce(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
                      Report& report) {
+  using namespace tip_load;
   if (asks_for_point(options)) {
     add_test_check(info, value_of(info, options, "chord"),
                    static_cast<int>(value_of(info, options, "nodes")), report);

@@ -10,6 +10,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace torsion_beam {
 namespace {
 
 constexpr double kSpacing = 0.01;   // a [m]
@@ -49,9 +50,11 @@ double tip_drop(int num_segments, double stiffness) {
 }
 
 }  // namespace
+}  // namespace torsion_beam
 
 void evaluate_torsion_beam(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                            Report& report) {
+  using namespace torsion_beam;
   const Tolerance tolerance{1e-4, Basis::kTruncation, "small turns: 1e-2 rad squared at most"};
   for (const int n : {1, 10, 20}) {
     const double kappa = kStiffness * kSpacing * kSpacing;

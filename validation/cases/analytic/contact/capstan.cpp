@@ -13,6 +13,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace capstan {
 namespace {
 
 constexpr double kRadius = 1.0;   // [m]
@@ -128,13 +129,16 @@ constexpr std::array kParameters = {
 };
 
 }  // namespace
+}  // namespace capstan
 
 std::span<const CaseParameter> capstan_parameters() {
+  using namespace capstan;
   return kParameters;
 }
 
 void evaluate_capstan(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
                       Report& report) {
+  using namespace capstan;
   if (asks_for_point(options)) {
     add_check(info,
               {.friction = value_of(info, options, "mu"),

@@ -13,6 +13,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace contact_balance {
 namespace {
 
 constexpr double kGravity = 9.81;    // [m/s^2]
@@ -148,9 +149,11 @@ const char* name_of(Under under) {
 }
 
 }  // namespace
+}  // namespace contact_balance
 
 void evaluate_contact_balance(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                               Report& report) {
+  using namespace contact_balance;
   CheckResult fall = judged(
       info,
       {"a cloth falls freely as its scheme says",

@@ -14,6 +14,7 @@
 #include <weft/validation/cases/support/sabotage.hpp>
 
 namespace weft::validation {
+namespace incline {
 namespace {
 
 constexpr int kFrictions = 20;
@@ -250,8 +251,10 @@ void add(CheckResult check, const EngineChoice& engine, double measured, const T
 }
 
 }  // namespace
+}  // namespace incline
 
 void plan_incline(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
+  using namespace incline;
   for (const EngineChoice& engine : incline_engines(options.bullet)) {
     for (int j = 0; j < kAngles; ++j) {
       runs.add({label_of(info, engine, j), row_scene(j), engine.engine, engine.precision});
@@ -262,6 +265,7 @@ void plan_incline(const CaseInfo& info, const CaseOptions& options, EngineRuns& 
 
 void evaluate_incline(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
                       Report& report) {
+  using namespace incline;
   const double time_step = row_scene(0).world.time_step;
   const Grid rougher = sabotaged_grid(frictions_scaled(1.03));
   const double slower = creep_of(run_sabotaged(creep_scene(), frictions_scaled(0.97), kDuration));

@@ -13,6 +13,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace overhang {
 namespace {
 
 constexpr double kRadius = 0.1;   // of the edge [m]
@@ -168,13 +169,16 @@ constexpr std::array kParameters = {
 };
 
 }  // namespace
+}  // namespace overhang
 
 std::span<const CaseParameter> overhang_parameters() {
+  using namespace overhang;
   return kParameters;
 }
 
 void evaluate_overhang(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
                        Report& report) {
+  using namespace overhang;
   if (asks_for_point(options)) {
     add_check(info,
               {.friction = value_of(info, options, "mu"),

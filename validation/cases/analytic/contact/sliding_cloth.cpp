@@ -11,6 +11,7 @@
 #include <weft/validation/cases/support/sabotage.hpp>
 
 namespace weft::validation {
+namespace sliding_cloth {
 namespace {
 
 constexpr double kSpeed = 1.0;     // [m/s]
@@ -60,8 +61,10 @@ CheckResult make_check(const CaseInfo& info, const std::string& engine) {
 }
 
 }  // namespace
+}  // namespace sliding_cloth
 
 void plan_sliding_cloth(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
+  using namespace sliding_cloth;
   for (const EngineChoice& engine : cross_validated_engines(options.bullet)) {
     runs.add(
         {engine.label(std::string(info.id)), sliding_scene(), engine.engine, engine.precision});
@@ -70,6 +73,7 @@ void plan_sliding_cloth(const CaseInfo& info, const CaseOptions& options, Engine
 
 void evaluate_sliding_cloth(const CaseInfo& info, const CaseOptions& options,
                             const EngineRuns& runs, Report& report) {
+  using namespace sliding_cloth;
   const scenes::Scene scene = sliding_scene();
   const Tolerance tolerance{kSpeed * scene.world.time_step, Basis::kTruncation,
                             "v h: a sum over steps misses the integral by half of that"};

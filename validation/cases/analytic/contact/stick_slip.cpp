@@ -15,6 +15,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace stick_slip {
 namespace {
 
 constexpr double kLength = 1.0;    // L [m]
@@ -186,13 +187,16 @@ constexpr std::array kParameters = {
 };
 
 }  // namespace
+}  // namespace stick_slip
 
 std::span<const CaseParameter> stick_slip_parameters() {
+  using namespace stick_slip;
   return kParameters;
 }
 
 void evaluate_stick_slip(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
                          Report& report) {
+  using namespace stick_slip;
   if (asks_for_point(options)) {
     add_checks(info,
                {.friction = value_of(info, options, "mu"),

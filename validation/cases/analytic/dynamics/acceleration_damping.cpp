@@ -18,6 +18,7 @@
 #include <weft/validation/cases/support/stable_step_search.hpp>
 
 namespace weft::validation {
+namespace acceleration_damping {
 namespace {
 
 using reference::IntegratorKind;
@@ -366,9 +367,11 @@ void check_rest(const CaseInfo& info, Report& report) {
 }
 
 }  // namespace
+}  // namespace acceleration_damping
 
 void evaluate_acceleration_damping(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                                    Report& report) {
+  using namespace acceleration_damping;
   check_periods(info, report);
   check_amplitude(info, report);
   check_free_fall(info, report);

@@ -11,6 +11,7 @@
 #include <weft/validation/cases/support/sabotage.hpp>
 
 namespace weft::validation {
+namespace damped_hang {
 namespace {
 
 constexpr double kDuration = 0.4;  // [s]
@@ -65,8 +66,10 @@ Sabotage one_percent_more(const Damping& damping) {
 }
 
 }  // namespace
+}  // namespace damped_hang
 
 void plan_damped_hang(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
+  using namespace damped_hang;
   for (const EngineChoice& engine : engines(options.bullet)) {
     runs.add({engine.label(std::string(info.id)), damped_scene(), engine.engine, engine.precision});
   }
@@ -74,6 +77,7 @@ void plan_damped_hang(const CaseInfo& info, const CaseOptions& options, EngineRu
 
 void evaluate_damped_hang(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
                           Report& report) {
+  using namespace damped_hang;
   if (!options.bullet) return;
   const std::vector<EngineChoice> choices = engines(true);
   const Frames reference = load_history(runs, std::string(info.id), choices[0]).frames;

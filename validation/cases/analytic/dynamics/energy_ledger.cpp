@@ -14,6 +14,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace energy_ledger {
 namespace {
 
 using reference::IntegratorKind;
@@ -128,9 +129,11 @@ Drift drift(double hidden) {
 }
 
 }  // namespace
+}  // namespace energy_ledger
 
 void evaluate_energy_ledger(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                             Report& report) {
+  using namespace energy_ledger;
   const Tolerance half_percent{5e-3, Basis::kTruncation,
                                "second order in the step of 1 ms for velocity Verlet"};
   const auto add = [&](const std::string& claim, const Setting& right, const Setting& wrong,

@@ -17,6 +17,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace frequencies {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -264,13 +265,16 @@ constexpr std::array kParameters = {
 };
 
 }  // namespace
+}  // namespace frequencies
 
 std::span<const CaseParameter> frequencies_parameters() {
+  using namespace frequencies;
   return kParameters;
 }
 
 void evaluate_frequencies(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
                           Report& report) {
+  using namespace frequencies;
   const std::string axial = "w = 2 sqrt(k / m) sin((2 j - 1) pi / (2 (2 N + 1)))";
   const std::string between = "w = 2 sqrt(k / m) sin(j pi / (2 (N + 1)))";
   const std::string beaded = "w = 2 sqrt(T / (m a)) sin(j pi / (2 (N + 1)))";

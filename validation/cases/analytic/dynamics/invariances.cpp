@@ -15,6 +15,7 @@
 #include <weft/validation/cases/support/closed_form_check.hpp>
 
 namespace weft::validation {
+namespace invariances {
 namespace {
 
 /// A cloth held at two corners falls on a sphere. Everything that the transformations act on.
@@ -151,9 +152,11 @@ Setting turned(const Matrix3<double>& turn) {
 }
 
 }  // namespace
+}  // namespace invariances
 
 void evaluate_invariances(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                           Report& report) {
+  using namespace invariances;
   const Matrix3X<double> original = end_places({});
   const Tolerance tolerance{1e-12, Basis::kRoundoff,
                             "400 steps with contact, each with a rounding of 1e-16 that grows as "

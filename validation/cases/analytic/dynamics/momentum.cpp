@@ -11,6 +11,7 @@
 #include <weft/validation/cases/support/engine_cases.hpp>
 
 namespace weft::validation {
+namespace momentum_case {
 namespace {
 
 constexpr double kDuration = 0.5;  // [s]: the ball meets the cloth after 0.25 s
@@ -100,8 +101,10 @@ double largest_change(const Frames& frames, const scenes::Scene& scene, bool wit
 }
 
 }  // namespace
+}  // namespace momentum_case
 
 void plan_momentum(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
+  using namespace momentum_case;
   for (const Judged& judged : momentum_engines(options.bullet)) {
     runs.add({judged.engine.label(judged.run_id(info)), collision(judged.steps_per_second),
               judged.engine.engine, judged.engine.precision});
@@ -110,6 +113,7 @@ void plan_momentum(const CaseInfo& info, const CaseOptions& options, EngineRuns&
 
 void evaluate_momentum(const CaseInfo& info, const CaseOptions& options, const EngineRuns& runs,
                        Report& report) {
+  using namespace momentum_case;
   const scenes::Scene scene = collision(0);
   Plot plot{"Momentum of the ball and the cloth together",
             "time [s]",

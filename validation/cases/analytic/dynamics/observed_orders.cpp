@@ -8,6 +8,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace observed_orders {
 namespace {
 
 using reference::IntegratorKind;
@@ -63,9 +64,11 @@ Study study(const Ladder& ladder, bool unset_velocity) {
 }
 
 }  // namespace
+}  // namespace observed_orders
 
 void evaluate_observed_orders(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                               Report& report) {
+  using namespace observed_orders;
   const Tolerance tolerance{0.15, Basis::kTruncation,
                             "the next term of the error expansion at these steps"};
   Section section{std::string(info.id), std::string(info.summary), {}, {}, {}, ""};

@@ -14,6 +14,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace oscillator {
 namespace {
 
 using reference::IntegratorKind;
@@ -160,13 +161,16 @@ constexpr std::array kParameters = {
 };
 
 }  // namespace
+}  // namespace oscillator
 
 std::span<const CaseParameter> oscillator_parameters() {
+  using namespace oscillator;
   return kParameters;
 }
 
 void evaluate_oscillator(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
                          Report& report) {
+  using namespace oscillator;
   Oscillator oscillator;
   if (asks_for_point(options)) {
     const auto value = [&](const char* name) { return value_of(info, options, name); };

@@ -15,6 +15,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace rotation_damping {
 namespace {
 
 using reference::IntegratorKind;
@@ -157,9 +158,11 @@ void check_drift(const CaseInfo& info, Report& report) {
 }
 
 }  // namespace
+}  // namespace rotation_damping
 
 void evaluate_rotation_damping(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                                Report& report) {
+  using namespace rotation_damping;
   check_spin(info, report);
   check_drift(info, report);
   check_torsional_mode(info, report);

@@ -9,6 +9,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace spinning_dumbbell {
 namespace {
 
 constexpr double kLength = 0.5;      // l0 [m]
@@ -79,9 +80,11 @@ double change(double length, const std::vector<forces::LawSpecification>& laws, 
 }
 
 }  // namespace
+}  // namespace spinning_dumbbell
 
 void evaluate_spinning_dumbbell(const CaseInfo& info, const CaseOptions&, const EngineRuns&,
                                 Report& report) {
+  using namespace spinning_dumbbell;
   const std::vector<forces::LawSpecification> laws = {
       tension_law(kStiffness), spring_damping_law(kDamping), torsional_rotation_damping_law(2.0)};
   CheckResult check = judged(

@@ -13,6 +13,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace spring_pendulum {
 namespace {
 
 using reference::IntegratorKind;
@@ -192,13 +193,16 @@ constexpr std::array kParameters = {
 };
 
 }  // namespace
+}  // namespace spring_pendulum
 
 std::span<const CaseParameter> spring_pendulum_parameters() {
+  using namespace spring_pendulum;
   return kParameters;
 }
 
 void evaluate_spring_pendulum(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
                               Report& report) {
+  using namespace spring_pendulum;
   if (asks_for_point(options)) {
     const auto value = [&](const char* name) { return value_of(info, options, name); };
     const Pendulum pendulum{value("mass"), value("stiffness"), value("length"), value("x"),

@@ -13,6 +13,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace torsional_damping {
 namespace {
 
 using reference::IntegratorKind;
@@ -206,8 +207,10 @@ double change(const std::vector<forces::LawSpecification>& laws, double start_ra
 }  // namespace ring
 
 }  // namespace
+}  // namespace torsional_damping
 
 void check_torsional_mode(const CaseInfo& info, Report& report) {
+  using namespace torsional_damping;
   const std::vector<forces::LawSpecification> right = {
       torsional_rotation_damping_law(twist::kRate)};
   CheckResult check = judged(
@@ -229,6 +232,7 @@ void check_torsional_mode(const CaseInfo& info, Report& report) {
 }
 
 void check_spinning_ring(const CaseInfo& info, Report& report) {
+  using namespace torsional_damping;
   const double radius = ring::radius((1 + ring::kBeta) * ring::kMass, ring::kDamping);
   CheckResult check = judged(
       info,

@@ -17,6 +17,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace balloon {
 namespace {
 
 constexpr double kRadius = 1.0;       // R0 [m]
@@ -223,13 +224,16 @@ constexpr std::array kParameters = {
 };
 
 }  // namespace
+}  // namespace balloon
 
 std::span<const CaseParameter> balloon_parameters() {
+  using namespace balloon;
   return kParameters;
 }
 
 void evaluate_balloon(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
                       Report& report) {
+  using namespace balloon;
   constexpr double kWrong = 1.03;
   const std::string sabotage = "spring constant +3 %";
   const Tolerance one_percent{

@@ -13,6 +13,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace catenary {
 namespace {
 
 constexpr double kSpan = 1.0;          // d [m]
@@ -118,8 +119,10 @@ constexpr std::array kParameters = {
 };
 
 }  // namespace
+}  // namespace catenary
 
 CableShape exact_cable(const Cable& cable) {
+  using namespace catenary;
   const double half = cable.length / 2;  // V / (w d)
   const auto span = [&](double pull) {
     return pull * cable.length / cable.stiffness + 2 * pull * std::asinh(half / pull);
@@ -137,11 +140,13 @@ CableShape exact_cable(const Cable& cable) {
 }
 
 std::span<const CaseParameter> catenary_parameters() {
+  using namespace catenary;
   return kParameters;
 }
 
 void evaluate_catenary(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
                        Report& report) {
+  using namespace catenary;
   if (asks_for_point(options)) {
     const Cable cable{value_of(info, options, "length"), value_of(info, options, "stiffness"),
                       static_cast<int>(value_of(info, options, "nodes"))};

@@ -12,6 +12,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace hanging_chain {
 namespace {
 
 constexpr double kGravity = 9.81;  // [m/s^2]
@@ -72,13 +73,16 @@ constexpr std::array kParameters = {
 };
 
 }  // namespace
+}  // namespace hanging_chain
 
 std::span<const CaseParameter> hanging_chain_parameters() {
+  using namespace hanging_chain;
   return kParameters;
 }
 
 void evaluate_hanging_chain(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
                             Report& report) {
+  using namespace hanging_chain;
   if (asks_for_point(options)) {
     add_check(info,
               {static_cast<int>(value_of(info, options, "masses")), value_of(info, options, "mass"),

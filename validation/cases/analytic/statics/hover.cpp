@@ -9,6 +9,7 @@
 #include <weft/validation/cases/support/small_systems.hpp>
 
 namespace weft::validation {
+namespace hover {
 namespace {
 
 constexpr double kSide = 0.6;           // [m]
@@ -119,8 +120,10 @@ Plot velocity_plot(const Sheet& sheet) {
 }
 
 }  // namespace
+}  // namespace hover
 
 void evaluate_hover(const CaseInfo& info, const CaseOptions&, const EngineRuns&, Report& report) {
+  using namespace hover;
   const Sheet flat{.exactly_flat = true};
   const Sheet bent;  // masses by the area of cells, drag by that of triangles: it bends a little
 

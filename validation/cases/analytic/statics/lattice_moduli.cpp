@@ -14,6 +14,7 @@
 #include <weft/validation/cases/support/parameters.hpp>
 
 namespace weft::validation {
+namespace lattice_moduli {
 namespace {
 
 using Strain = Eigen::Vector3d;  ///< e11, e22, 2 e12
@@ -290,13 +291,16 @@ constexpr std::array kParameters = {
 };
 
 }  // namespace
+}  // namespace lattice_moduli
 
 std::span<const CaseParameter> lattice_moduli_parameters() {
+  using namespace lattice_moduli;
   return kParameters;
 }
 
 void evaluate_lattice_moduli(const CaseInfo& info, const CaseOptions& options, const EngineRuns&,
                              Report& report) {
+  using namespace lattice_moduli;
   if (asks_for_point(options)) {
     add_regular_checks(info,
                        {.cells = static_cast<int>(value_of(info, options, "cells")),
