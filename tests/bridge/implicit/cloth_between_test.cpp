@@ -108,7 +108,8 @@ TEST_P(ThrownBall, GainsNothing) {
   EXPECT_LT(fastest, 0.5 * thrown.velocity) << "it does not bounce";
   // Between nodes it may come 2 mm deeper, and the impact takes the rest.
   const double held = Table::kTop + 2 * kMargin + 0.1;
-  EXPECT_LT(lowest, held + 0.005) << "it has come down";
+  // It may come and go within one step.
+  EXPECT_LT(lowest, held + 0.005 + fastest * thrown.time_step) << "it has come down";
   EXPECT_GT(lowest, held - 0.002 * std::max(10.0, thrown.velocity)) << "it is not pressed through";
 }
 
