@@ -9,7 +9,7 @@ function(weft_target_flags target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   # -ffp-contract=off: the same source gives the same bits whether or not the compiler may fuse a*b+c.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
-  if(WEFT_WARNINGS)
+  if(WEFT_WARNINGS OR WEFT_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic
       # GCC 12 sees overlapping copies in std::string's operator+ where there are none (GCC bug 105651).
       $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)

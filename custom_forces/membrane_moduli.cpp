@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/QR>
+
 #include <weft/core/error.hpp>
-#include <weft/core/symmetric_matrix.hpp>
 
 namespace weft::forces {
 namespace {
@@ -52,13 +53,7 @@ Relaxed relaxed(const Eigen::Matrix3d& tensor, int kept) {
     for (int j = 0; j < 2; ++j) block(i, j) = tensor(others[i], others[j]);
   }
   // A lattice without diagonals does not resist shear: the least solution will do there.
-  const SymmetricModes modes = symmetric_modes(block);
-  const double least = 1e-14 * modes.values.cwiseAbs().maxCoeff();
-  Eigen::Vector2d strains = Eigen::Vector2d::Zero();
-  for (int k = 0; k < 2; ++k) {
-    const Eigen::Vector2d mode = modes.vectors.col(k);
-    if (modes.values[k] > least) strains -= mode * (mode.dot(coupling) / modes.values[k]);
-  }
+  const Eigen::Vector2d strains = -block.completeOrthogonalDecomposition().solve(coupling);
   return {tensor(kept, kept) + coupling.dot(strains), strains};
 }
 

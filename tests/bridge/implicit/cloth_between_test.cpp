@@ -207,6 +207,8 @@ TEST_P(TumblingBox, GainsNothing) {
     table.scene().step(1, tumble.time_step);
     const double now = energy();
     EXPECT_LT(now, last + least) << "in step " << step;
+    EXPECT_GT(height_of(body), Table::kTop + 2 * kMargin)
+        << "it is not pressed through, in step " << step;
     last = now;
   }
 }
