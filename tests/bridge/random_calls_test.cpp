@@ -27,6 +27,7 @@
 #include <weft/custom_forces/typed_laws.hpp>
 
 #include "tests/bridge/rigid_objects.hpp"
+#include "tests/support/count.hpp"
 
 namespace weft::bridge {
 namespace {
@@ -414,9 +415,10 @@ class Player {
 template <class World, class Constraints>
 void play() {
   constexpr int kCallsOfAWorld = 500;
+  const int num_calls = test::count(2000);
   int num_steps = 0;
   int num_adopted_steps = 0;
-  for (int world = 0; world < WEFT_NUM_CALLS / kCallsOfAWorld; ++world) {
+  for (int world = 0; world < num_calls / kCallsOfAWorld; ++world) {
     SCOPED_TRACE("world " + std::to_string(world));
     Player<World, Constraints> player(static_cast<unsigned>(world + 1));
     for (int call = 0; call < kCallsOfAWorld; ++call) {
@@ -426,7 +428,7 @@ void play() {
     num_steps += player.num_steps();
     num_adopted_steps += player.num_adopted_steps();
   }
-  EXPECT_GT(num_steps, WEFT_NUM_CALLS / 20);
+  EXPECT_GT(num_steps, num_calls / 20);
   EXPECT_GT(num_adopted_steps, num_steps / 3);  // most calls are made of bodies with laws
 }
 

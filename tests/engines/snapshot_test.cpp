@@ -1,7 +1,6 @@
 #include <weft/scenes/snapshot/snapshot.hpp>
 
 #include <algorithm>
-#include <cstdlib>
 #include <memory>
 #include <ostream>
 #include <random>
@@ -16,13 +15,14 @@
 #include <weft/scenes/live_laws.hpp>
 #include <weft/scenes/step_commands.hpp>
 
+#include "tests/support/count.hpp"
+
 namespace weft::scenes {
 namespace {
 
 // A part of a run is enough: what a snapshot forgets shows in the next step or the one after it.
 constexpr int kStepsAfter = 12;
-constexpr int kStepsBetween = 50;
-constexpr int kSnapshots = 3;
+constexpr int kStepsBetween = 20;
 
 std::vector<unsigned char> bytes_of(const SceneState& state) {
   std::vector<unsigned char> bytes;
@@ -71,12 +71,6 @@ bool can_resume(const EngineInfo& engine) {
   return dynamic_cast<Resumable*>(engine.make().get()) != nullptr;
 }
 
-/// More of them, for a longer look by hand.
-int num_snapshots() {
-  const char* const number = std::getenv("WEFT_TEST_SNAPSHOTS");
-  return number != nullptr ? std::max(1, std::atoi(number)) : kSnapshots;
-}
-
 struct Run {
   EngineInfo engine;
   std::string scene;
@@ -110,7 +104,7 @@ TEST_P(EveryRun, GoesOnWithTheSameBits) {
   const Scene scene = with_step_of(load_scene(name), info.name);
   const std::unique_ptr<Simulator> engine = info.make();
   engine->load(scene);
-  for (int s = 0; s < num_snapshots(); ++s) {
+  for (int s = 0; s < test::count(2); ++s) {
     const Snapshot snapshot = resumable(*engine).save();
     const States first = go_on(*engine, scene, kStepsAfter);
 
@@ -215,14 +209,6 @@ struct Branch {
   States future;
 };
 
-/// How many each run takes: WEFT_TEST_SEQUENCES in all, where that is set.
-int num_sequences(std::size_t num_runs) {
-  const char* const number = std::getenv("WEFT_TEST_SEQUENCES");
-  constexpr int kSequences = 8;
-  if (number == nullptr) return kSequences;
-  return std::max(1, std::atoi(number) / static_cast<int>(num_runs) + 1);
-}
-
 // Each sequence goes back to one of the latest snapshots, takes some steps, and then often another snapshot.
 void go_at_random(const Run& run, int num_sequences) {
   constexpr std::size_t kBranches = 6;
@@ -261,7 +247,7 @@ void go_at_random() {
   }
   for (const Run& run : list) {
     SCOPED_TRACE(std::string(run.engine.name) + " " + run.scene);
-    go_at_random(run, num_sequences(list.size()));
+    go_at_random(run, test::count(8));
     if (testing::Test::HasFatalFailure()) return;
   }
 }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/bullet/workloads/random_cloth.hpp"
+#include "tests/support/count.hpp"
 
 namespace weft::bench {
 namespace {
@@ -20,7 +21,7 @@ int num_explosions(int num_cloths, const RandomClothSolver& solver) {
 
 // A slow test of its own goes through all 1000 (explosions.csv has what Bullet's links make of them).
 TEST(Explosions, NoneOfRandomClothsExplodes) {
-  EXPECT_EQ(num_explosions(WEFT_NUM_CLOTHS, {}), 0);
+  EXPECT_EQ(num_explosions(test::count(60), {}), 0);
 }
 
 // A light sheet that turns at 28 m/s and meets a sphere: planes of its far side have nodes' starts behind them.

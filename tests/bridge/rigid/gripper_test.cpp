@@ -7,6 +7,7 @@
 
 #include "tests/bridge/rigid/multibody_scene.hpp"
 #include "tests/bridge/rigid/towel.hpp"
+#include "tests/support/count.hpp"
 
 namespace weft::bridge {
 namespace {
@@ -126,7 +127,7 @@ Outcome hold(double force, double seconds, unsigned seed) {
 }
 
 TEST(Gripper, HoldsATowelAboveTheThresholdOfFriction) {
-  for (unsigned seed = 1; seed <= WEFT_NUM_SEEDS; ++seed) {
+  for (int seed = 1; seed <= test::count(1); ++seed) {
     const Outcome outcome = hold(1.25 * kGripThreshold, 10, seed);
     EXPECT_LT(outcome.slip, 1e-3) << seed;
     EXPECT_GT(outcome.lifted, 0.15) << seed;
@@ -139,7 +140,7 @@ TEST(Gripper, HoldsATowelAboveTheThresholdOfFriction) {
 // From more than 0.75 of the threshold on nodes may stick with more than friction bears: which, that is decided by rounding, also by that
 // of the processor's vector unit.
 TEST(Gripper, ATowelSlipsBelowTheThreshold) {
-  for (unsigned seed = 1; seed <= WEFT_NUM_SEEDS; ++seed) {
+  for (int seed = 1; seed <= test::count(1); ++seed) {
     const Outcome outcome = hold(0.75 * kGripThreshold, 1, seed);
     EXPECT_LT(outcome.carried, outcome.lifted - 0.1) << seed;
   }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/bridge/rigid/towel.hpp"
+#include "tests/support/count.hpp"
 
 namespace weft::bridge {
 namespace {
@@ -129,7 +130,7 @@ TowelMotion grip(double force, double seconds, unsigned seed) {
 // Cloth used to fly off at 15 m/s when such fingers closed on it, and threw them apart. While they lift it, it may slip by some
 // centimeters (one seed of twenty), after that by less than a millimeter.
 TEST(RigidGripper, HoldsATowelAboveTheThresholdOfFriction) {
-  for (unsigned seed = 1; seed <= WEFT_NUM_SEEDS; ++seed) {
+  for (int seed = 1; seed <= test::count(1); ++seed) {
     const TowelMotion outcome = grip(2 * kGripThreshold, 10, seed);
     EXPECT_LT(outcome.slip, 1e-3) << seed;
     EXPECT_GT(outcome.lifted, 0.15) << seed;
@@ -139,7 +140,7 @@ TEST(RigidGripper, HoldsATowelAboveTheThresholdOfFriction) {
 }
 
 TEST(RigidGripper, LosesATowelBelowTheThreshold) {
-  for (unsigned seed = 1; seed <= WEFT_NUM_SEEDS; ++seed) {
+  for (int seed = 1; seed <= test::count(1); ++seed) {
     const TowelMotion outcome = grip(0.65 * kGripThreshold, 1, seed);
     EXPECT_LT(outcome.carried, outcome.lifted - 0.1) << seed;
   }
