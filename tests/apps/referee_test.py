@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Results of an engine come back from other programs' files with the verdict and the figures of the engine, and spoiled ones do not.
 
-usage: referee_test.py WEFT with|without (Bullet)
+usage: referee_test.py WEFT with|without (Bullet) [--all]
+
+--all: every way to spoil a file that is in the lists below, not the first two of each.
 """
 import array
 import json
@@ -124,6 +126,11 @@ def hang(weft, engine):
     spoil_hang(weft, cache, take)
 
 
+def tried(spoiled):
+    """All with --all: each is judged beside a run of the reference, which takes some seconds."""
+    return list(spoiled.items())[:None if "--all" in sys.argv else 2]
+
+
 def spoil_hang(weft, cache, take):
     samples = cache.samples
     refused = {
@@ -133,7 +140,7 @@ def spoil_hang(weft, cache, take):
         "one frame late": samples[1:],
         "another axis": [mapped(sample, lambda x, y, z: (x, -z, y)) for sample in samples],
     }
-    for name, spoiled in refused.items():
+    for name, spoiled in tried(refused):
         cache.write("spoiled.pc2", spoiled)
         weft.refuses(name, "spoiled.pc2: the first sample of body 'cloth' is up to ", *take, "50 Hz", "--pc2",
                      "spoiled.pc2")
@@ -148,7 +155,7 @@ def spoil_hang(weft, cache, take):
         "mirrored after the right start": samples[:1] + refused["mirrored"][1:],
         "cut off after 0.3 s": samples[:16],
     }
-    for name, spoiled in failing.items():
+    for name, spoiled in tried(failing):
         cache.write("spoiled.pc2", spoiled)
         weft(0, *take, "50 Hz", "--pc2", "spoiled.pc2")
         rows = weft.judge(1, "--recording", "theirs.weftrec")
