@@ -114,13 +114,13 @@ async function dropFromDisk(page, names) {
   await page.waitForFunction((old) => !Object.is(window.weft.openingTime(), old), before, { timeout: 60_000 });
 }
 
-/** A run that is held now and then, so that one can compare with what it has written by then. */
+/** A run that is held now and then, so that one can compare with what it has written by then; too long to end between two looks. */
 class HeldRun {
   constructor(folder) {
     mkdirSync(at(folder));
     this.base = join(folder, "live");
     this.log = at(`${this.base}.partial.weftrec-wal`);
-    const words = ["run", join(scenes, "many_frames.toml"), "--engine", "bullet_forces", "-o", `${this.base}.weftrec`];
+    const words = ["run", join(scenes, "many_frames.toml"), "--engine", "bullet_forces", "--duration", "18 s", "-o", `${this.base}.weftrec`];
     this.run = spawn(weft, words, { cwd: work });
     this.ended = new Promise((done) => this.run.on("exit", done));
   }
