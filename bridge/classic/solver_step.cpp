@@ -185,6 +185,12 @@ void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_
   std::vector<MovableObject> dynamic;
   for (const Attachment* one : group) one->fast->list_dynamic(*one->body, dynamic);
   RigidSubsteps rigid(dynamic, time_step_, num_substeps);
+  for (std::size_t b = 0; b < dynamic.size(); ++b) {
+    const bool is_borne = std::any_of(group.begin(), group.end(), [&](const Attachment* one) {
+      return one->fast->pushed().has_borne(dynamic[b], time_step_);
+    });
+    if (is_borne) rigid.share_out_gravity(b, group.front()->body->m_worldInfo->m_dispatcher);
+  }
   std::vector<Attachment*>& bodies = attachments_->stepped;
   bodies = group;
   in_parallel(bodies, [&](Attachment& one) { one.fast->begin_substeps(*one.body, time_step_); });

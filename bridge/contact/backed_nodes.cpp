@@ -18,6 +18,15 @@ bool may_press(const RigidContact& contact) {
   return MovableObject(contact.object).rigid() != nullptr;
 }
 
+/// Whether the plane of one surface alone may let the node into the other: they face each other, or they meet in a corner, whose angle is
+/// 90 degrees at most, and the node is on its way into both.
+bool holds_in(const RigidContact& one, const RigidContact& other, const btSoftBody& body) {
+  if (are_opposite(one, other)) return true;
+  const btVector3& position = body.m_nodes[one.node].m_x;
+  return btDot(one.normal, other.normal) <= 0 && btDot(one.normal, position) < one.offset &&
+         btDot(other.normal, position) < other.offset;
+}
+
 /// Whether the first of two that are pressed on each other yields to the other: the lighter one.
 bool yields(const RigidContact& one, const RigidContact& other) {
   const btScalar inverse_mass = MovableObject(one.object).inverse_mass();
@@ -60,7 +69,7 @@ void BackedNodes::find(std::span<const RigidContact> contacts, const btSoftBody&
       if (!may_press(at(*one))) continue;
       for (auto other = first; other != last; ++other) {
         if (at(*one).object == at(*other).object || link_of(at(*other).object) != nullptr) continue;
-        if (!are_opposite(at(*one), at(*other))) continue;
+        if (!holds_in(at(*one), at(*other), body)) continue;
         if (!yields(at(*one), at(*other))) continue;
         const btScalar room = room_between(at(*one), at(*other), body);
         if (!(room < least_room)) continue;

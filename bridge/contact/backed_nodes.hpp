@@ -18,9 +18,9 @@
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// Nodes that a dynamic rigid body presses on another surface: a box on a tablecloth, a ball that comes down on a rug. The body
-/// must be held up by the other surface through the cloth. The solver has one constraint for a node, which is the body's; the
-/// other surface backs it (fast::NodeSupport). Fingers that joints hold are Pinches.
+/// Nodes that a dynamic rigid body presses on another surface, or into the corner between the two: a box on a tablecloth, a ball
+/// that comes down on a rug. The body must be held up by the other surface through the cloth. The solver has one constraint for a
+/// node, which is the body's; the other surface backs it (fast::NodeSupport). Fingers that joints hold are Pinches.
 class BackedNodes {
  public:
   struct Backing {

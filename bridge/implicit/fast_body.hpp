@@ -106,6 +106,7 @@ class FastBody : public NodeTeam {
   [[nodiscard]] btScalar num_explicit_substeps(btScalar time_step) const {
     return explicit_.count(time_step);
   }
+  [[nodiscard]] const CoupledBodies& pushed() const { return pushed_; }  ///< by the last solution
   /// Appends the dynamic bodies that this one is near to or hangs on, each once.
   void list_dynamic(const btSoftBody& body, std::vector<MovableObject>& list) const;
   /// Around all substeps; each is then a step of its own, from detect_contacts() to end_solve().

@@ -195,6 +195,12 @@ btScalar CoupledBodies::push_in(const MovableObject& object, btScalar time_step)
   return steps * steps * displacement_of(object).template head<3>().norm();
 }
 
+bool CoupledBodies::has_borne(const MovableObject& object, btScalar time_step) const {
+  const btScalar fall = time_step * time_step * object.gravity().length();
+  const btScalar pushed = push_in(object, time_step);
+  return pushed > fall / 2 && pushed < fall + fall / 2;
+}
+
 double CoupledBodies::kinetic_energy() const {
   double sum = 0;
   for (const MovableObject& object : bodies_) {

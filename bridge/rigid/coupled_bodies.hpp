@@ -53,6 +53,8 @@ class CoupledBodies {
   [[nodiscard]] GeneralizedDisplacement displacement_of(const MovableObject& object) const;
   /// How far the same push would have moved it in a step of time_step [s], [m].
   [[nodiscard]] btScalar push_in(const MovableObject& object, btScalar time_step) const;
+  /// Whether the last solution has borne about the weight of an object. time_step: of a step [s].
+  [[nodiscard]] bool has_borne(const MovableObject& object, btScalar time_step) const;
   /// Whether bodies were pushed into others that had not held them in the last solution, or the other way round.
   [[nodiscard]] bool are_supports_wrong(btScalar time_step);
 

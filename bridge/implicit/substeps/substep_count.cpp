@@ -9,8 +9,10 @@ namespace {
 
 /// How far a shape may approach a node in one substep, as a share of its smallest half extent [-].
 constexpr btScalar kApproachShare = btScalar(0.2);
-/// Likewise: how far springs may push it back in one substep, or pins may pull the cloth that it presses.
+/// Likewise: how far springs may push it back in one substep.
 constexpr btScalar kPushShare = btScalar(0.05);
+/// Likewise: how far pins may pull the cloth that it presses.
+constexpr btScalar kPullShare = btScalar(0.02);
 /// An impact moves a body by more than this share of its size in a step, beside kLively.
 constexpr btScalar kImpactShare = btScalar(0.01);
 /// So many explicit substeps are done in the place of one implicit one, which costs as much as eleven to fifteen: twice the cost, for
@@ -31,7 +33,7 @@ void SubstepCount::include(const RigidEncounter& encounter) {
   is_any_ = true;
   const auto& [size, approach, closing, pushed, fall, inverse_mass, pulled] = encounter;
   most_ = std::max({most_, approach / (kApproachShare * size),
-                    (pushed - 2 * fall) / (kPushShare * size), pulled / (kPushShare * size)});
+                    (pushed - 2 * fall) / (kPushShare * size), pulled / (kPullShare * size)});
   // Two masses that stick together share their momentum.
   const btScalar mass_share = mass_ * inverse_mass / (1 + mass_ * inverse_mass);
   const btScalar least = kImpactShare * size;

@@ -40,7 +40,7 @@ TEST(SubstepCount, FollowsASurfaceThatComesFar) {
 TEST(SubstepCount, FollowsPinsThatPullPressedCloth) {
   RigidEncounter encounter = kStill;
   encounter.pulled = btScalar(0.016);    // 1 m/s in 1/60 s
-  EXPECT_EQ(substeps_of(encounter), 4);  // 5 mm in each
+  EXPECT_EQ(substeps_of(encounter), 8);  // 2 mm in each
 }
 
 TEST(SubstepCount, ResolvesTheWavesOfAnImpact) {
