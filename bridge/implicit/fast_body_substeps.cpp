@@ -28,7 +28,7 @@ int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
     const MovableObject object{collider.object};
     if (moves_freely(object)) substeps.include_nearby_body();
   }
-  const PinPull pull(pins_, positions_, starts_);
+  const PinPull pull(pins_, positions_, starts_, contacts_);
   for (const RigidContact& contact : contacts_) {
     const MovableObject object{contact.object};
     if (!moves_freely(object)) continue;
@@ -44,7 +44,7 @@ int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
          .pushed = pushed_.push_in(object, time_step),
          .fall = time_step * time_step * object.gravity().length(),
          .inverse_mass = object.inverse_mass(),
-         .pulled = pull.on(contact, time_step * start_velocities_.col(contact.node), contacts_)});
+         .pulled = pull.on(contact.node, time_step * start_velocities_.col(contact.node))});
   }
   return substeps.count(last_num_substeps_);
 }

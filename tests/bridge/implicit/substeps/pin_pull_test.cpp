@@ -19,7 +19,7 @@ class PulledCloth : public testing::Test {
     contacts_[1].object = &table_;
   }
   [[nodiscard]] btScalar pull(const RigidContact& contact, const Vector3<btScalar>& way) const {
-    return PinPull(kPins, ends_, starts_).on(contact, way, contacts_);
+    return PinPull(kPins, ends_, starts_, contacts_).on(contact.node, way);
   }
   static constexpr std::array<int, 2> kPins{0, 3};
   btCollisionObject box_;
@@ -39,6 +39,12 @@ TEST_F(PulledCloth, IsNotWhereItMovesWithThePins) {
   starts_(0, 0) = btScalar(0.25);
   EXPECT_EQ(pull(contacts_[0], Vector3<btScalar>(btScalar(0.25), 0, 0)), 0);
   EXPECT_EQ(pull(contacts_[0], Vector3<btScalar>(btScalar(-0.25), 0, 0)), btScalar(0.5));
+}
+
+// Pins that rounding moves do not divide the steps of cloth that slides.
+TEST_F(PulledCloth, IsPulledLittleByAPinThatMovesLittle) {
+  starts_(0, 0) = btScalar(1e-9);
+  EXPECT_LE(pull(contacts_[0], Vector3<btScalar>(0, 1, 0)), btScalar(2.001e-9));
 }
 
 TEST_F(PulledCloth, IsOnlyWhereSomethingIsBehindIt) {
