@@ -6,7 +6,7 @@ import type { Check, Sabotage, Verdict } from "./report";
 const WORDS: Record<Verdict, string> = {
   pass: "✓ pass",
   fail: "✗ fail",
-  info: "not gated",
+  info: "no bound",
   known: "✗ fail, known",
   stale: "✗ stale",
 };

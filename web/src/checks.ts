@@ -14,8 +14,8 @@ const VERDICTS: [string, string][] = [
   ["", "any verdict"],
   ["attention", "failed"],
   ["pass", "passed"],
-  ["known", "failed, known departure"],
-  ["info", "not gated"],
+  ["known", "failed, known deviation"],
+  ["info", "no bound"],
   ["tight", "tight bound"],
   ["loose", "loose bound"],
 ];
@@ -53,7 +53,7 @@ function more(check: Check): HTMLElement | null {
     ["against", check.formula],
     ["source", check.source],
     ["bound", check.tolerance?.why ?? ""],
-    ["known departure", check.cause],
+    ["known deviation", check.cause],
     ["note", check.note],
   ];
   const shown = facts.filter(([, value]) => value !== "");
@@ -122,13 +122,13 @@ function matrix(report: Report, choose: (filter: Filter) => void): HTMLElement |
   const cell = (name: string, engine: string): HTMLElement => {
     const here = report.checks.filter((check) => check.case === name && family(check.engine) === engine);
     if (here.length === 0) return h("td", { class: "none" }, "·");
-    const gated = here.filter((check) => check.verdict !== "info");
-    const good = gated.filter((check) => check.verdict === "pass").length;
+    const bounded = here.filter((check) => check.verdict !== "info");
+    const good = bounded.filter((check) => check.verdict === "pass").length;
     const known = here.filter((check) => check.verdict === "known").length;
-    const state = here.some(needsAttention) ? "fail" : known > 0 ? "known" : gated.length > 0 ? "pass" : "info";
-    const text = gated.length > 0 ? `${good}/${gated.length}` : "info";
-    const rest = known > 0 ? `, ${known} fail as known departures` : "";
-    const what = gated.length > 0 ? `checks pass${rest}` : "rows, not gated";
+    const state = here.some(needsAttention) ? "fail" : known > 0 ? "known" : bounded.length > 0 ? "pass" : "info";
+    const text = bounded.length > 0 ? `${good}/${bounded.length}` : "info";
+    const rest = known > 0 ? `, ${known} fail as known deviations` : "";
+    const what = bounded.length > 0 ? `checks pass${rest}` : "rows without a bound";
     const button = h(
       "button",
       { type: "button", class: state, "aria-label": `${text} ${what}: ${name}, ${engine}; show them` },
@@ -223,8 +223,8 @@ export function renderChecks(report: Report, sections: Map<string, string>): HTM
       "p",
       { class: "muted lead" },
       "Each row compares one measured number with one bound that has a stated reason. The bar shows how much of the bound is used; " +
-        "above 0.5 the bound is tight, below 0.01 it is loose. Rows that are not gated are shown, but cannot fail. " +
-        "A known departure fails and is stated, with its cause, by more than the bound and less than 1.5 times what was stated. " +
+        "above 0.5 the bound is tight, below 0.01 it is loose. Rows without a bound are shown, but cannot fail. " +
+        "A known deviation fails and is stated, with its cause, by more than the bound and less than 1.5 times what was stated. " +
         "A sabotage is a deliberate mistake that the check must notice.",
     ),
   );

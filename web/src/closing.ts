@@ -2,7 +2,7 @@ import { h, scrollBox, tableHead } from "./dom";
 import { count } from "./format";
 import { family, unique, type Report } from "./report";
 
-export function renderDepartures(report: Report): HTMLElement | null {
+export function renderDeviations(report: Report): HTMLElement | null {
   if (report.departures.length === 0) return null;
   const heads = ["engine", "what differs", "measured"];
   const causes = unique(report.departures.map((item) => item.reason));
@@ -11,17 +11,17 @@ export function renderDepartures(report: Report): HTMLElement | null {
     const engines = unique(items.map((item) => family(item.engine))).join(", ");
     return h(
       "li",
-      { class: "departure" },
+      { class: "deviation" },
       h("p", {}, h("b", {}, engines), `: ${reason}.`.replace(/\.\.$/, ".")),
       h(
         "details",
         { "data-print-open": true },
-        h("summary", {}, count(items.length, "departure")),
+        h("summary", {}, count(items.length, "deviation")),
         scrollBox(
-          `Known departures of ${engines}`,
+          `Known deviations of ${engines}`,
           h(
             "table",
-            { class: "departures" },
+            { class: "deviations" },
             tableHead(heads),
             h(
               "tbody",
@@ -43,8 +43,8 @@ export function renderDepartures(report: Report): HTMLElement | null {
   };
   return h(
     "section",
-    { id: "departures", "aria-labelledby": "departures-title" },
-    h("h2", { id: "departures-title" }, "Known departures"),
+    { id: "deviations", "aria-labelledby": "deviations-title" },
+    h("h2", { id: "deviations-title" }, "Known deviations"),
     h("p", { class: "muted lead" }, "Where an engine is known to differ, by cause, and by how much."),
     h("ol", { class: "causes" }, causes.map(group)),
   );

@@ -4,7 +4,7 @@ import "./parts.css";
 import "./print.css";
 
 import { renderChecks } from "./checks";
-import { renderDepartures, renderLimits, renderProvenance } from "./closing";
+import { renderDeviations, renderLimits, renderProvenance } from "./closing";
 import { h } from "./dom";
 import { drawDistanceViews } from "./distance/distance_view";
 import { redrawPlots } from "./plot";
@@ -27,7 +27,7 @@ function navigation(report: Report, anchors: Map<string, string>): HTMLElement {
         const bad = report.checks.some((check) => check.case === section.id && needsAttention(check));
         return link(anchors.get(section.id) ?? "cases", section.id, bad ? "bad" : "");
       }),
-      report.departures.length > 0 && link("departures", "Known departures"),
+      report.departures.length > 0 && link("deviations", "Known deviations"),
       report.limits.length > 0 && link("limits", "Not tested"),
       report.provenance.length > 0 && link("provenance", "Provenance"),
     ),
@@ -63,7 +63,7 @@ function show(page: HTMLElement, report: Report): void {
     renderFailures(report, anchors),
     renderChecks(report, anchors),
     sections?.element ?? null,
-    renderDepartures(report),
+    renderDeviations(report),
     renderLimits(report),
     renderProvenance(report),
   ];

@@ -2,7 +2,7 @@
 
 /** JSON has no NaN and no infinities; they arrive as words. */
 export type Numeric = number | "NaN" | "Infinity" | "-Infinity";
-/** "known": fails as a stated departure; "stale": is stated as one and is none any more, which fails. */
+/** "known": fails as a stated deviation; "stale": is stated as one and is none any more, which fails. */
 export type Verdict = "pass" | "fail" | "info" | "known" | "stale";
 
 export interface Tolerance {
@@ -39,7 +39,7 @@ export interface Check {
   flag: "" | "tight" | "loose";
   verdict: Verdict;
   note: string;
-  /** Of a known or stale departure: why it is expected to fail. */
+  /** Of a known or stale deviation: why it is expected to fail. */
   cause: string;
   values: ComparedValue[];
   sabotages: Sabotage[];

@@ -12,7 +12,7 @@ function tile(value: string, label: string, state = ""): HTMLElement {
   return h("div", { class: `tile ${state}` }, h("dd", {}, value), h("dt", {}, label));
 }
 
-function gatedChecks(report: Report): number {
+function boundedChecks(report: Report): number {
   const s = report.summary;
   return s.checks_passed + s.checks_failed + s.checks_known + s.checks_stale;
 }
@@ -23,21 +23,21 @@ function engineLines(report: Report): HTMLElement | null {
   if (names.length < 2) return null;
   const line = (name: string): HTMLElement => {
     const own = report.checks.filter((check) => family(check.engine) === name);
-    const gated = own.filter((check) => check.verdict !== "info");
-    const passed = gated.filter((check) => check.verdict === "pass").length;
-    const known = gated.filter((check) => check.verdict === "known");
+    const bounded = own.filter((check) => check.verdict !== "info");
+    const passed = bounded.filter((check) => check.verdict === "pass").length;
+    const known = bounded.filter((check) => check.verdict === "known");
     const bad = own.filter(needsAttention).length;
     const causes = unique(known.map((check) => check.cause)).length;
-    const state = bad > 0 ? "fail" : known.length > 0 ? "known" : gated.length > 0 ? "pass" : "info";
+    const state = bad > 0 ? "fail" : known.length > 0 ? "known" : bounded.length > 0 ? "pass" : "info";
     const words = [
-      gated.length > 0 ? `${passed} of ${count(gated.length, "check")} pass` : `${count(own.length, "row")}, not gated`,
-      known.length > 0 && `${known.length} fail as known departures of ${count(causes, "cause")}`,
+      bounded.length > 0 ? `${passed} of ${count(bounded.length, "check")} pass` : `${count(own.length, "row")} without a bound`,
+      known.length > 0 && `${known.length} fail as known deviations of ${count(causes, "cause")}`,
       bad > 0 && `${bad} ${bad === 1 ? "needs" : "need"} attention`,
     ].filter(Boolean);
     return h(
       "li",
       {},
-      h("span", { class: `pill ${state}` }, state === "pass" ? "✓ pass" : state === "info" ? "not gated" : "✗ fail"),
+      h("span", { class: `pill ${state}` }, state === "pass" ? "✓ pass" : state === "info" ? "no bound" : "✗ fail"),
       h("b", {}, name),
       h("span", {}, words.join("; ")),
     );
@@ -68,17 +68,17 @@ function firstPictures(report: Report): HTMLElement | null {
 
 function sentence(report: Report): string {
   const s = report.summary;
-  const gated = gatedChecks(report);
+  const bounded = boundedChecks(report);
   const failed = s.checks_failed + s.checks_stale;
-  const known = s.checks_known > 0 ? `${s.checks_known} of ${count(gated, "check")} fail as known departures` : "";
-  const unknown = `${failed} of ${count(gated, "check")} ${failed === 1 ? "fails" : "fail"}`;
+  const known = s.checks_known > 0 ? `${s.checks_known} of ${count(bounded, "check")} fail as known deviations` : "";
+  const unknown = `${failed} of ${count(bounded, "check")} ${failed === 1 ? "fails" : "fail"}`;
   const checks =
     failed > 0
       ? [unknown, known && `${known} beside`].filter(Boolean).join(", ")
       : known
         ? `${count(s.checks_passed, "check holds", "checks hold")}, ${known}`
-        : `All ${count(gated, "check")} hold`;
-  if (gated === 0) return "Nothing was gated: no number was compared with a bound.";
+        : `All ${count(bounded, "check")} hold`;
+  if (bounded === 0) return "No number was compared with a bound.";
   if (s.sabotages === 0)
     return `${checks}. No sabotage was tried, so nothing shows that the checks can fail.`;
   const missed = s.sabotages - s.sabotages_detected;
@@ -107,17 +107,17 @@ export function renderVerdict(report: Report): HTMLElement {
       "dl",
       { class: "tiles" },
       tile(
-        `${s.checks_passed} of ${gatedChecks(report)}`,
+        `${s.checks_passed} of ${boundedChecks(report)}`,
         "checks pass",
         s.checks_failed + s.checks_stale > 0 ? "bad" : "",
       ),
-      s.checks_known > 0 && tile(String(s.checks_known), "fail, known departures"),
+      s.checks_known > 0 && tile(String(s.checks_known), "fail, known deviations"),
       tile(
         `${s.sabotages_detected} of ${s.sabotages}`,
         "sabotages noticed",
         s.sabotages_detected < s.sabotages ? "bad" : "",
       ),
-      tile(String(s.checks_not_gated), "measured, not gated"),
+      tile(String(s.checks_not_gated), "measured, no bound"),
       tile(`${flags("tight")} / ${flags("loose")}`, "tight / loose bounds"),
     ),
     firstPictures(report),

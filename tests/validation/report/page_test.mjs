@@ -127,15 +127,15 @@ const tests = {
     assert.deepEqual(complaints, []);
   },
 
-  async "known departures are failures that are told apart, grouped by cause"() {
+  async "known deviations are failures that are told apart, grouped by cause"() {
     const { page, complaints } = await open("deviations");
     assert.equal(await page.textContent("#verdict"), "PASS");
-    assert.match(await page.textContent(".sentence"), /1 checks? holds?, 2 of 3 checks fail as known departures/);
+    assert.match(await page.textContent(".sentence"), /1 checks? holds?, 2 of 3 checks fail as known deviations/);
     assert.equal(await page.locator(".failures").count(), 0);
-    assert.equal(await page.locator(".causes > .departure").count(), 2, "two causes for three departures");
+    assert.equal(await page.locator(".causes > .deviation").count(), 2, "two causes for three deviations");
     assert.match(
-      await page.textContent(".causes > .departure >> nth=0"),
-      /bullet_weft: The bending force forgets its step\..*2 departures/s,
+      await page.textContent(".causes > .deviation >> nth=0"),
+      /bullet_weft: The bending force forgets its step\..*2 deviations/s,
     );
     await page.getByLabel("Verdict", { exact: true }).selectOption("known");
     assert.equal(await visibleRows(page).count(), 2);
@@ -146,7 +146,7 @@ const tests = {
     const { page } = await open("deviations");
     const lines = await page.locator(".engines li").allTextContents();
     assert.equal(lines.length, 2);
-    assert.match(lines[0], /✗ fail.*bullet_weft.*0 of 2 checks pass; 2 fail as known departures of 1 cause/);
+    assert.match(lines[0], /✗ fail.*bullet_weft.*0 of 2 checks pass; 2 fail as known deviations of 1 cause/);
     assert.match(lines[1], /✓ pass.*reference.*1 of 1 check/);
     assert.deepEqual(await page.locator(".first-pictures figcaption b").allTextContents(), [
       "bullet_weft float32",
@@ -171,7 +171,7 @@ const tests = {
 
   async "an empty report does not claim that anything was checked"() {
     const { page, complaints } = await open("empty");
-    assert.match(await page.textContent(".sentence"), /Nothing was gated/);
+    assert.match(await page.textContent(".sentence"), /No number was compared with a bound/);
     assert.deepEqual(complaints, []);
   },
 
@@ -227,7 +227,7 @@ const tests = {
     assert.equal(await visibleRows(page).count(), 2);
   },
 
-  async "marks tight, loose and ungated rows"() {
+  async "marks tight, loose and rows without a bound"() {
     const { page } = await open("failing");
     assert.deepEqual((await page.locator(".checks .flag").allTextContents()).sort(), [
       "loose",
@@ -235,7 +235,7 @@ const tests = {
       "tight",
     ]);
     const info = page.locator(".checks tr.info").first();
-    assert.match(await info.textContent(), /not gated/);
+    assert.match(await info.textContent(), /no bound/);
     assert.equal(await info.locator(".bar").count(), 0);
   },
 
