@@ -88,10 +88,10 @@ void bench_motion_scenes(const Settings& settings) {
 }
 
 void bench_scenes_truth(const Settings& /*settings*/) {
-  std::filesystem::create_directories(kTruthFile.parent_path());
-  std::ofstream file(kTruthFile);
-  file << "# scene,figure,value: laws integrated explicitly in short steps in Bullet's world "
-          "(bullet_forces)\n";
+  // Written when all is there: the file stays what it was if this is stopped.
+  std::string text =
+      "# scene,figure,value: laws integrated explicitly in short steps in Bullet's world "
+      "(bullet_forces)\n";
   for (const MotionScene& motion : validation::judged_motions()) {
     const std::unique_ptr<scenes::Simulator> solver = scenes::make_bullet_forces();
     const scenes::Scene scene =
@@ -100,11 +100,14 @@ void bench_scenes_truth(const Settings& /*settings*/) {
     for (const MotionFigure& figure : motion.figures) {
       const std::string row =
           fmt::format("{},{},{:.6g}", scene.name, figure.name, figure.of(motion.scene, frames));
-      file << row << std::endl;
+      text += row + "\n";
       fmt::print("{}\n", row);
       std::fflush(stdout);
     }
   }
+  std::filesystem::create_directories(kTruthFile.parent_path());
+  std::ofstream file(kTruthFile);
+  file << text;
   file.close();
   if (!file) throw Error(kTruthFile.string() + ": cannot be written");
 }
