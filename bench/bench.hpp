@@ -37,7 +37,7 @@ void bench_motion(const Settings& settings);
 void bench_motion_scenes(const Settings& settings);
 /// Forces that nothing balances, at rest.
 void bench_motion_rest(const Settings& settings);
-/// Make what is right (truth/): minutes, and best in double precision. The first only makes files that are not there.
+/// Make what is right (truth/): minutes, and best in double precision. They only make what is not there.
 void bench_swing_truth(const Settings& settings);
 void bench_scenes_truth(const Settings& settings);
 /// A step of a character's cape at each level of detail.

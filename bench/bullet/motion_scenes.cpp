@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -43,6 +45,34 @@ std::map<std::string, double> read_truths() {
   return truths;
 }
 
+std::string key_of(const MotionScene& motion, const MotionFigure& figure) {
+  return motion.scene.name + "," + figure.name;
+}
+
+bool is_known(const MotionScene& motion, const std::map<std::string, double>& truths) {
+  return std::all_of(motion.figures.begin(), motion.figures.end(), [&](const MotionFigure& figure) {
+    return truths.contains(key_of(motion, figure));
+  });
+}
+
+/// In the order of judged_motions(); rows of scenes that are judged no more are left out.
+void write_truths(const std::map<std::string, double>& truths) {
+  std::string text =
+      "# scene,figure,value: laws integrated explicitly in short steps in Bullet's world "
+      "(bullet_forces)\n";
+  for (const MotionScene& motion : validation::judged_motions()) {
+    for (const MotionFigure& figure : motion.figures) {
+      const auto truth = truths.find(key_of(motion, figure));
+      if (truth != truths.end()) text += fmt::format("{},{:.6g}\n", truth->first, truth->second);
+    }
+  }
+  std::filesystem::create_directories(kTruthFile.parent_path());
+  std::ofstream file(kTruthFile);
+  file << text;
+  file.close();
+  if (!file) throw Error(kTruthFile.string() + ": cannot be written");
+}
+
 void add_rows(const MotionScene& motion, const std::map<std::string, double>& truths,
               ResultFile& file) {
   const std::unique_ptr<scenes::Simulator> solver = scenes::make_bullet_weft();
@@ -53,7 +83,7 @@ void add_rows(const MotionScene& motion, const std::map<std::string, double>& tr
   const MotionFrames still = validation::standing_still(motion.scene);
   const MotionFrames free = validation::untouched(motion.scene);
   for (const MotionFigure& figure : motion.figures) {
-    const auto right = truths.find(motion.scene.name + "," + figure.name);
+    const auto right = truths.find(key_of(motion, figure));
     if (right == truths.end() && !figure.is_bound) {
       throw Error(fmt::format("{}: nothing of '{}' in '{}'; weft-bench scenes_truth makes it",
                               kTruthFile.string(), figure.name, motion.scene.name));
@@ -87,29 +117,25 @@ void bench_motion_scenes(const Settings& settings) {
   file.write(settings.folder / "motion_scenes.csv");
 }
 
+// Keeps the rows that are there, so that a new scene does not move what solvers were held against before. Each scene is
+// written as soon as it is known: some take minutes.
 void bench_scenes_truth(const Settings& /*settings*/) {
-  // Written when all is there: the file stays what it was if this is stopped.
-  std::string text =
-      "# scene,figure,value: laws integrated explicitly in short steps in Bullet's world "
-      "(bullet_forces)\n";
+  std::map<std::string, double> truths;
+  if (std::filesystem::exists(kTruthFile)) truths = read_truths();
   for (const MotionScene& motion : validation::judged_motions()) {
+    if (is_known(motion, truths)) continue;
     const std::unique_ptr<scenes::Simulator> solver = scenes::make_bullet_forces();
     const scenes::Scene scene =
         validation::with_step(motion.scene, motion.exact_step, motion.scene.world.frame_interval);
     const MotionFrames frames = validation::frames_of(*solver, scene);
     for (const MotionFigure& figure : motion.figures) {
-      const std::string row =
-          fmt::format("{},{},{:.6g}", scene.name, figure.name, figure.of(motion.scene, frames));
-      text += row + "\n";
-      fmt::print("{}\n", row);
+      const double value = figure.of(motion.scene, frames);
+      truths[key_of(motion, figure)] = value;
+      fmt::print("{},{:.6g}\n", key_of(motion, figure), value);
       std::fflush(stdout);
     }
+    write_truths(truths);
   }
-  std::filesystem::create_directories(kTruthFile.parent_path());
-  std::ofstream file(kTruthFile);
-  file << text;
-  file.close();
-  if (!file) throw Error(kTruthFile.string() + ": cannot be written");
 }
 
 }  // namespace weft::bench
