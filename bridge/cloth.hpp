@@ -15,7 +15,10 @@
 #include <weft/bridge/solver.hpp>
 #include <weft/bridge/step_error.hpp>
 #include <weft/custom_forces/law_info.hpp>
+#include <weft/custom_forces/set_up_warnings.hpp>
 #include <weft/custom_forces/typed_laws.hpp>
+
+class btCollisionWorld;
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -65,6 +68,12 @@ class Cloth {
   [[nodiscard]] ClothState state() const;
   /// The laws as they were given, in order. Empty for a body without laws, or that was attached with a LawSet.
   [[nodiscard]] std::vector<forces::LawSpecification> laws() const;
+
+  /// What will most likely not do what was meant: springs that are too stiff for the step, colliders that pass between nodes, gravity that
+  /// acts twice, and the like (docs/warnings.md). time_step: that of the world's steps [s], > 0. Looks at the world as it is
+  /// now, and takes some milliseconds. Empty for a body without laws, or that was attached with a LawSet.
+  [[nodiscard]] std::vector<forces::SetUpWarning> warnings(const btCollisionWorld& world,
+                                                           double time_step) const;
 
   /// Gives the body this law in place of those with the same name and sets, or in addition. A law without sets takes the place of
   /// all with its name. It acts from the next step on, which costs a factorisation. Returns nothing if that was done, or why not: the body

@@ -37,6 +37,13 @@ for file in "$source_dir"/tests/scenes/malformed/*; do
 done
 check "at least 25 malformed files, found $count" test "$count" -ge 25
 
+# Scenes that are allowed and will not work
+"$weft" check --resolved "$source_dir/scenes/catalog/hang.toml" | sed 's/^time_step = .*/time_step = "0.05 s"/; s/^frame_interval = .*/frame_interval = "0.05 s"/' >long_step.toml
+check "check of a step that is too long" exits 0 check long_step.toml
+check "it is warned of" grep -qE "^warning: long_step.toml: cloth 'cloth': the time step 0.05 s is longer than .* \(bullet_forces, .*reference\)$" err
+check "a good scene has no warning" exits 0 check "$source_dir/scenes/catalog/hang.toml"
+check "and nothing on stderr" test ! -s err
+
 # Mesh files
 for file in "$source_dir"/tests/scenes/import/good/*.*; do check "check-mesh $file" exits 0 check-mesh "$file"; done
 for file in "$source_dir"/tests/scenes/import/broken/*; do
