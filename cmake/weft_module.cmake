@@ -30,7 +30,7 @@ endfunction()
 # The headers that most files of Weft and its tests begin with, read once for all modules and once for all tests. Only
 # GCC's are asked for: the builds with clang keep every file honest about what it includes.
 set(weft_common_headers <algorithm> <array> <cmath> <filesystem> <functional> <map> <memory> <optional> <random> <span> <sstream>
-                        <string> <string_view> <unordered_map> <variant> <vector> <Eigen/Geometry> <tbb/parallel_for.h> <tbb/task_group.h>)
+                        <string> <string_view> <unordered_map> <variant> <vector> <Eigen/Geometry>)
 if(WEFT_PRECOMPILE_HEADERS AND NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   message(STATUS "Weft: WEFT_PRECOMPILE_HEADERS has no effect with ${CMAKE_CXX_COMPILER_ID}")
   set(WEFT_PRECOMPILE_HEADERS OFF)
@@ -57,7 +57,7 @@ endfunction()
 function(weft_precompile_module target)
   if(WEFT_PRECOMPILE_HEADERS)
     if(NOT TARGET weft_module_headers)
-      weft_add_precompiled(weft_module_headers LIBRARIES weft::core TBB::tbb HEADERS ${weft_common_headers})
+      weft_add_precompiled(weft_module_headers LIBRARIES weft::core HEADERS ${weft_common_headers})
       set_target_properties(weft_module_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
     endif()
     target_precompile_headers(${target} REUSE_FROM weft_module_headers)
@@ -110,7 +110,7 @@ endfunction()
 function(weft_precompile_test target)
   if(WEFT_PRECOMPILE_HEADERS)
     if(NOT TARGET weft_test_headers)
-      weft_add_precompiled(weft_test_headers LIBRARIES weft::core TBB::tbb GTest::gmock
+      weft_add_precompiled(weft_test_headers LIBRARIES weft::core GTest::gmock
                            HEADERS ${weft_common_headers} <gmock/gmock.h> <gtest/gtest.h>)
     endif()
     target_precompile_headers(${target} REUSE_FROM weft_test_headers)
