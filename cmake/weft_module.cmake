@@ -1,7 +1,7 @@
 # weft_add_module(<name> PATH <folder under the source root> SOURCES ... HEADERS ... [PUBLIC ...] [PRIVATE ...]
 #                 [HIDE <child folders that belong to another module>] [NO_INSTALL] [NO_PRECOMPILE])
 #
-# One module = one library target weft_<name>, alias weft::<name>. Each module has an include root of its own
+# One module = one library target weft_<name>, alias weft::<name>; static, or shared with BUILD_SHARED_LIBS if it is installed. Each module has an include root of its own
 # (build/include/<name>/weft/<path> -> source), so a file can include only the modules its target links: the
 # arrows of the architecture are enforced by the compiler, not by a convention.
 
@@ -86,10 +86,38 @@ function(weft_include_root root path out_variable)
   set(${out_variable} "${base}" PARENT_SCOPE)
 endfunction()
 
+# What a shared library shows is Weft's own: Eigen's and the standard library's functions that are compiled into it would
+# otherwise take the place of those that the program has compiled with other flags. Installed libraries find each other.
+#
+# weft_find_libraries(<target> <folder it is installed to, below the prefix>): the same for programs and extension modules.
+function(weft_find_libraries target folder)
+  if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
+    file(RELATIVE_PATH to_libraries "/${folder}" "/${CMAKE_INSTALL_LIBDIR}")
+    set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/${to_libraries}")
+  endif()
+endfunction()
+
+function(weft_shared_library target)
+  set_target_properties(${target} PROPERTIES
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} WINDOWS_EXPORT_ALL_SYMBOLS ON
+    DEFINE_SYMBOL "")  # which precompiled headers would have to be made without
+  if(APPLE)
+    set_target_properties(${target} PROPERTIES INSTALL_RPATH "@loader_path")
+  elseif(UNIX)
+    set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN" LINK_DEPENDS "${PROJECT_SOURCE_DIR}/cmake/weft_symbols.map")
+    target_link_options(${target} PRIVATE "LINKER:--version-script=${PROJECT_SOURCE_DIR}/cmake/weft_symbols.map")
+  endif()
+endfunction()
+
 function(weft_add_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "NO_INSTALL;NO_PRECOMPILE" "PATH" "SOURCES;HEADERS;PUBLIC;PRIVATE;HIDE")
   set(target weft_${name})
-  add_library(${target} STATIC ${arg_SOURCES})
+  if(BUILD_SHARED_LIBS AND NOT arg_NO_INSTALL)
+    add_library(${target} SHARED ${arg_SOURCES})
+    weft_shared_library(${target})
+  else()
+    add_library(${target} STATIC ${arg_SOURCES})
+  endif()
   add_library(weft::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   weft_target_flags(${target})
