@@ -4,9 +4,9 @@
 #include <thread>
 
 #include <fmt/core.h>
-#include <tbb/version.h>
 #include <Eigen/Core>
 
+#include <weft/core/parallel/threads.hpp>
 #include <weft/engines/engine_table.hpp>
 
 namespace weft::app {
@@ -39,7 +39,7 @@ scenes::Provenance build_provenance() {
       {"bullet", scenes::bullet_description()},
       {"eigen",
        fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
-      {"onetbb", fmt::format("{}.{}", TBB_VERSION_MAJOR, TBB_VERSION_MINOR)},
+      {"thread_library", thread_library()},
       {"processor", processor_name()},
       {"hardware_threads", std::to_string(std::thread::hardware_concurrency())},
   };

@@ -90,7 +90,7 @@ struct NodeContact {
 /// steps.
 /// The world's gravity (btSoftBodyWorldInfo::m_gravity) still acts: set it to zero for a body with
 /// a gravity law.
-/// Threads: laws run on oneTBB; results do not depend on the number of threads.
+/// Threads: num_threads() of core/parallel/threads.hpp; results do not depend on how many, nor on where they come from.
 /// Masses are the body's own: setMass(), setTotalMass() and m_im act from the next step on.
 /// Lifetime: laws belong to a body, not to its address. One that leaves its world keeps them until it comes
 /// back; they end with detach() or with the body, which may be deleted at any time outside of a step.

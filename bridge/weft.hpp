@@ -16,5 +16,6 @@
 #include <weft/bridge/step_error.hpp>
 #include <weft/bridge/tearing.hpp>
 #include <weft/core/error.hpp>
+#include <weft/core/parallel/threads.hpp>
 #include <weft/custom_forces/typed_laws.hpp>
 #include <weft/mesh/cloth_mesh.hpp>

@@ -8,6 +8,11 @@ if(NOT WEFT_INSTALL)
 endif()
 
 include(CMakePackageConfigHelpers)
+# What users of the libraries have to link as well: a shared library brings its threads along.
+set(weft_thread_package "")
+if(NOT BUILD_SHARED_LIBS)
+  set(weft_thread_package "${weft_thread_library}")
+endif()
 set(weft_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/weft")
 set(weft_components "")
 
@@ -17,7 +22,10 @@ foreach(target IN LISTS modules)
   get_target_property(path ${target} WEFT_PATH)
   get_target_property(headers ${target} WEFT_HEADERS)
   list(APPEND weft_components ${component})
-  install(TARGETS ${target} EXPORT weft_${component} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  install(TARGETS ${target} EXPORT weft_${component}
+          ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+          LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+          RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
   install(EXPORT weft_${component} NAMESPACE weft:: DESTINATION "${weft_package_dir}"
           FILE weft_${component}.cmake)
   foreach(header IN LISTS headers)

@@ -1,7 +1,7 @@
 # weft_add_module(<name> PATH <folder under the source root> SOURCES ... HEADERS ... [PUBLIC ...] [PRIVATE ...]
 #                 [HIDE <child folders that belong to another module>] [NO_INSTALL] [NO_PRECOMPILE])
 #
-# One module = one library target weft_<name>, alias weft::<name>. Each module has an include root of its own
+# One module = one library target weft_<name>, alias weft::<name>; static, or shared with BUILD_SHARED_LIBS if it is installed. Each module has an include root of its own
 # (build/include/<name>/weft/<path> -> source), so a file can include only the modules its target links: the
 # arrows of the architecture are enforced by the compiler, not by a convention.
 
@@ -30,7 +30,7 @@ endfunction()
 # The headers that most files of Weft and its tests begin with, read once for all modules and once for all tests. Only
 # GCC's are asked for: the builds with clang keep every file honest about what it includes.
 set(weft_common_headers <algorithm> <array> <cmath> <filesystem> <functional> <map> <memory> <optional> <random> <span> <sstream>
-                        <string> <string_view> <unordered_map> <variant> <vector> <Eigen/Geometry> <tbb/parallel_for.h> <tbb/task_group.h>)
+                        <string> <string_view> <unordered_map> <variant> <vector> <Eigen/Geometry>)
 if(WEFT_PRECOMPILE_HEADERS AND NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   message(STATUS "Weft: WEFT_PRECOMPILE_HEADERS has no effect with ${CMAKE_CXX_COMPILER_ID}")
   set(WEFT_PRECOMPILE_HEADERS OFF)
@@ -57,7 +57,7 @@ endfunction()
 function(weft_precompile_module target)
   if(WEFT_PRECOMPILE_HEADERS)
     if(NOT TARGET weft_module_headers)
-      weft_add_precompiled(weft_module_headers LIBRARIES weft::core TBB::tbb HEADERS ${weft_common_headers})
+      weft_add_precompiled(weft_module_headers LIBRARIES weft::core HEADERS ${weft_common_headers})
       set_target_properties(weft_module_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
     endif()
     target_precompile_headers(${target} REUSE_FROM weft_module_headers)
@@ -86,10 +86,38 @@ function(weft_include_root root path out_variable)
   set(${out_variable} "${base}" PARENT_SCOPE)
 endfunction()
 
+# What a shared library shows is Weft's own: Eigen's and the standard library's functions that are compiled into it would
+# otherwise take the place of those that the program has compiled with other flags. Installed libraries find each other.
+#
+# weft_find_libraries(<target> <folder it is installed to, below the prefix>): the same for programs and extension modules.
+function(weft_find_libraries target folder)
+  if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
+    file(RELATIVE_PATH to_libraries "/${folder}" "/${CMAKE_INSTALL_LIBDIR}")
+    set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/${to_libraries}")
+  endif()
+endfunction()
+
+function(weft_shared_library target)
+  set_target_properties(${target} PROPERTIES
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} WINDOWS_EXPORT_ALL_SYMBOLS ON
+    DEFINE_SYMBOL "")  # which precompiled headers would have to be made without
+  if(APPLE)
+    set_target_properties(${target} PROPERTIES INSTALL_RPATH "@loader_path")
+  elseif(UNIX)
+    set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN" LINK_DEPENDS "${PROJECT_SOURCE_DIR}/cmake/weft_symbols.map")
+    target_link_options(${target} PRIVATE "LINKER:--version-script=${PROJECT_SOURCE_DIR}/cmake/weft_symbols.map")
+  endif()
+endfunction()
+
 function(weft_add_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "NO_INSTALL;NO_PRECOMPILE" "PATH" "SOURCES;HEADERS;PUBLIC;PRIVATE;HIDE")
   set(target weft_${name})
-  add_library(${target} STATIC ${arg_SOURCES})
+  if(BUILD_SHARED_LIBS AND NOT arg_NO_INSTALL)
+    add_library(${target} SHARED ${arg_SOURCES})
+    weft_shared_library(${target})
+  else()
+    add_library(${target} STATIC ${arg_SOURCES})
+  endif()
   add_library(weft::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   weft_target_flags(${target})
@@ -110,7 +138,7 @@ endfunction()
 function(weft_precompile_test target)
   if(WEFT_PRECOMPILE_HEADERS)
     if(NOT TARGET weft_test_headers)
-      weft_add_precompiled(weft_test_headers LIBRARIES weft::core TBB::tbb GTest::gmock
+      weft_add_precompiled(weft_test_headers LIBRARIES weft::core GTest::gmock
                            HEADERS ${weft_common_headers} <gmock/gmock.h> <gtest/gtest.h>)
     endif()
     target_precompile_headers(${target} REUSE_FROM weft_test_headers)

@@ -45,19 +45,10 @@ void DeferredForces<Scalar>::begin(const State<Scalar>& state) {
   velocities_ = state.velocities;
   masses_ = state.masses;
   time_ = state.time;
-  const int threads = tbb::this_task_arena::max_concurrency();
-  if (!arena_.is_active()) {
-    arena_.initialize(threads);
-  } else if (arena_.max_concurrency() != threads) {
-    arena_.terminate();
-    arena_.initialize(threads);
-  }
   is_in_flight_ = true;
-  arena_.execute([this] {
-    group_.run([this] {
-      const TraceScope task("deferred forces");
-      compute({positions_, velocities_, masses_, time_});
-    });
+  task_.start(1, [this](std::size_t) {
+    const TraceScope task("deferred forces");
+    compute({positions_, velocities_, masses_, time_});
   });
 }
 
@@ -73,7 +64,7 @@ ForceReport DeferredForces<Scalar>::finish(const State<Scalar>& state, Matrix3X<
   } else {
     const TraceScope wait("wait for forces");
     is_in_flight_ = false;
-    arena_.execute([this] { group_.wait(); });
+    task_.wait();
   }
   forces.swap(forces_);
   return report_;
@@ -83,9 +74,9 @@ template <class Scalar>
 void DeferredForces<Scalar>::drop() noexcept {
   if (!is_in_flight_) return;
   is_in_flight_ = false;
-  group_.cancel();
+  task_.cancel();
   try {
-    arena_.execute([this] { group_.wait(); });
+    task_.wait();
   } catch (...) {
     // What a law threw concerned forces that nobody wants any more.
   }

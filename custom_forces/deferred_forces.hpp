@@ -1,8 +1,6 @@
 #pragma once
 
-#include <tbb/task_arena.h>
-#include <tbb/task_group.h>
-
+#include <weft/core/parallel/task_group.hpp>
 #include <weft/custom_forces/law_set.hpp>
 
 namespace weft::forces {
@@ -18,8 +16,8 @@ namespace weft::forces {
 /// not wait for it. The forces are those of LawSet::add_forces, bit for bit: if finish() is given
 /// another state than begin(), down to one bit, they are computed anew.
 ///
-/// Threads   begin() and finish() are for one thread; what is in between may be anything, TBB or
-///           not. In a task arena of one thread nothing runs before finish().
+/// Threads   begin() and finish() are for one thread; what is in between may be anything, parallel
+///           or not. With one thread (num_threads()) nothing runs before finish().
 /// Lifetime  the laws must outlive this object and must not be used between begin() and finish().
 ///           The state is copied: its owner may be gone before finish().
 template <class Scalar>
@@ -62,10 +60,7 @@ class DeferredForces {
   ForceReport report_;
   bool is_in_flight_ = false;
   long num_recomputed_ = 0;
-  /// An arena of its own, so that the caller's other TBB work in between neither waits for the forces nor
-  /// picks them up.
-  tbb::task_arena arena_;
-  tbb::task_group group_;
+  TaskGroup task_{TaskGroup::Place::kApart};
 };
 
 extern template class DeferredForces<float>;

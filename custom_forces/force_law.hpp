@@ -32,7 +32,7 @@ struct PairStiffness {
 /// engine.
 ///
 /// Shapes   all matrices 3 x n, one column per node, world frame
-/// Threads  add_* functions run on oneTBB; two calls at once on one law are safe with different
+/// Threads  add_* functions run on num_threads() threads; two calls at once on one law are safe with different
 /// scratch
 template <class Scalar>
 class ForceLaw {

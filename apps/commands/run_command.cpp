@@ -4,15 +4,13 @@
 #include <optional>
 #include <string>
 #include <system_error>
-#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 #include <CLI/CLI.hpp>
 
 #include <weft/core/error.hpp>
+#include <weft/core/parallel/threads.hpp>
 #include <weft/core/trace.hpp>
 #include <weft/engines/engine_table.hpp>
 #include <weft/scenes/catalog.hpp>
@@ -167,13 +165,7 @@ Recorded record(const scenes::Scene& scene, const scenes::EngineInfo& engine, in
         snapshots);
   };
   if (threads > 0) {
-    // An arena of its own, for the default one has at most one thread per core; and leave to use that many.
-    const tbb::global_control allowed(
-        tbb::global_control::max_allowed_parallelism,
-        static_cast<std::size_t>(
-            std::max(threads, static_cast<int>(std::thread::hardware_concurrency()))));
-    tbb::task_arena arena(threads);
-    arena.execute(run);
+    with_threads(threads, run);
   } else {
     run();
   }

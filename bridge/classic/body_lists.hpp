@@ -4,9 +4,8 @@
 
 #include <vector>
 
-#include <tbb/parallel_for.h>
-
 #include <weft/bridge/bullet/precision.hpp>
+#include <weft/core/parallel/parallel_for.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -24,7 +23,7 @@ void in_parallel(std::vector<Entry*>& list, const Work& work) {
   if (list.size() == 1) {
     work_on(*list[0]);
   } else {
-    tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) { work_on(*list[i]); });
+    parallel_for(list.size(), [&](std::size_t i) { work_on(*list[i]); });
   }
   drop_stopped(list);
 }

@@ -6,9 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/classic/attachment.hpp>
@@ -16,6 +13,8 @@
 #include <weft/bridge/cloth.hpp>
 #include <weft/bridge/implicit/history/node_prediction.hpp>
 #include <weft/bridge/rigid/rigid_substeps.hpp>
+#include <weft/core/parallel/parallel_for.hpp>
+#include <weft/core/parallel/threads.hpp>
 #include <weft/core/trace.hpp>
 
 namespace weft::bridge {
@@ -62,7 +61,8 @@ void SoftBodySolver::for_bodies(const std::function<void(btSoftBody&, Attachment
     attachment->guard([&] { work(body, attachment); });
   };
   if (m_softBodySet.size() == 1) return work_on(0);
-  tbb::parallel_for(0, m_softBodySet.size(), work_on);
+  parallel_for(static_cast<std::size_t>(m_softBodySet.size()),
+               [&](std::size_t i) { work_on(static_cast<int>(i)); });
 }
 
 namespace {
@@ -104,8 +104,7 @@ void SoftBodySolver::solve_fast_bodies() {
       bodies.push_back(attachment.get());
     }
   }
-  const int num_each = std::max(
-      1, tbb::this_task_arena::max_concurrency() / std::max(1, static_cast<int>(bodies.size())));
+  const int num_each = std::max(1, num_threads() / std::max(1, static_cast<int>(bodies.size())));
   for (Attachment* one : bodies) one->fast->set_num_threads(num_each);
   solve_alone(time_step_, m_softBodySet, attachments_->contacts, bodies, attachments_->asked);
   Attachment* const single = bodies.size() == 1 ? bodies[0] : nullptr;

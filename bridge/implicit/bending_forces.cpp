@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include <tbb/task_arena.h>
-
+#include <weft/core/parallel/threads.hpp>
 #include <weft/fast_solver/network/spring_network.hpp>
 
 namespace weft::bridge {
@@ -32,7 +31,7 @@ void BendingForces::begin_step(ConstMatrix3XRef<btScalar> starts) {
 // A thread that waits here must not begin the solution of another body.
 void BendingForces::add_law_forces(ConstMatrix3XRef<btScalar> positions,
                                    Matrix3XRef<btScalar> forces) const {
-  tbb::this_task_arena::isolate([&] {
+  isolated([&] {
     const forces::State<btScalar> state{positions, no_velocities_, masses_, 0.0};
     for (const auto* law : laws_) law->add_forces(state, scratch_, forces);
   });

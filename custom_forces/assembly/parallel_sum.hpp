@@ -4,10 +4,8 @@
 
 #include <string>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <weft/core/error.hpp>
+#include <weft/core/parallel/parallel_for.hpp>
 #include <weft/core/trace.hpp>
 #include <weft/core/types.hpp>
 #include <weft/custom_forces/assembly/element_chunks.hpp>
@@ -17,7 +15,7 @@ namespace weft::forces {
 /// Shared nodes per task when the chunks are joined, and the number above which the join is worth
 /// tasks at all: below, it takes less time than to wake a thread (about 2 us). Each node is summed
 /// by one thread, so this changes no bit.
-inline constexpr int kJoinGrain = 2048;
+inline constexpr std::size_t kJoinGrain = 2048;
 
 /// result += sum over the chunks, in parallel and always in the same order.
 ///
@@ -39,10 +37,10 @@ void parallel_sum(const ElementChunks& chunks, const Accumulate& accumulate,
       result.col(chunks.node(slot)) += sum;
     }
   };
-  const auto join = [&](const tbb::blocked_range<std::size_t>& range) {
+  const auto join = [&](IndexRange range) {
     const TraceScope trace("join");
     const int* const slots = chunks.shared_slots().data();
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
       const ElementChunks::SharedNode& shared = chunks.shared_nodes()[i];
       Vector3<Scalar> sum = result.col(shared.node);
       for (int s = shared.first_slot; s < shared.last_slot; ++s) {
@@ -51,16 +49,11 @@ void parallel_sum(const ElementChunks& chunks, const Accumulate& accumulate,
       result.col(shared.node) = sum;
     }
   };
-  tbb::parallel_for(std::size_t{0}, chunks.chunks().size(), [&](std::size_t c) {
+  parallel_for(chunks.chunks().size(), [&](std::size_t c) {
     const TraceScope trace("chunk");
     accumulate(chunks.chunks()[c], sum_of_slot);
   });
-  const tbb::blocked_range<std::size_t> shared(0, chunks.shared_nodes().size(), kJoinGrain);
-  if (shared.size() > kJoinGrain) {
-    tbb::parallel_for(shared, join);
-  } else {
-    join(shared);
-  }
+  parallel_for(IndexRange{0, chunks.shared_nodes().size()}, kJoinGrain, join);
 }
 
 /// Throws InvalidArgument for sizes that do not fit, as for the state of another mesh.

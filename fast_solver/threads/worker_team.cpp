@@ -5,6 +5,8 @@
 #include <optional>
 #include <thread>
 
+#include <weft/core/parallel/processor_pause.hpp>
+
 namespace weft::fast {
 namespace {
 
@@ -37,21 +39,12 @@ std::uint64_t flags(int begin, int end) {
   return below(end) & ~below(begin);
 }
 
-/// Tells the processor that this thread only waits.
-void pause() {
-#if defined(__x86_64__) || defined(__i386__)
-  __builtin_ia32_pause();
-#elif defined(__aarch64__)
-  asm volatile("yield");
-#endif
-}
-
 class Patience {
  public:
   /// True if it is at an end.
   bool wait() {
     if (++looks_ <= kLooks) {
-      pause();
+      pause_processor();
       return false;
     }
     std::this_thread::yield();
@@ -79,19 +72,15 @@ void WorkerTeam::open(int num_threads) {
   // The last loop may be one of fewer threads, of whose caller's parts a worker of now would take some for its own.
   loop_.number.store(kNone, std::memory_order_relaxed);
   is_open_.store(true, std::memory_order_release);
-  workers_.emplace();
-  for (int worker = 1; worker < num_threads_; ++worker) {
-    workers_->run([this] { run_worker(); });
-  }
+  workers_.start(static_cast<std::size_t>(num_threads_ - 1), [this](std::size_t) { run_worker(); });
 }
 
 void WorkerTeam::close() {
   if (num_threads_ == 1) return;
   is_open_.store(false, std::memory_order_release);
   const Clock::time_point start = Clock::now();
-  workers_->wait();  // for one that is stopped, too
+  workers_.wait();  // for one that is stopped, too
   lost_ += seconds_since(start);
-  workers_.reset();
   num_threads_ = 1;
   update_fallback();
 }
@@ -182,7 +171,7 @@ int WorkerTeam::num_present() {
     const int num_present = 1 + num_workers_.load(std::memory_order_acquire);
     if (num_present == num_threads_ || looks_for_arrival_ == 0) return num_present;
     --looks_for_arrival_;
-    pause();
+    pause_processor();
   }
 }
 

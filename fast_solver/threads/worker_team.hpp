@@ -7,24 +7,23 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <optional>
 #include <type_traits>
 
-#include <tbb/task_group.h>
+#include <weft/core/parallel/task_group.hpp>
 
 namespace weft::fast {
 
 /// Threads that share the parallel loops of one solve. Such a loop takes about ten microseconds, which is less than another
-/// thread needs to find a oneTBB task. Therefore workers spin between loops.
+/// thread needs to find a task. Therefore workers spin between loops.
 ///
-/// Workers are oneTBB tasks. They join when a thread is available, and without any the caller does all the work. Each thread
+/// Workers are tasks of a TaskGroup. They join when a thread is available, and without any the caller does all the work. Each thread
 /// has the same parts in every loop, because their data are in its cache. The caller claims the parts of a worker that does not
 /// begin. The result of a part must not depend on the thread that computes it.
 ///
 /// The operating system may suspend a worker in the middle of a part, and the caller has to wait for it. If that costs more
 /// than workers gain, the team falls back to the caller's thread only for a while, each time for longer.
 ///
-/// While a team is open its caller must not wait for other oneTBB tasks, because it might be given a worker's task.
+/// While a team is open its caller must not wait for other tasks, because it might be given a worker's task.
 class WorkerTeam {
  public:
   /// Parts of a loop at most.
@@ -56,7 +55,7 @@ class WorkerTeam {
     WorkerTeam& team_;
   };
 
-  /// Closed as long as the result exists, for work that waits for tasks of oneTBB; then open if it was, unless workers
+  /// Closed as long as the result exists, for work that waits for other tasks; then open if it was, unless workers
   /// were stopped lately.
   class Pause {
    public:
@@ -168,8 +167,7 @@ class WorkerTeam {
   int num_serial_ = 0;           ///< times to be opened without workers
   int next_serial_ = 0;          ///< the same when the budget is used up
   int num_good_ = 0;             ///< times open with budget left since next_serial_ has changed
-  /// Made by open(): a group belongs to the parallel loop that it was first used in, for ever.
-  std::optional<tbb::task_group> workers_;
+  TaskGroup workers_{TaskGroup::Place::kHere};
 };
 
 }  // namespace weft::fast

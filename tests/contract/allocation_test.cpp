@@ -3,8 +3,8 @@
 #include <ostream>
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
+#include <weft/core/parallel/threads.hpp>
 #include <weft/custom_forces/law_set.hpp>
 
 #include "tests/contract/sample.hpp"
@@ -20,9 +20,7 @@ void PrintTo(const Subject& subject, std::ostream* out) {
 namespace {
 
 template <class Scalar>
-long allocations_of(const Subject& subject, int threads) {
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
+long allocations_of(const Subject& subject) {
   const ClothMesh mesh = subject.large_mesh();
   forces::LawSet<Scalar> laws;
   laws.add(subject.make<Scalar>(mesh));
@@ -39,7 +37,7 @@ long allocations_of(const Subject& subject, int threads) {
     (void)laws.potential_energy(state);
     (void)laws.non_conservative_power(state);
   };
-  call_everything();  // warm-up: TBB starts its threads
+  call_everything();  // warm-up: threads are started
   const long before = test::num_allocations();
   call_everything();
   return test::num_allocations() - before;
@@ -52,8 +50,10 @@ INSTANTIATE_TEST_SUITE_P(Registry, LawAllocation, testing::ValuesIn(all_subjects
 
 TEST_P(LawAllocation, IsZeroAfterWarmUp) {
   for (const int threads : {1, 2}) {
-    EXPECT_EQ(allocations_of<float>(GetParam(), threads), 0) << threads << " threads";
-    EXPECT_EQ(allocations_of<double>(GetParam(), threads), 0) << threads << " threads";
+    with_threads(threads, [&] {
+      EXPECT_EQ(allocations_of<float>(GetParam()), 0) << threads << " threads";
+      EXPECT_EQ(allocations_of<double>(GetParam()), 0) << threads << " threads";
+    });
   }
 }
 

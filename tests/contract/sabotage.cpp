@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include <tbb/task_arena.h>
 #include <Eigen/Geometry>
+#include <weft/core/parallel/threads.hpp>
 #include <weft/custom_forces/registry.hpp>
 
 namespace weft::contract {
@@ -169,7 +169,7 @@ class FaultyLaw final : public ForceLaw<Scalar> {
         force(1, 0) += small * Scalar(static_cast<double>(++calls_));
         break;
       case Fault::kThreadDependent:
-        force(1, 0) += small * Scalar(tbb::this_task_arena::max_concurrency());
+        force(1, 0) += small * Scalar(num_threads());
         break;
       case Fault::kNotFinite:
         force(1, 0) += Scalar(std::numeric_limits<double>::quiet_NaN());

@@ -1,3 +1,5 @@
+#include <weft/core/parallel/parallel_for.hpp>
+#include <weft/core/parallel/threads.hpp>
 #include <weft/custom_forces/deferred_forces.hpp>
 
 #include <cmath>
@@ -5,8 +7,6 @@
 #include <limits>
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 
 #include <weft/custom_forces/registry.hpp>
 #include <weft/mesh/cloth_grid.hpp>
@@ -83,9 +83,8 @@ TYPED_TEST(DeferredForcesTest, AreTheForcesOfTheLawsBitForBit) {
 
 TYPED_TEST(DeferredForcesTest, DoNotDependOnThreads) {
   const Matrix3X<TypeParam> expected = this->cloth_.direct();
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 4);
   for (const int threads : {1, 2, 4, 1}) {
-    tbb::task_arena(threads).execute([&] { this->cloth_.deferred.begin(this->cloth_.state()); });
+    with_threads(threads, [&] { this->cloth_.deferred.begin(this->cloth_.state()); });
     EXPECT_TRUE(same_bits(this->cloth_.finished(), expected)) << threads << " threads";
   }
 }
@@ -156,7 +155,7 @@ TYPED_TEST(DeferredForcesTest, OtherParallelWorkInBetweenDoesNotDisturb) {
   for (int repetition = 0; repetition < 20; ++repetition) {
     cloth.deferred.begin(cloth.state());
     std::vector<double> other(1000);
-    tbb::parallel_for(0, 1000, [&](int i) { other[static_cast<std::size_t>(i)] = std::sqrt(i); });
+    parallel_for(other.size(), [&](std::size_t i) { other[i] = std::sqrt(i); });
     ASSERT_TRUE(same_bits(cloth.finished(), expected));
   }
 }

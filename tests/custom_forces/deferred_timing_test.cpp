@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <weft/core/parallel/threads.hpp>
 #include <weft/custom_forces/deferred_forces.hpp>
 #include <weft/custom_forces/registry.hpp>
 #include <weft/mesh/cloth_grid.hpp>
@@ -28,7 +29,7 @@ double seconds_of(const std::function<void()>& call) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Not TBB's business: a thread that never looks for tasks.
+/// Not the library's business: a thread that never looks for tasks.
 void keep_busy(Clock::duration time) {
   const auto end = Clock::now() + time;
   while (Clock::now() < end) {
@@ -58,7 +59,7 @@ class DeferredTiming : public testing::Test {
   }
   double one_thread_time() {
     double best = 1e9;
-    tbb::task_arena(1).execute([&] {
+    with_threads(1, [&] {
       for (int i = 0; i < 10; ++i) {
         forces_.setZero(3, mesh_.num_nodes());
         best = std::min(best, seconds_of([&] {

@@ -5,10 +5,10 @@
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
-#include <tbb/task_arena.h>
 
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/solver.hpp>
+#include <weft/core/parallel/threads.hpp>
 #include <weft/mesh/cloth_grid.hpp>
 #include <weft/recorder/recorder.hpp>
 
@@ -46,13 +46,12 @@ TEST(RecorderCost, IsSmallBesideAStep) {
   Recorder recorder(folder / "cost.weftrec");
   recorder.add(cloth, "cape");
   recorder.add(ball, "ball");
-  tbb::task_arena alone(1);
   double stepping = 0;
   std::vector<double> times;
   constexpr int kSteps = 180;
   for (int step = 1; step <= kSteps; ++step) {
     const double start = processor_time();
-    alone.execute([&] { world.step(1.0 / 60); });
+    with_threads(1, [&] { world.step(1.0 / 60); });
     const double stepped = processor_time();
     ASSERT_TRUE(recorder.record(step / 60.0));
     const double recorded = processor_time();

@@ -1,9 +1,9 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <weft/core/error.hpp>
+#include <weft/core/parallel/threads.hpp>
 #include <weft/reference/balance.hpp>
 
 #include "tests/reference/small_systems.hpp"
@@ -158,9 +158,7 @@ TEST(Bodies, DoNotInfluenceEachOtherWithoutContact) {
   EXPECT_EQ(pair.system().bodies[1].positions, alone.system().bodies[0].positions);
 }
 
-Matrix3X<double> drape_on(int num_threads, IntegratorKind integrator) {
-  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
-                                          num_threads);
+Matrix3X<double> drape(IntegratorKind integrator) {
   Body cloth = make_cloth(30, 1.0, 0.4, 0.25, 100.0, 0.02);
   add_law(cloth, "gravity", {{"acceleration", {0, -kGravity, 0}}});
   cloth.collision_margin = 0.01;
@@ -176,6 +174,10 @@ Matrix3X<double> drape_on(int num_threads, IntegratorKind integrator) {
   all << solver.system().bodies[0].positions, solver.system().bodies[0].velocities,
       solver.system().colliders[0].angular_velocity;
   return all;
+}
+
+Matrix3X<double> drape_on(int num_threads, IntegratorKind integrator) {
+  return with_threads(num_threads, [&] { return drape(integrator); });
 }
 
 TEST(Determinism, TheSameBitsForOneTwoAndFourThreads) {

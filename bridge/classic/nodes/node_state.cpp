@@ -3,10 +3,8 @@
 #include <string>
 #include <utility>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <weft/core/error.hpp>
+#include <weft/core/parallel/parallel_for.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -14,19 +12,14 @@ inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
 /// Nodes of a task: some 20 us, ten times what it takes another thread to find it.
-constexpr int kTask = 2048;
+constexpr std::size_t kTask = 2048;
 
 template <class Work>
 void for_nodes(int num_nodes, const Work& work) {
-  const auto run = [&](const tbb::blocked_range<int>& nodes) {
-    work(fast::NodeRange{nodes.begin(), nodes.end()});
-  };
-  const tbb::blocked_range<int> all(0, num_nodes, kTask);
-  if (num_nodes < 2 * kTask) {
-    run(all);
-  } else {
-    tbb::parallel_for(all, run);
-  }
+  const auto size = static_cast<std::size_t>(num_nodes);
+  parallel_for(IndexRange{0, size}, size < 2 * kTask ? size : kTask, [&](IndexRange nodes) {
+    work(fast::NodeRange{static_cast<int>(nodes.begin), static_cast<int>(nodes.end)});
+  });
 }
 
 }  // namespace

@@ -7,14 +7,13 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 
 #include <weft/bridge/snapshot.hpp>
 #include <weft/bridge/tearing.hpp>
+#include <weft/core/parallel/threads.hpp>
 #include <weft/core/trace.hpp>
 
 #include "tests/bridge/fast_scene.hpp"
@@ -349,14 +348,10 @@ TEST(BodyAlone, LeavesASolverBehindThatNothingChanges) {
 TEST(BodyAlone, HasTheSameBitsOnAnyNumberOfThreads) {
   for (const Change& change : changes_of_a_body()) {
     const auto run = [&](int num_threads) {
-      const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 2);
-      tbb::task_arena arena(num_threads);
-      std::vector<Course> result;
-      arena.execute([&] {
+      return with_threads(num_threads, [&] {
         Cloths three(3, false, kHeights[0]);
-        result = courses(three, 3, change, 1);
+        return courses(three, 3, change, 1);
       });
-      return result;
     };
     EXPECT_EQ(run(1), run(2)) << change.name;
   }

@@ -1,10 +1,10 @@
 // A step of a fast body takes no memory after the first ones.
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/soft_world.hpp>
+#include <weft/core/parallel/threads.hpp>
 #include <weft/mesh/cloth_grid.hpp>
 
 #include "tests/support/allocation_counter.hpp"
@@ -13,9 +13,7 @@ namespace weft::bridge {
 namespace {
 
 /// Allocations in 10 steps after 20, of a cloth that hangs from two corners or has fallen on a box.
-long allocations(bool is_hung, int num_threads) {
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(num_threads));
+long allocations(bool is_hung) {
   ClothGrid grid;
   grid.nodes = {60, 60};  // more than one task
   grid.center = {0, 0.02, 0};
@@ -43,11 +41,15 @@ long allocations(bool is_hung, int num_threads) {
 }
 
 TEST(FastAllocation, IsZeroInTheAir) {
-  for (const int threads : {1, 2}) EXPECT_EQ(allocations(true, threads), 0) << threads;
+  for (const int threads : {1, 2}) {
+    EXPECT_EQ(with_threads(threads, [] { return allocations(true); }), 0) << threads;
+  }
 }
 
 TEST(FastAllocation, IsZeroOnABox) {
-  for (const int threads : {1, 2}) EXPECT_EQ(allocations(false, threads), 0) << threads;
+  for (const int threads : {1, 2}) {
+    EXPECT_EQ(with_threads(threads, [] { return allocations(false); }), 0) << threads;
+  }
 }
 
 }  // namespace

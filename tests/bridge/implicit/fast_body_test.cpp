@@ -4,7 +4,6 @@
 #include <random>
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
@@ -14,6 +13,7 @@
 #include <weft/bridge/cloth_body.hpp>
 #include <weft/bridge/soft_world.hpp>
 #include <weft/core/error.hpp>
+#include <weft/core/parallel/threads.hpp>
 #include <weft/mesh/icosphere.hpp>
 
 #include "tests/bridge/fast_scene.hpp"
@@ -284,27 +284,30 @@ TEST(FastBody, GainsNoEnergyFromAStiffSheetThatMeetsAnObstacle) {
 }
 
 // A body whose parts threads share, and one that is too small for that.
-TEST(FastBody, IsFrozenBeforeItExplodes) {
-  const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
-  for (const int n : {8, 60}) {
-    for (const bool is_finite : {true, false}) {
-      Scene scene(cloth(n, 1, 1), {kGravity, law("tension", "stiffness", 300)});
-      scene.step(3);
-      const Matrix3X<double> before = scene.positions();
-      const int node = n * n - 3;
-      btSoftBody::Node& wrong = scene.body().m_nodes[node];
-      wrong.m_v.setX(is_finite ? btScalar(2e6) : std::numeric_limits<btScalar>::quiet_NaN());
-      scene.step(2);
-      const auto blow_up = scene.solver().blow_up(scene.body());
-      ASSERT_TRUE(blow_up.has_value()) << n;
-      EXPECT_EQ(blow_up->node, node);
-      EXPECT_EQ(blow_up->reason, is_finite ? "speed 2e+06 m/s is over 1e+06 m/s"
-                                           : "position or velocity is not finite");
-      EXPECT_EQ(scene.positions(), before) << n;
-      for (int i = 0; i < scene.body().m_nodes.size(); ++i) {
-        ASSERT_TRUE(scene.body().m_nodes[i].m_f.isZero()) << i;
-      }
+void expect_freezes_before_it_explodes(int n) {
+  for (const bool is_finite : {true, false}) {
+    Scene scene(cloth(n, 1, 1), {kGravity, law("tension", "stiffness", 300)});
+    scene.step(3);
+    const Matrix3X<double> before = scene.positions();
+    const int node = n * n - 3;
+    btSoftBody::Node& wrong = scene.body().m_nodes[node];
+    wrong.m_v.setX(is_finite ? btScalar(2e6) : std::numeric_limits<btScalar>::quiet_NaN());
+    scene.step(2);
+    const auto blow_up = scene.solver().blow_up(scene.body());
+    ASSERT_TRUE(blow_up.has_value()) << n;
+    EXPECT_EQ(blow_up->node, node);
+    EXPECT_EQ(blow_up->reason, is_finite ? "speed 2e+06 m/s is over 1e+06 m/s"
+                                         : "position or velocity is not finite");
+    EXPECT_EQ(scene.positions(), before) << n;
+    for (int i = 0; i < scene.body().m_nodes.size(); ++i) {
+      ASSERT_TRUE(scene.body().m_nodes[i].m_f.isZero()) << i;
     }
+  }
+}
+
+TEST(FastBody, IsFrozenBeforeItExplodes) {
+  for (const int n : {8, 60}) {
+    with_threads(2, [n] { expect_freezes_before_it_explodes(n); });
   }
 }
 

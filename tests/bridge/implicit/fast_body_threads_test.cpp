@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
+
+#include <weft/core/parallel/threads.hpp>
 
 #include "tests/bridge/fast_scene.hpp"
 
@@ -12,11 +12,8 @@ namespace {
 // Large enough for threads within the body; with contacts, a body that yields, dampers and bending.
 TEST(FastBodyThreads, ChangeNoBit) {
   const auto run = [](int num_threads) {
-    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 4);
-    tbb::task_arena arena(num_threads);
-    Matrix3X<double> result;
-    arena.execute([&] {
-      EXPECT_EQ(tbb::this_task_arena::max_concurrency(), num_threads);
+    return with_threads(num_threads, [&] {
+      EXPECT_EQ(weft::num_threads(), num_threads);
       Scene scene(cloth(50, 1, 0.23),
                   {kGravity, law("tension", "stiffness", 500), law("spring_damping", "damping", 1),
                    law("hinge_torsion", "rigidity", 1e-4)},
@@ -25,9 +22,8 @@ TEST(FastBodyThreads, ChangeNoBit) {
       scene.add(std::make_shared<btSphereShape>(btScalar(0.1)), 0.3, at(0.3, 0.35, 0));
       scene.step(10);
       EXPECT_GT(scene.solver().num_contacts(scene.body()), 100);
-      result = scene.positions();
+      return scene.positions();
     });
-    return result;
   };
   const Matrix3X<double> alone = run(1);
   for (const int num_threads : {2, 4}) EXPECT_EQ(run(num_threads), alone) << num_threads;

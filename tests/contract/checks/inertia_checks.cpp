@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstring>
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 #include <Eigen/Geometry>
+
+#include <weft/core/parallel/threads.hpp>
 
 #include "tests/contract/evaluate.hpp"
 
@@ -206,14 +206,11 @@ template <class Scalar>
 Measurement inertia_repeats_bit_for_bit(const Subject& subject) {
   const Setup<Scalar> setup(subject, with_pins(subject.large_mesh()));
   const Matrix3X<Scalar> forces = setup.directions(3);
-  const auto with_threads = [&](int threads) {
-    const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(threads));
-    tbb::task_arena arena(threads);
-    return arena.execute([&] { return setup.redistributed(forces); });
+  const auto with = [&](int threads) {
+    return with_threads(threads, [&] { return setup.redistributed(forces); });
   };
-  const Matrix3X<Scalar> first = with_threads(1);
-  return {changed_entries(first, with_threads(1)) + changed_entries(first, with_threads(4)), 0.0,
+  const Matrix3X<Scalar> first = with(1);
+  return {changed_entries(first, with(1)) + changed_entries(first, with(4)), 0.0,
           "entries that change when repeated"};
 }
 

@@ -4,8 +4,7 @@
 #include <cstring>
 #include <numeric>
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
+#include <weft/core/parallel/threads.hpp>
 
 #include "tests/contract/evaluate.hpp"
 
@@ -142,17 +141,13 @@ Measurement threads_change_no_bit(const Subject& subject) {
   const ClothMesh mesh = subject.large_mesh();
   const auto law = subject.make<Scalar>(mesh);
   const Sample<Scalar> sample = cast<Scalar>(deformed(mesh, Deformation::kMixed));
-  const auto with_threads = [&](int threads) {
-    // The control lifts the limit of the machine's cores, the arena asks for the threads.
-    const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(threads));
-    tbb::task_arena arena(threads);
-    return arena.execute([&] { return everything(*law, sample); });
+  const auto with = [&](int threads) {
+    return with_threads(threads, [&] { return everything(*law, sample); });
   };
-  const Matrix3X<Scalar> expected = with_threads(1);
+  const Matrix3X<Scalar> expected = with(1);
   double count = 0;
   for (const int threads : {2, 4, 4, 4}) {
-    count += different_bits(expected, with_threads(threads));
+    count += different_bits(expected, with(threads));
   }
   return {count, 0.0, "entries that change with the number of threads"};
 }

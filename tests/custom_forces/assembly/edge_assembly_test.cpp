@@ -1,3 +1,4 @@
+#include <weft/core/parallel/threads.hpp>
 #include <weft/custom_forces/assembly/edge_assembly.hpp>
 
 #include <cstring>
@@ -5,8 +6,6 @@
 #include <random>
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <weft/core/error.hpp>
 #include <weft/mesh/cloth_grid.hpp>
@@ -96,12 +95,11 @@ TEST(EdgeAssembly, CopesWithLoopsOneEdgeAndNone) {
 
 template <class Scalar>
 void expect_same_bits_for_all_threads(const EdgeAssembly& assembly) {
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 8);
   Matrix3X<Scalar> one;
-  tbb::task_arena(1).execute([&] { one = sum<Scalar>(assembly); });
+  with_threads(1, [&] { one = sum<Scalar>(assembly); });
   for (const int threads : {2, 3, 8}) {
     Matrix3X<Scalar> several;
-    tbb::task_arena(threads).execute([&] { several = sum<Scalar>(assembly); });
+    with_threads(threads, [&] { several = sum<Scalar>(assembly); });
     EXPECT_EQ(std::memcmp(one.data(), several.data(),
                           static_cast<std::size_t>(one.size()) * sizeof(Scalar)),
               0)

@@ -19,10 +19,10 @@
 #include <string>
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 #include <CLI/CLI.hpp>
 
 #include <weft/core/error.hpp>
+#include <weft/core/parallel/threads.hpp>
 #include <weft/engines/engine_table.hpp>
 #include <weft/scenes/format/scene_file.hpp>
 
@@ -118,8 +118,7 @@ Result run_in_child(const Options& options, std::uint64_t seed, const EngineInfo
     setrlimit(RLIMIT_CORE, &core);
     // A process that waits for ever uses no processor time.
     alarm(static_cast<unsigned>(30 * options.budget));
-    const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-    const Result result = run_here(options, seed, engine);
+    const Result result = with_threads(1, [&] { return run_here(options, seed, engine); });
     const bool is_written = write(pipe_ends[1], result.text.data(), result.text.size()) >= 0;
     _exit(is_written ? result.outcome : kBroken);
   }

@@ -7,10 +7,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
+#include <weft/core/parallel/parallel_for.hpp>
+#include <weft/core/parallel/threads.hpp>
 #include <weft/fast_solver/threads/worker_team.hpp>
 
 namespace weft::fast {
@@ -63,9 +62,7 @@ std::atomic<bool> parts_sleep = false;
 // Each loop has other values, and what they are is known to nobody but its work; until a worker has done a part.
 template <class Value, class Make>
 void expect_work_arrives(const Make& make) {
-  const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
-  tbb::task_arena arena(2);
-  arena.execute([&] {
+  with_threads(2, [&] {
     WorkerTeam team;
     const WorkerTeam::Scope scope(team, 2);
     std::array<long, 8> sums{};
@@ -114,10 +111,8 @@ TEST(WorkerTeam, HelpersGetWorkThatIsNotTrivialToCopy) {
 
 // The first part waits for somebody else to begin the second, in one of many loops: a worker may come late.
 TEST(WorkerTeam, IsHelped) {
-  const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
-  tbb::task_arena arena(2);
   bool is_helped = false;
-  arena.execute([&] {
+  with_threads(2, [&] {
     WorkerTeam team;
     const WorkerTeam::Scope scope(team, 2);
     for (int loop = 0; loop < 1000 && !is_helped; ++loop) {
@@ -171,9 +166,7 @@ int times_alone_after_stop(WorkerTeam& team) {
 }
 
 TEST(WorkerTeam, IsAloneTwiceAsOftenAfterEachStop) {
-  const tbb::global_control two(tbb::global_control::max_allowed_parallelism, 2);
-  tbb::task_arena arena(2);
-  arena.execute([&] {
+  with_threads(2, [&] {
     WorkerTeam team;
     EXPECT_EQ(times_alone(team), 0);
     for (const int expected : {8, 16, 32}) EXPECT_EQ(times_alone_after_stop(team), expected);
@@ -210,7 +203,7 @@ TEST(WorkerTeam, IsOpenAgainAfterAPause) {
       const WorkerTeam::Pause pause(team);
       ASSERT_EQ(team.num_threads(), 1);
       std::atomic<int> sum = 0;
-      tbb::parallel_for(0, 10, [&](int i) { sum += i; });
+      parallel_for(10, [&](std::size_t i) { sum += static_cast<int>(i); });
       ASSERT_EQ(sum, 45);
     }
     num_open += team.num_threads() == 3 ? 1 : 0;
@@ -222,9 +215,7 @@ TEST(WorkerTeam, IsOpenAgainAfterAPause) {
 // A worker that comes before the first loop may not look at the last one of the time before, when the caller had more parts
 // of its own.
 TEST(WorkerTeam, BeginsNothingOfTheTimeBefore) {
-  const tbb::global_control four(tbb::global_control::max_allowed_parallelism, 4);
-  tbb::task_arena arena(4);
-  arena.execute([] {
+  with_threads(4, [] {
     WorkerTeam team;
     std::array<std::atomic<int>, 10> counts{};
     int expected = 0;
@@ -244,18 +235,19 @@ TEST(WorkerTeam, BeginsNothingOfTheTimeBefore) {
 }
 
 TEST(WorkerTeam, NeedsNoHelper) {
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  WorkerTeam team;
-  const WorkerTeam::Scope scope(team, 4);
-  WorkerTeam alone;
-  EXPECT_EQ(chain(team, 8, 100), chain(alone, 8, 100));
+  with_threads(1, [] {
+    WorkerTeam team;
+    const WorkerTeam::Scope scope(team, 4);
+    WorkerTeam alone;
+    EXPECT_EQ(chain(team, 8, 100), chain(alone, 8, 100));
+  });
 }
 
 TEST(WorkerTeam, ManyWorkAtTheSameTime) {
   WorkerTeam alone;
   const std::vector<long> expected = chain(alone, 6, 300);
   std::array<std::vector<long>, 10> results;
-  tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t i) {
+  parallel_for(results.size(), [&](std::size_t i) {
     WorkerTeam team;
     const WorkerTeam::Scope scope(team, 3);
     results[i] = chain(team, 6, 300);

@@ -6,11 +6,10 @@
 #include <string>
 #include <string_view>
 
-#include <tbb/task_arena.h>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <weft/core/parallel/threads.hpp>
 #include <weft/engines/engine_table.hpp>
 #include <weft/scenes/catalog.hpp>
 #include <weft/scenes/format/scene_file.hpp>
@@ -151,8 +150,8 @@ TEST_P(TornScene, TheSameBitsForAnyNumberOfThreads) {
   const Scene scene = small_tear();
   std::vector<SceneState> one;
   std::vector<SceneState> four;
-  tbb::task_arena(1).execute([&] { one = run(GetParam(), scene); });
-  tbb::task_arena(4).execute([&] { four = run(GetParam(), scene); });
+  with_threads(1, [&] { one = run(GetParam(), scene); });
+  with_threads(4, [&] { four = run(GetParam(), scene); });
   ASSERT_EQ(one.size(), four.size());
   for (std::size_t i = 0; i < one.size(); ++i) ASSERT_TRUE(same_bits(one[i], four[i])) << i;
   EXPECT_EQ(one.back().cloths[0].topology->triangles, four.back().cloths[0].topology->triangles);

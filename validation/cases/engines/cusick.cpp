@@ -12,8 +12,8 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
+#include <weft/core/parallel/parallel_for.hpp>
 #include <weft/custom_forces/registry.hpp>
 #include <weft/mesh/surface_body.hpp>
 #include <weft/validation/cases/support/engine_cases.hpp>
@@ -209,7 +209,7 @@ struct Statistics {
 
 Statistics statistics(const Fabric& fabric, const CusickRing& ring, int num_seeds = kSeeds) {
   std::vector<Drape> drapes(static_cast<std::size_t>(num_seeds));
-  tbb::parallel_for(std::size_t{0}, drapes.size(), [&](std::size_t i) {
+  parallel_for(drapes.size(), [&](std::size_t i) {
     drapes[i] = drape_once(fabric, ring, static_cast<std::uint32_t>(1 + i));
   });
   Statistics result;
