@@ -17,7 +17,7 @@ using Kind = SetUpWarning::Kind;
 
 constexpr double kDegrees = 57.29577951308232;
 
-std::string number(double value) {
+std::string short_text(double value) {
   char text[32];
   (void)std::snprintf(text, sizeof text, "%.3g", value);
   return text;
@@ -47,12 +47,12 @@ class Warnings {
   void look_at_steps() {
     if (set_up_.is_always_stable) return look_at_stiffness();
     if (set_up_.laws.empty()) return;
-    const double stable = set_up_.stable_time_step
-                              ? *set_up_.stable_time_step
-                              : critical_time_step(set_up_.mesh, set_up_.laws);
+    const double stable = set_up_.stable_time_step ? *set_up_.stable_time_step
+                                                   : critical_time_step(set_up_.mesh, set_up_.laws);
     if (!(set_up_.time_step > stable)) return;
     add(Kind::kUnstableStep,
-        "the time step " + number(set_up_.time_step) + " s is longer than " + number(stable) +
+        "the time step " + short_text(set_up_.time_step) + " s is longer than " +
+            short_text(stable) +
             " s, up to which explicit springs are stable at the rest shape: the cloth will blow "
             "up; take shorter steps, softer springs, or an implicit solver");
   }
@@ -77,9 +77,9 @@ class Warnings {
     const double share = largest * set_up_.time_step * set_up_.time_step;
     if (!(share > set_up_.most_stiffness)) return;
     add(Kind::kSofterSprings,
-        "springs have k h^2 / m = " + number(share) + ", and steps are solved with at most " +
-            number(set_up_.most_stiffness) + ": they will be " +
-            number(share / set_up_.most_stiffness) +
+        "springs have k h^2 / m = " + short_text(share) + ", and steps are solved with at most " +
+            short_text(set_up_.most_stiffness) + ": they will be " +
+            short_text(share / set_up_.most_stiffness) +
             " times as soft; take shorter steps, heavier nodes or double precision");
   }
 
@@ -102,9 +102,9 @@ class Warnings {
       add(Kind::kSharpTriangles,
           std::to_string(quality_.num_sharp) + " of " +
               std::to_string(set_up_.mesh.triangles.cols()) + " triangles have an angle below " +
-              number(kSharpAngle * kDegrees) + " degrees, triangle " +
+              short_text(kSharpAngle * kDegrees) + " degrees, triangle " +
               std::to_string(quality_.sharpest) + " one of " +
-              number(quality_.smallest_angle * kDegrees) +
+              short_text(quality_.smallest_angle * kDegrees) +
               ": their short edges limit the time step and spoil bending; mesh the surface anew");
     }
     if (!set_up_.is_single_precision || set_up_.mesh.num_nodes() == 0) return;
@@ -112,35 +112,38 @@ class Warnings {
     const double rounding = farthest * std::numeric_limits<float>::epsilon() / 2;
     if (!(quality_.shortest_edge > 0 && rounding > kLargestRounding * quality_.shortest_edge))
       return;
-    add(Kind::kFarFromOrigin,
-        "nodes are up to " + number(farthest) + " m from the origin, where single precision has " +
-            number(rounding) + " m, beside edges of " + number(quality_.shortest_edge) +
-            " m; move the scene to the origin or take double precision");
+    add(Kind::kFarFromOrigin, "nodes are up to " + short_text(farthest) +
+                                  " m from the origin, where single precision has " +
+                                  short_text(rounding) + " m, beside edges of " +
+                                  short_text(quality_.shortest_edge) +
+                                  " m; move the scene to the origin or take double precision");
   }
 
   void look_at(const SetUpCollider& collider) {
     const double half = collider.least_half_extent;
     const double middle = collider.middle_half_extent;
     if (middle + set_up_.margin < quality_.largest_gap) {
-      add(Kind::kGapBetweenNodes, "'" + collider.name + "', " + number(2 * middle) +
+      add(Kind::kGapBetweenNodes, "'" + collider.name + "', " + short_text(2 * middle) +
                                       " m wide, may pass between nodes, which leave room for " +
-                                      number(2 * quality_.largest_gap) + " m; with a margin of " +
-                                      number(set_up_.margin) +
+                                      short_text(2 * quality_.largest_gap) +
+                                      " m; with a margin of " + short_text(set_up_.margin) +
                                       " m on each side that takes a finer mesh or a larger margin");
     }
     const double way = (set_up_.speed + collider.speed) * set_up_.time_step;
     if (!set_up_.is_swept && way > 2 * (half + set_up_.margin)) {
       add(Kind::kThinCollider,
-          "'" + collider.name + "', " + number(2 * half) + " m thin, and the cloth come " +
-              number(way) + " m towards each other in a step of " + number(set_up_.time_step) +
+          "'" + collider.name + "', " + short_text(2 * half) + " m thin, and the cloth come " +
+              short_text(way) + " m towards each other in a step of " +
+              short_text(set_up_.time_step) +
               " s, and contacts are looked for at its end only; take shorter steps");
     }
     if (!collider.mass || set_up_.mesh.masses.size() == 0) return;
     const double ratio = *collider.mass / set_up_.mesh.masses.sum();
     if (ratio > kLargestMassRatio || ratio * kLargestMassRatio < 1) {
-      add(Kind::kMassRatio, "'" + collider.name + "' has " + number(ratio) +
+      add(Kind::kMassRatio, "'" + collider.name + "' has " + short_text(ratio) +
                                 " times the mass of the cloth, which no test covers; expected " +
-                                number(1 / kLargestMassRatio) + " to " + number(kLargestMassRatio));
+                                short_text(1 / kLargestMassRatio) + " to " +
+                                short_text(kLargestMassRatio));
     }
   }
 
@@ -151,14 +154,14 @@ class Warnings {
     if ((meets_itself || set_up_.meets_cloth) && set_up_.time_step > longest * (1 + 1e-6)) {
       add(Kind::kLayersInLongSteps,
           std::string(set_up_.meets_cloth ? "layers of cloths" : "a cloth that meets itself") +
-              " may be thrown about in steps of " + number(set_up_.time_step) +
-              " s; expected at most " + number(longest) + " s");
+              " may be thrown about in steps of " + short_text(set_up_.time_step) +
+              " s; expected at most " + short_text(longest) + " s");
     }
     // Contact is of nodes with faces: a node is caught by a face before edges of the two layers have passed each other.
     if (meets_itself && set_up_.layer_distance < quality_.shortest_edge / 2) {
-      add(Kind::kThinLayers, "layers keep " + number(set_up_.layer_distance) +
+      add(Kind::kThinLayers, "layers keep " + short_text(set_up_.layer_distance) +
                                  " m from each other, less than half of the shortest edge, " +
-                                 number(quality_.shortest_edge) +
+                                 short_text(quality_.shortest_edge) +
                                  " m: their edges may pass each other; take a larger thickness or "
                                  "a finer mesh");
     }
@@ -171,7 +174,7 @@ class Warnings {
     const double strength = set_up_.world_gravity.norm();
     if (!has_law || !(strength > 0)) return;
     add(Kind::kGravityTwice,
-        "a gravity law acts beside the gravity of the world, " + number(strength) +
+        "a gravity law acts beside the gravity of the world, " + short_text(strength) +
             " m/s^2: both pull; leave out the law, or set the world's to zero");
   }
 
@@ -192,7 +195,7 @@ std::string_view name_of(SetUpWarning::Kind kind) {
 
 std::vector<SetUpWarning> find_warnings(const ClothSetUp& set_up) {
   if (!(set_up.time_step > 0) || !std::isfinite(set_up.time_step)) {
-    throw InvalidArgument("warnings: time_step = " + number(set_up.time_step) +
+    throw InvalidArgument("warnings: time_step = " + short_text(set_up.time_step) +
                           " s, expected > 0 and finite");
   }
   return Warnings(set_up).find();

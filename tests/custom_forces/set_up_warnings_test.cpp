@@ -19,7 +19,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double kSpacing = 0.1;  ///< of nodes [m]
+constexpr double kEdge = 0.1;  ///< of nodes [m]
 constexpr double kMass = 0.36;    ///< 10 g a node [kg]
 constexpr double kJustBelow = 1 - 1e-6;
 constexpr double kJustAbove = 1 + 1e-6;
@@ -31,7 +31,7 @@ LawSpecification springs(double stiffness) {
 /// 6 x 6 nodes, which nothing is wrong with.
 ClothSetUp good() {
   return {.mesh = make_cloth_grid({.nodes = {6, 6},
-                                   .size = {5 * kSpacing, 5 * kSpacing},
+                                   .size = {5 * kEdge, 5 * kEdge},
                                    .total_mass = kMass,
                                    .lumping = MassLumping::kUniform}),
           .laws = {springs(100)},
@@ -97,7 +97,7 @@ TEST(SetUpWarnings, SharpTrianglesAreCounted) {
 
 TEST(SetUpWarnings, AColliderThatFitsBetweenNodesIsNamed) {
   ClothSetUp set_up = good();
-  const double gap = kSpacing / std::sqrt(2.0);  // from the middle of a cell to its nodes
+  const double gap = kEdge / std::sqrt(2.0);  // from the middle of a cell to its nodes
   set_up.colliders = {{.name = "pin", .middle_half_extent = kJustAbove * gap - set_up.margin}};
   EXPECT_THAT(kinds_of(set_up), IsEmpty());
   set_up.colliders[0].middle_half_extent = kJustBelow * gap - set_up.margin;
@@ -132,14 +132,14 @@ TEST(SetUpWarnings, MassRatiosThatNoTestCoversAreNamed) {
 TEST(SetUpWarnings, LayersWantShortStepsAndAThicknessOfHalfAnEdge) {
   ClothSetUp set_up = good();
   set_up.laws.clear();
-  set_up.layer_distance = kJustAbove * kSpacing / 2;
+  set_up.layer_distance = kJustAbove * kEdge / 2;
   set_up.time_step = static_cast<double>(1.0F / 150);
   EXPECT_THAT(kinds_of(set_up), IsEmpty());
   set_up.meets_cloth = true;
   EXPECT_THAT(kinds_of(set_up), ElementsAre(Kind::kLayersInLongSteps));
   set_up.time_step = 1.0 / 250;
   EXPECT_THAT(kinds_of(set_up), IsEmpty());
-  set_up.layer_distance = kJustBelow * kSpacing / 2;
+  set_up.layer_distance = kJustBelow * kEdge / 2;
   EXPECT_THAT(kinds_of(set_up), ElementsAre(Kind::kThinLayers));
 }
 
