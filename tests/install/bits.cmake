@@ -7,7 +7,10 @@ set(in_units -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=30 -DWEFT_PRE
 set(no_oneTBB -DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON)
 
 function(run)
-  execute_process(COMMAND ${ARGN} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE code)
+  if(NOT code EQUAL 0)
+    message(FATAL_ERROR "${ARGN} ends with ${code}: ${output}")
+  endif()
 endfunction()
 
 # What the program prints, into the variable result; its threads must come from the given library.

@@ -51,7 +51,8 @@ std::uint64_t run() {
   world.addSoftBody(implicit.get());
   world.addSoftBody(explicit_body.get());
   btSphereShape shape(btScalar(0.1));
-  btRigidBody ball({btScalar(0.2), nullptr, &shape, btVector3(1, 1, 1)});
+  btRigidBody ball(
+      btRigidBody::btRigidBodyConstructionInfo(btScalar(0.2), nullptr, &shape, btVector3(1, 1, 1)));
   ball.setWorldTransform(btTransform(btQuaternion::getIdentity(), btVector3(0, btScalar(0.12), 0)));
   world.addRigidBody(&ball);
 
