@@ -1,6 +1,6 @@
 #pragma once
 
-// Tested by tests/fast_solver/coarse/coarse_correction_test.cpp, tests/fast_solver/torn_network_test.cpp.
+// Tested by tests/fast_solver/threads/node_partition_test.cpp, tests/fast_solver/torn_network_test.cpp.
 
 #include <algorithm>
 #include <cstdint>
@@ -19,12 +19,16 @@ class NodePartition {
  public:
   NodePartition() = default;
   explicit NodePartition(int num_nodes)
-      : num_cache_lines_(padded_size(num_nodes) / kNodesPerCacheLine),
-        count_(std::clamp((num_cache_lines_ + kCacheLinesPerRange / 2) / kCacheLinesPerRange, 1,
+      : num_blocks_((num_nodes + kNodeBlock - 1) / kNodeBlock),
+        count_(std::clamp((num_cache_lines() + kCacheLinesPerRange / 2) / kCacheLinesPerRange, 1,
                           WorkerTeam::kMostParts)) {}
 
   [[nodiscard]] int count() const { return count_; }
-  [[nodiscard]] NodeRange operator[](int part) const { return {first(part), first(part + 1)}; }
+  /// The last one ends with the last block of nodes: what pads a line of the cache behind it is zero, and as much work as the
+  /// nodes themselves if there are few.
+  [[nodiscard]] NodeRange operator[](int part) const {
+    return {first(part), std::min(first(part + 1), num_blocks_ * kNodeBlock)};
+  }
 
  private:
   /// 640 nodes: some microseconds of each loop, ten times what it takes threads to wait for each other.
@@ -32,11 +36,14 @@ class NodePartition {
   static_assert(kFewestToShare ==
                 (kCacheLinesPerRange + kCacheLinesPerRange / 2) * kNodesPerCacheLine);
 
+  [[nodiscard]] int num_cache_lines() const {
+    return padded_size(num_blocks_ * kNodeBlock) / kNodesPerCacheLine;
+  }
   [[nodiscard]] int first(int part) const {
-    return static_cast<int>(std::int64_t{num_cache_lines_} * part / count_) * kNodesPerCacheLine;
+    return static_cast<int>(std::int64_t{num_cache_lines()} * part / count_) * kNodesPerCacheLine;
   }
 
-  int num_cache_lines_ = 0;
+  int num_blocks_ = 0;
   int count_ = 1;
 };
 
