@@ -55,7 +55,7 @@ class ClothEmbedding {
   [[nodiscard]] const EmbeddingReport& report() const { return report_; }
   [[nodiscard]] int num_nodes() const { return frames_.num_nodes(); }
   [[nodiscard]] int num_vertices() const { return static_cast<int>(bound_.size()); }
-  /// Of the drawn mesh, 3 x t.
+  /// Triangles of the drawn mesh, 3 x t.
   [[nodiscard]] const Triangles& drawn_triangles() const { return drawn_triangles_; }
   /// Vertices of the DrawnMesh that the vertices beyond its number are copies of: a tear needs them.
   [[nodiscard]] const std::vector<int>& copied_vertices() const { return copied_; }

@@ -19,7 +19,7 @@ namespace weft {
 namespace {
 
 /// Rounding of some tens of operations on lengths of about 1 m.
-constexpr double kRounding = 1e-14;
+constexpr double kEmbeddingRounding = 1e-14;
 
 /// Points around a coarse ball, up to 5 cm off its surface of radius 0.5 m, with random directions for normals and tangents.
 DrawnMesh cloud_around_ball(int num_points) {
@@ -54,9 +54,9 @@ TEST(ClothEmbedding, AtRestEveryVertexIsWhereTheDrawnMeshHasIt) {
   const ClothPose pose = pose_of(embedding, ball.rest_positions);
   for (int v = 0; v < embedding.num_vertices(); ++v) {
     const DrawnVertex vertex = embedding.vertex(pose, v);
-    EXPECT_LT((vertex.position - cloud.positions.col(v)).norm(), kRounding) << v;
-    EXPECT_LT((vertex.normal - cloud.normals.col(v)).norm(), kRounding) << v;
-    EXPECT_LT((vertex.tangent - cloud.tangents.col(v)).norm(), kRounding) << v;
+    EXPECT_LT((vertex.position - cloud.positions.col(v)).norm(), kEmbeddingRounding) << v;
+    EXPECT_LT((vertex.normal - cloud.normals.col(v)).norm(), kEmbeddingRounding) << v;
+    EXPECT_LT((vertex.tangent - cloud.tangents.col(v)).norm(), kEmbeddingRounding) << v;
   }
 }
 
@@ -72,9 +72,10 @@ TEST(ClothEmbedding, RigidMotionMovesEveryVertexAsTheBody) {
   const ClothPose pose = pose_of(embedding, moved);
   for (int v = 0; v < embedding.num_vertices(); ++v) {
     const DrawnVertex vertex = embedding.vertex(pose, v);
-    EXPECT_LT((vertex.position - turn * cloud.positions.col(v) - shift).norm(), kRounding) << v;
-    EXPECT_LT((vertex.normal - turn * cloud.normals.col(v)).norm(), kRounding) << v;
-    EXPECT_LT((vertex.tangent - turn * cloud.tangents.col(v)).norm(), kRounding) << v;
+    EXPECT_LT((vertex.position - turn * cloud.positions.col(v) - shift).norm(), kEmbeddingRounding)
+        << v;
+    EXPECT_LT((vertex.normal - turn * cloud.normals.col(v)).norm(), kEmbeddingRounding) << v;
+    EXPECT_LT((vertex.tangent - turn * cloud.tangents.col(v)).norm(), kEmbeddingRounding) << v;
   }
 }
 
@@ -89,7 +90,7 @@ TEST(ClothEmbedding, StretchInThePlaneIsExactAndKeepsTheThickness) {
   const ClothPose pose = pose_of(embedding, stretch * cloth.rest_positions);
   for (int v = 0; v < embedding.num_vertices(); ++v) {
     EXPECT_LT((embedding.vertex(pose, v).position - stretch * sheet.positions.col(v)).norm(),
-              kRounding);
+              kEmbeddingRounding);
   }
 }
 
@@ -218,10 +219,10 @@ TEST(ClothEmbedding, ButtonsKeepTheirShapeAndTurnWithTheCloth) {
   const Matrix3X<double> drawn = drawn_positions(embedding, pose_of(embedding, stretched));
   const Matrix3X<double> soft = drawn_positions(bends, pose_of(bends, stretched));
   const auto width = [](const Matrix3X<double>& p) { return (p.col(0) - p.col(20)).norm(); };
-  EXPECT_NEAR(width(drawn), width(button.positions), kRounding);
+  EXPECT_NEAR(width(drawn), width(button.positions), kEmbeddingRounding);
   EXPECT_NEAR(width(soft), 1.5 * width(button.positions), 1e-6);
   // The middle of the piece is led as any vertex there.
-  EXPECT_LT((drawn.col(12) - soft.col(12)).norm(), kRounding);
+  EXPECT_LT((drawn.col(12) - soft.col(12)).norm(), kEmbeddingRounding);
   EXPECT_LT((drawn.col(12) - on_cylinder({0.13, 0.004, 0}, 0.3)).norm(), 2e-3);
 }
 
