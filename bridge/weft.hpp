@@ -9,6 +9,7 @@
 #include <weft/bridge/adoption/adoption.hpp>
 #include <weft/bridge/cloth.hpp>
 #include <weft/bridge/cloth_body.hpp>
+#include <weft/bridge/drawn_body.hpp>
 #include <weft/bridge/fast_settings.hpp>
 #include <weft/bridge/snapshot.hpp>
 #include <weft/bridge/soft_world.hpp>

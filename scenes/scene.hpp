@@ -18,6 +18,7 @@
 #include <weft/scenes/cloth_source.hpp>
 #include <weft/scenes/cloth_tear.hpp>
 #include <weft/scenes/controllers/controller_settings.hpp>
+#include <weft/scenes/drawn_cloth.hpp>
 #include <weft/scenes/motion/path.hpp>
 #include <weft/scenes/reference_settings.hpp>
 #include <weft/scenes/shapes/shapes.hpp>
@@ -117,6 +118,7 @@ struct Cloth {
   [[nodiscard]] ClothGrid& grid();
   [[nodiscard]] const ClothGrid& grid() const;
   Appearance appearance = {};
+  std::optional<DrawnCloth> drawn_mesh = std::nullopt;  ///< none: its own triangles are drawn
 };
 
 /// A rigid collider; with a mass it is a dynamic rigid body that the cloth pushes back.

@@ -46,7 +46,46 @@ std::vector<ExchangeBody> exchange_bodies(const Scene& scene) {
   return bodies;
 }
 
+std::vector<ExchangeBody> drawn_bodies(const Scene& scene,
+                                       const std::vector<ExchangeBody>& bodies) {
+  std::set<std::string> names;
+  for (const ExchangeBody& body : bodies) names.insert(body.file_name);
+  std::vector<ExchangeBody> drawn;
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+    const Cloth& cloth = scene.cloths[i];
+    if (!cloth.drawn_mesh) continue;
+    const Surface& surface = *cloth.drawn_mesh->surface;
+    ExchangeBody& body = drawn.emplace_back();
+    body.name = cloth.name + "-drawn";
+    body.file_name = claim(names, body.name);
+    body.index = i;
+    body.mesh.rest_positions = surface.positions;
+    body.mesh.triangles = surface.triangles;
+    body.mesh.corner_texture_coordinates = surface.corner_texture_coordinates;
+    const ClothMesh leader = make_mesh(cloth);
+    body.embedding = std::make_shared<const ClothEmbedding>(
+        leader.rest_positions, leader.triangles, DrawnMesh{surface.positions, surface.triangles},
+        cloth.drawn_mesh->embedding);
+  }
+  return drawn;
+}
+
+namespace {
+
+Matrix3X<double> led_positions(const ClothEmbedding& embedding, const ClothState& cloth) {
+  ClothPose pose = embedding.make_pose();
+  embedding.set_pose(cloth.positions, pose);
+  Matrix3X<double> positions(3, embedding.num_vertices());
+  for (int v = 0; v < embedding.num_vertices(); ++v) {
+    positions.col(v) = embedding.vertex(pose, v).position;
+  }
+  return positions;
+}
+
+}  // namespace
+
 Matrix3X<double> world_positions(const ExchangeBody& body, const SceneState& state) {
+  if (body.embedding) return led_positions(*body.embedding, state.cloths[body.index]);
   if (!body.is_rigid) return state.cloths[body.index].positions;
   const RigidState& rigid = state.rigids[body.index];
   return (rigid.orientation.toRotationMatrix() * body.mesh.rest_positions).colwise() +

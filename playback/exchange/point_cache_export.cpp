@@ -59,7 +59,9 @@ PointCacheReport export_point_caches(const RecordingReader& reader,
   PointCacheReport report;
   report.frame_interval = frame_interval(reader);
   report.num_samples = reader.num_frames();
-  const std::vector<ExchangeBody> bodies = exchange_bodies(reader.scene());
+  std::vector<ExchangeBody> bodies = exchange_bodies(reader.scene());
+  const std::vector<ExchangeBody> drawn = drawn_bodies(reader.scene(), bodies);
+  bodies.insert(bodies.end(), drawn.begin(), drawn.end());
   std::vector<PointCache> caches(bodies.size());
   for (int frame = 0; frame < reader.num_frames(); ++frame) {
     const SceneState state = reader.frame(frame);

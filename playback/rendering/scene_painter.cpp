@@ -86,7 +86,11 @@ ScenePainter::ScenePainter(const Scene& scene, std::unique_ptr<GlContext> contex
   for (std::size_t i = 0; i < scene_.cloths.size(); ++i) {
     const ClothMesh& mesh = meshes_.emplace_back(make_mesh(scene_.cloths[i]));
     layouts_.emplace_back(mesh);
-    cloth_paints_.push_back(cloth_paint(gl_, scene_, i, layouts_.back().whole().has_coordinates));
+    const auto& drawn = scene_.cloths[i].drawn_mesh;
+    drawings_.push_back(drawn ? std::make_unique<ClothDrawing>(*drawn, mesh) : nullptr);
+    const bool has_coordinates = drawn ? drawings_.back()->layout().has_coordinates
+                                       : layouts_.back().whole().has_coordinates;
+    cloth_paints_.push_back(cloth_paint(gl_, scene_, i, has_coordinates));
     cloths_.emplace_back(gl_);
   }
   for (const Collider& collider : scene_.colliders) {
@@ -157,10 +161,19 @@ void ScenePainter::draw(const SceneState& state, const RenderOptions& options,
   }
 }
 
+/// Values and edges are those of the simulated cloth: the other styles show it.
+bool ScenePainter::is_drawn_fine(std::size_t cloth, const RenderOptions& options) const {
+  return drawings_[cloth] && options.style == SurfaceStyle::kShaded;
+}
+
 void ScenePainter::upload_cloths(const SceneState& state, const RenderOptions& options,
                                  const ScalarField* scalar, const ColorMap* map) {
   const DrawLimits limits{stage_.center, kLargestDistance * stage_.radius};
   for (std::size_t i = 0; i < meshes_.size(); ++i) {
+    if (is_drawn_fine(i, options)) {
+      cloths_[i].upload(drawn_surface(*drawings_[i], state.cloths[i], limits));
+      continue;
+    }
     const double rope = std::max(scene_.cloths[i].collision_margin, kThinnestRope * stage_.radius);
     SurfaceMesh mesh = cloth_surface(layouts_[i].of(meshes_[i], state.cloths[i]),
                                      state.cloths[i].positions, rope, limits);
@@ -322,7 +335,9 @@ void ScenePainter::draw_cloths(const Picture& picture) const {
       // Thin light lines on white paper would hardly be seen.
       paint.back *= 0.6f;
     }
-    const bool has_inside = layouts_[i].whole().is_closed || layouts_[i].whole().rope.cols() > 0;
+    const bool has_inside = is_drawn_fine(i, options) ? drawings_[i]->layout().is_closed
+                                                      : layouts_[i].whole().is_closed ||
+                                                            layouts_[i].whole().rope.cols() > 0;
     surface_program_.set("u_is_thin", has_inside || mode == SurfaceMode::kWireframe ? 0 : 1);
     paint.set(gl_, surface_program_, kTextureUnit);
     set_opacity(picture, options.ghosts && i >= options.ghosts->first_cloth);

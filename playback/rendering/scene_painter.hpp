@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include <weft/playback/rendering/meshes/cloth_drawing.hpp>
 #include <weft/playback/rendering/meshes/torn_layout.hpp>
 #include <weft/playback/rendering/opengl/gpu_mesh.hpp>
 #include <weft/playback/rendering/opengl/light_maps.hpp>
@@ -43,6 +44,7 @@ class ScenePainter {
             const ColorMap* map, Output& output);
   void upload_cloths(const SceneState& state, const RenderOptions& options,
                      const ScalarField* scalar, const ColorMap* map);
+  [[nodiscard]] bool is_drawn_fine(std::size_t cloth, const RenderOptions& options) const;
   void upload_scale(const ColorMap& map);
   void set_scalar(const ScalarField& scalar, std::size_t cloth, const ColorMap& map,
                   SurfaceMesh& mesh) const;
@@ -71,6 +73,8 @@ class ScenePainter {
   std::vector<GpuMesh> cloths_;
   std::vector<BodyPaint> body_paints_;
   std::vector<TornLayout> layouts_;
+  std::vector<std::unique_ptr<ClothDrawing>>
+      drawings_;  ///< null: the cloth's own triangles are drawn
   std::vector<BodyPaint> cloth_paints_;
   GLuint screen_ = 0;
   GLuint scale_ = 0;

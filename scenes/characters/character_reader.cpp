@@ -21,10 +21,12 @@ namespace {
 
 constexpr std::array<std::string_view, 9> kCharacterKeys = {
     "name", "file", "clip", "loop", "scale", "position", "orientation", "cloth", "collider"};
-constexpr std::array<std::string_view, 12> kPartKeys = {
-    "part",     "name",         "mass",  "areal_density",   "mass_lumping",    "collision_margin",
-    "friction", "max_distance", "paint", "backstop_radius", "backstop_offset", "law"};
+constexpr std::array<std::string_view, 13> kPartKeys = {
+    "part",      "name",         "mass",  "areal_density",   "mass_lumping",    "collision_margin",
+    "friction",  "max_distance", "paint", "backstop_radius", "backstop_offset", "law",
+    "drawn_mesh"};
 constexpr std::array<std::string_view, 2> kPaintKeys = {"color", "group"};
+constexpr std::array<std::string_view, 3> kDrawnKeys = {"part", "max_distance", "rigid_pieces"};
 constexpr std::array<std::string_view, 1> kBoneKeys = {"bone"};
 
 /// Runs what may refuse a name or a value of the model, and says where the scene asks for it.
@@ -125,6 +127,20 @@ std::vector<int> attached_nodes(const ReachSettings& reach, const SkinSource& so
   return nodes;
 }
 
+/// Parts of the model by their common name, which no other cloth has taken.
+std::vector<int> claim_parts(const TomlValue& part, const CharacterSettings& settings,
+                             std::vector<bool>& is_taken) {
+  const std::vector<int> parts =
+      at(part, [&] { return find_parts(settings.model->character, part.text()); });
+  for (const int p : parts) {
+    if (is_taken[static_cast<std::size_t>(p)]) {
+      part.fail("is a cloth already, expected another part");
+    }
+    is_taken[static_cast<std::size_t>(p)] = true;
+  }
+  return parts;
+}
+
 /// The source of some parts of the model as one body.
 SkinSource make_source(const CharacterSettings& settings, const std::vector<int>& parts,
                        bool is_cloth) {
@@ -138,19 +154,32 @@ SkinSource make_source(const CharacterSettings& settings, const std::vector<int>
   return source;
 }
 
+/// Its positions are those of the model's rest pose, as the rest positions of the cloth.
+DrawnCloth read_drawn_part(const TomlValue& value, const CharacterSettings& settings,
+                           std::vector<bool>& is_taken) {
+  const TomlTable table = value.table("a table such as { part = \"Cape fine\" }");
+  table.allow(kDrawnKeys);
+  const TomlValue part = table.require("part", "the name of a part of the model");
+  SkinSource source = make_source(settings, claim_parts(part, settings, is_taken), false);
+  if (source.part->triangles.cols() == 0) part.fail("has no triangles, expected a surface");
+  Surface surface;
+  surface.positions = rest_positions(source);
+  surface.triangles = source.part->triangles;
+  surface.corner_texture_coordinates = source.part->corner_texture_coordinates;
+  DrawnCloth drawn;
+  drawn.surface = std::make_shared<const Surface>(std::move(surface));
+  drawn.part = part.text();
+  drawn.embedding = read_embedding(table);
+  return drawn;
+}
+
 void read_part(const TomlTable& table, const World& world, CharacterSettings& settings,
                std::vector<bool>& is_taken, Scene& scene) {
   allow_with_appearance(table, kPartKeys);
   const TomlValue part = table.require("part", "the name of a part of the model");
   CharacterCloth entry;
   entry.part = part.text();
-  const std::vector<int> parts =
-      at(part, [&] { return find_parts(settings.model->character, entry.part); });
-  for (const int p : parts) {
-    if (is_taken[static_cast<std::size_t>(p)])
-      part.fail("is a cloth already, expected another part");
-    is_taken[static_cast<std::size_t>(p)] = true;
-  }
+  const std::vector<int> parts = claim_parts(part, settings, is_taken);
   Cloth cloth;
   const auto name = table.find("name");
   entry.cloth = cloth.name = name ? name->identifier() : scene_name(settings.name, entry.part);
@@ -170,6 +199,10 @@ void read_part(const TomlTable& table, const World& world, CharacterSettings& se
   }
   if (const auto value = table.find("friction")) cloth.friction = value->non_negative("1");
   cloth.appearance = read_appearance(table);
+  if (const auto value = table.find("drawn_mesh")) {
+    cloth.drawn_mesh = read_drawn_part(*value, settings, is_taken);
+    check_drawn_mesh(*value, cloth);
+  }
   read_laws(table, world, cloth);
   settings.cloths.push_back(std::move(entry));
   scene.cloths.push_back(std::move(cloth));

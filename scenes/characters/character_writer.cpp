@@ -50,6 +50,7 @@ void write_part(std::string& out, const CharacterCloth& entry, const Cloth& clot
   line(out, "friction", value_text(cloth.friction, "1"));
   write_reach(out, entry.reach);
   out += write_appearance(cloth.appearance);
+  if (cloth.drawn_mesh) write_drawn_mesh(out, *cloth.drawn_mesh);
   for (const forces::LawSpecification& law : cloth.laws) {
     write_law(out, "character.cloth.law", law);
   }

@@ -35,6 +35,9 @@ void write_source(std::string& out, const ClothSource& source);
 /// Adds a law as a table of this path, "cloth.law".
 void write_law(std::string& out, std::string_view path, const forces::LawSpecification& law);
 
+/// Adds the mesh that is drawn in place of a cloth.
+void write_drawn_mesh(std::string& out, const DrawnCloth& drawn);
+
 /// Adds the keys of a collider, without its header.
 void write_collider_keys(std::string& out, const Collider& collider);
 

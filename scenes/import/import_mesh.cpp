@@ -220,7 +220,9 @@ std::vector<NodeGroup> groups_of(const Draft& draft) {
 
 ImportedMesh import_mesh(const MeshInput& input, const ImportOptions& options) {
   const Draft draft = make_draft(input, options);
-  if (const std::optional<std::string> fault = draft.report.fault()) {
+  const std::optional<std::string> fault =
+      options.is_body ? draft.report.fault() : draft.report.drawing_fault();
+  if (fault) {
     throw ImportError(input.name, *fault);
   }
   ImportedMesh mesh;

@@ -23,6 +23,8 @@ struct ImportOptions {
   /// Vertices closer than this become one node [m], >= 0; none: a millionth of the mesh's diagonal,
   /// a few roundings of single precision.
   std::optional<double> weld_tolerance = std::nullopt;
+  /// Whether a body shall be made of the mesh. What is only drawn may branch, turn its fronts anywhere and have flat triangles.
+  bool is_body = true;
 };
 
 /// Nodes with a weight: a bone or vertex group of the file, or a part (weight 1 for its nodes).
@@ -44,7 +46,7 @@ struct ImportedMesh {
 /// place are welded.
 /// Throws ImportError, with the number of the face (from 0) and the name of its part, for what
 /// read_mesh_file() refuses, a part that is not there, positions that are not finite, and everything
-/// that MeshReport::fault() says.
+/// that MeshReport::fault() says; without is_body only a mesh without a triangle.
 [[nodiscard]] ImportedMesh import_mesh(const MeshInput& input, const ImportOptions& options = {});
 /// The same for mesh_input(file).
 [[nodiscard]] ImportedMesh import_mesh(const std::filesystem::path& file,

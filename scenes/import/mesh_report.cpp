@@ -50,12 +50,17 @@ double degrees(double angle) {
 
 }  // namespace
 
+std::optional<std::string> MeshReport::drawing_fault() const {
+  if (num_triangles == 0) return "has no triangle, expected a surface";
+  return std::nullopt;
+}
+
 std::optional<std::string> MeshReport::fault() const {
   if (!collapsed_faces.empty()) {
     return name_of(collapsed_faces[0], parts) +
            " has two corners at one place, expected three different ones";
   }
-  if (num_triangles == 0) return "has no triangle, expected a surface";
+  if (const std::optional<std::string> empty = drawing_fault()) return empty;
   if (!flat_faces.empty()) {
     return name_of(flat_faces[0], parts) + " has no area, expected a triangle with one";
   }

@@ -52,6 +52,8 @@ struct MeshReport {
   [[nodiscard]] bool is_closed() const { return num_triangles > 0 && boundary_edges == 0; }
   /// The first of the faults that a surface must not have, in one line; none if it has none.
   [[nodiscard]] std::optional<std::string> fault() const;
+  /// The same for a surface that is only drawn.
+  [[nodiscard]] std::optional<std::string> drawing_fault() const;
   /// Everything, line by line.
   [[nodiscard]] std::string text() const;
 };

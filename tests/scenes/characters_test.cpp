@@ -51,7 +51,7 @@ TEST(Characters, WhatTheModelDoesNotHaveIsAnErrorThatListsWhatItHas) {
       message_of(kStart + "file = \"caped_figure.glb\"\nclip = \"Run\"\n"),
       "figure.toml:11:8: character.clip = \"Run\": unknown clip 'Run', expected one of 'Walk'");
   EXPECT_THAT(message_of(kCharacter + "[[character.cloth]]\npart = \"Skirt\"\n"),
-              HasSubstr("unknown part 'Skirt', expected one of 'Body', 'Cape'"));
+              HasSubstr("unknown part 'Skirt', expected one of 'Body', 'Cape', 'CapeFine'"));
   EXPECT_THAT(message_of(kCharacter + "[[character.collider]]\nname = \"tail\"\nbone = \"Tail\"\n"),
               HasSubstr("unknown bone 'Tail', expected one of 'Rig', "));
   EXPECT_THAT(message_of(kCape + "paint = { group = \"Tail\" }\n"),

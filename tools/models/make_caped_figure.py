@@ -4,8 +4,10 @@
 
 What an artist would do by hand: an armature, a body whose vertices follow one bone each, a cape skinned to the
 shoulders with a painted maximum distance in the red channel of its vertex colours (0 at the collar, 1 at the hem), and
-one clip, "Walk", of 2 seconds that walks on the spot and turns to both sides. Lengths are metres; Blender's z is up, the
-exporter turns it to glTF's y.
+one clip, "Walk", of 2 seconds that walks on the spot and turns to both sides. Beside the cape lies "CapeFine", what is
+drawn in its place: two layers with a hem, a rolled collar and two clasps. It needs no skin, for the cape leads it. Its
+texture coordinates choose between the two colours of the pattern "stripes": cloth, and trimming of hem and clasps.
+Lengths are metres; Blender's z is up, the exporter turns it to glTF's y.
 """
 import math
 import os
@@ -56,6 +58,13 @@ RING = 8  # corners of a ring
 CAPE_ROWS, CAPE_COLUMNS = 22, 25
 CAPE_TOP, CAPE_BOTTOM = 1.47, 0.42  # heights
 PLEATS = 4
+
+# The drawn cape.
+FINE_ROWS, FINE_COLUMNS = 43, 55
+THICKNESS, HEM_THICKNESS, HEM_WIDTH = 0.004, 0.009, 0.028  # of both layers; of the hem, from its fold to its seam
+COLLAR_RADIUS, COLLAR_CORNERS = 0.017, 8
+CLASP_RADIUS, CLASP_HEIGHT, CLASP_CORNERS = 0.021, 0.009, 16
+CLOTH_COLOR, TRIM_COLOR = (0.03, 0.5), (0.09, 0.5)  # the first and the second of the 16 stripes along u
 
 
 def frame_of(head, tail):
@@ -143,6 +152,128 @@ def make_cape(rig):
     return cape
 
 
+def cape_frame(row, column):
+    """A point of the cape between its vertices, and the unit normal that points away from the body."""
+    step = 1e-4
+    place = cape_point(row, column)
+    across = cape_point(row, column + step) - cape_point(row, column - step)
+    down = cape_point(row + step, column) - cape_point(row - step, column)
+    normal = down.cross(across).normalized()
+    return place, normal if normal.dot(Vector((place.x, place.y, 0))) > 0 else -normal
+
+
+class FineCape:
+    """Vertices and faces of the drawn cape, with a colour for each face."""
+
+    def __init__(self):
+        self.vertices, self.faces, self.colors = [], [], []
+
+    def face(self, corners, color):
+        self.faces.append(corners)
+        self.colors.append(color)
+
+    def tube(self, rings, color, is_capped):
+        """Rings of equally many points, each counter-clockwise seen against the way of the tube."""
+        first, corners = len(self.vertices), len(rings[0])
+        for ring in rings:
+            self.vertices += ring
+        for ring in range(len(rings) - 1):
+            for corner in range(corners):
+                a, b = first + ring * corners + corner, first + ring * corners + (corner + 1) % corners
+                self.face((a, b, b + corners, a + corners), color)
+        if is_capped:
+            last = first + (len(rings) - 1) * corners
+            self.face([first + corner for corner in reversed(range(corners))], color)
+            self.face([last + corner for corner in range(corners)], color)
+
+
+def add_layers(fine):
+    """Both layers and the rim that closes them; the hem runs along the lower edge and up both front edges."""
+    rows = [row * (CAPE_ROWS - 1) / (FINE_ROWS - 1) for row in range(FINE_ROWS)]
+    columns = [column * (CAPE_COLUMNS - 1) / (FINE_COLUMNS - 1) for column in range(FINE_COLUMNS)]
+    # Lines of vertices at the seam of the hem: one cell from each edge is moved there, the rest stay where they are.
+    drop = (CAPE_TOP - CAPE_BOTTOM) / (CAPE_ROWS - 1)
+    rows[-2], rows[-3] = CAPE_ROWS - 1 - 0.6 * HEM_WIDTH / drop, CAPE_ROWS - 1 - HEM_WIDTH / drop
+
+    def is_hem(row, column):
+        return row >= FINE_ROWS - 3 or column <= 1 or column >= FINE_COLUMNS - 2
+
+    first = len(fine.vertices)
+    for side in (1, -1):
+        for row in range(FINE_ROWS):
+            for column in range(FINE_COLUMNS):
+                place, normal = cape_frame(rows[row], columns[column])
+                thickness = HEM_THICKNESS if is_hem(row, column) else THICKNESS
+                # The rim is round: both layers end at half the thickness.
+                if row == FINE_ROWS - 1 or column in (0, FINE_COLUMNS - 1):
+                    thickness *= 0.5
+                fine.vertices.append(place + normal * (0.5 * side * thickness))
+
+    def vertex(side, row, column):
+        return first + (side * FINE_ROWS + row) * FINE_COLUMNS + column
+
+    for row in range(FINE_ROWS - 1):
+        for column in range(FINE_COLUMNS - 1):
+            is_trim = row >= FINE_ROWS - 3 or column == 0 or column == FINE_COLUMNS - 2
+            color = TRIM_COLOR if is_trim else CLOTH_COLOR
+            corners = [(row, column), (row, column + 1), (row + 1, column + 1), (row + 1, column)]
+            fine.face([vertex(0, *corner) for corner in corners], color)
+            fine.face([vertex(1, *corner) for corner in reversed(corners)], color)
+    rim = [(row, 0) for row in range(FINE_ROWS)] + [(FINE_ROWS - 1, column) for column in range(1, FINE_COLUMNS)]
+    rim += [(row, FINE_COLUMNS - 1) for row in reversed(range(FINE_ROWS - 1))]
+    rim += [(0, column) for column in reversed(range(1, FINE_COLUMNS - 1))]
+    for here, there in zip(rim, rim[1:] + rim[:1]):
+        color = CLOTH_COLOR if here[0] == there[0] == 0 else TRIM_COLOR
+        fine.face((vertex(0, *here), vertex(0, *there), vertex(1, *there), vertex(1, *here)), color)
+
+
+def add_collar(fine):
+    """A roll along the upper edge."""
+    rings = []
+    for column in range(FINE_COLUMNS):
+        at = column * (CAPE_COLUMNS - 1) / (FINE_COLUMNS - 1)
+        place, normal = cape_frame(0.25, at)
+        along = (cape_point(0.25, at + 0.01) - cape_point(0.25, at - 0.01)).normalized()
+        up = along.cross(normal)
+        # It is thinner at its ends.
+        end = min(column, FINE_COLUMNS - 1 - column) / 8
+        radius = COLLAR_RADIUS * (0.55 + 0.45 * min(1.0, end))
+        rings.append([place + radius * (math.cos(angle) * normal + math.sin(angle) * up)
+                      for angle in (2 * math.pi * corner / COLLAR_CORNERS for corner in range(COLLAR_CORNERS))])
+    fine.tube(rings, CLOTH_COLOR, True)
+
+
+def add_clasps(fine):
+    """A flat knob on each end of the collar."""
+    for column in (1.0, CAPE_COLUMNS - 2.0):
+        place, normal = cape_frame(0.9, column)
+        along = normal.cross(Vector((0, 0, 1))).normalized()
+        up = normal.cross(along)
+        rings = []
+        for height, share in ((0.0, 1.0), (0.55, 1.0), (0.9, 0.8), (1.0, 0.45)):
+            middle = place + normal * (0.5 * HEM_THICKNESS + CLASP_HEIGHT * height)
+            rings.append([middle + CLASP_RADIUS * share * (math.cos(angle) * along + math.sin(angle) * up)
+                          for angle in (2 * math.pi * corner / CLASP_CORNERS for corner in range(CLASP_CORNERS))])
+        fine.tube(rings, TRIM_COLOR, True)
+
+
+def make_fine_cape():
+    fine = FineCape()
+    add_layers(fine)
+    add_collar(fine)
+    add_clasps(fine)
+    mesh = new_mesh("CapeFine", fine.vertices, fine.faces)
+    mesh.validate()
+    layer = mesh.uv_layers.new(name="Trim")
+    for polygon, color in zip(mesh.polygons, fine.colors):
+        polygon.use_smooth = True
+        for loop in polygon.loop_indices:
+            layer.data[loop].uv = color
+    material = bpy.data.materials.new("CapeFine")
+    mesh.materials.append(material)
+    bpy.context.collection.objects.link(bpy.data.objects.new("CapeFine", mesh))
+
+
 def swing(rig, bone, angles, axis=0):
     """Turns a bone about one of its own axes: angles [deg] at equal times over the clip."""
     pose = rig.pose.bones[bone]
@@ -190,8 +321,9 @@ def main():
     rig = make_armature("Rig", BONES)
     make_body(rig)
     make_cape(rig)
+    make_fine_cape()
     animate(rig)
-    export(sys.argv[sys.argv.index("--") + 1], sampled=True, texture_coordinates=False)
+    export(sys.argv[sys.argv.index("--") + 1], sampled=True, texture_coordinates=True)
 
 
 if __name__ == "__main__":

@@ -2,11 +2,17 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include <weft/playback/exchange/gltf/morph_targets.hpp>
 #include <weft/playback/exchange/gltf/tracked_nodes.hpp>
+#include <weft/playback/exchange/unfit_recording.hpp>
+#include <weft/playback/rendering/meshes/cloth_drawing.hpp>
 #include <weft/playback/rendering/meshes/cloth_layout.hpp>
 
 namespace weft::scenes {
@@ -90,6 +96,87 @@ ClothMotion read_motion(const RecordingReader& reader, std::size_t index,
   return motion;
 }
 
+/// A cloth as a document has it, before its motion becomes morph targets.
+struct MovingCloth {
+  ClothVertices vertices;
+  ClothMotion motion;
+  bool has_node_numbers = true;  ///< vertices are nodes of the recording
+};
+
+bool is_painted_from_middle(const BodyLook& look) {
+  return look.mapping == TextureMapping::kByDirection || look.mapping == TextureMapping::kFromFront;
+}
+
+/// The nodes of the cloth as it is in the last frame.
+MovingCloth read_simulated_cloth(const RecordingReader& reader, std::size_t index, ClothMesh whole,
+                                 const BodyLook& look, const std::function<void()>& on_frame) {
+  if (is_painted_from_middle(look))
+    whole.corner_texture_coordinates = corner_places(look.mapping, whole);
+  const SceneState last = reader.frame(reader.num_frames() - 1);
+  TrackedNodes tracked(std::move(whole), last.cloths[index].topology);
+  MovingCloth cloth;
+  cloth.vertices = vertices_of(make_layout(tracked.mesh()));
+  const bool has_normals =
+      !cloth.vertices.is_rope() && reader.scene().cloths[index].appearance.smooth;
+  cloth.motion = read_motion(reader, index, cloth.vertices.nodes, has_normals, tracked, on_frame);
+  return cloth;
+}
+
+/// The drawn mesh with the places in the picture that its look gives it.
+DrawnCloth painted(DrawnCloth drawn, const BodyLook& look) {
+  if (!is_painted_from_middle(look)) return drawn;
+  Surface surface = *drawn.surface;
+  ClothMesh mesh;
+  mesh.rest_positions = surface.positions;
+  mesh.triangles = surface.triangles;
+  surface.corner_texture_coordinates = corner_places(look.mapping, mesh);
+  drawn.surface = std::make_shared<const Surface>(std::move(surface));
+  return drawn;
+}
+
+/// The drawn mesh of a cloth: each of its vertices is a place of its own, with the normal of its side of a crease.
+MovingCloth read_drawn_cloth(const RecordingReader& reader, std::size_t index, const BodyLook& look,
+                             const std::function<void()>& on_frame) {
+  const Cloth& body = reader.scene().cloths[index];
+  const bool has_normals = body.appearance.smooth;
+  ClothDrawing drawing(painted(body.drawn_mesh.value(), look), make_mesh(body));
+  const DrawnLayout& layout = drawing.layout();
+  MovingCloth cloth;
+  cloth.has_node_numbers = false;
+  const int num_vertices = drawing.embedding().num_vertices();
+  cloth.vertices.nodes.resize(static_cast<std::size_t>(num_vertices));
+  std::iota(cloth.vertices.nodes.begin(), cloth.vertices.nodes.end(), 0);
+  cloth.vertices.vertices = cloth.vertices.nodes;
+  cloth.vertices.elements = layout.mesh.triangles;
+  if (layout.has_coordinates) {
+    cloth.vertices.places.resize(2, num_vertices);
+    for (int v = 0; v < num_vertices; ++v) {
+      cloth.vertices.places.col(v) = layout.coordinates[static_cast<std::size_t>(v)];
+    }
+  }
+  cloth.motion.positions.resize(3 * num_vertices, reader.num_frames());
+  if (has_normals) cloth.motion.normals.resize(3 * num_vertices, reader.num_frames());
+  for (int frame = 0; frame < reader.num_frames(); ++frame) {
+    const SceneState state = reader.frame(frame);
+    if (state.cloths[index].topology) {
+      throw UnfitRecording(
+          fmt::format("cloth '{}' has a drawn mesh and is torn at t = {:.6g} s, expected the same "
+                      "vertices in every frame",
+                      body.name, state.time));
+    }
+    drawing.set_state(state.cloths[index]);
+    for (int v = 0; v < num_vertices; ++v) {
+      const DrawnVertex vertex = drawing.vertex(v);
+      cloth.motion.positions.block<3, 1>(3 * v, frame) = vertex.position;
+      if (has_normals) {
+        cloth.motion.normals.block<3, 1>(3 * v, frame) = vertex.normal.cast<float>();
+      }
+    }
+    on_frame();
+  }
+  return cloth;
+}
+
 /// The same for each vertex.
 Eigen::Matrix3Xf spread(const Eigen::Matrix3Xf& by_node, const ClothVertices& vertices) {
   return by_node(Eigen::all, vertices.vertices);
@@ -106,7 +193,8 @@ Eigen::RowVectorXf node_numbers(const ClothVertices& vertices) {
 }
 
 GltfJson mesh_of(GlbWriter& writer, const Cloth& cloth, const ClothVertices& vertices,
-                 const MorphTargets& morph, const MorphNormals& normals, int material) {
+                 const MorphTargets& morph, const MorphNormals& normals, int material,
+                 bool has_node_numbers) {
   GltfJson attributes = {
       {"POSITION", writer.add_numbers(spread(morph.base, vertices), Use::kVertices)}};
   const bool has_normals = normals.base.cols() > 0;
@@ -117,7 +205,8 @@ GltfJson mesh_of(GlbWriter& writer, const Cloth& cloth, const ClothVertices& ver
     attributes["TEXCOORD_0"] =
         writer.add_numbers(gltf_coordinates(vertices.places, cloth.appearance), Use::kVertices);
   }
-  attributes["_NODE"] = writer.add_numbers(node_numbers(vertices), Use::kVertices);
+  if (has_node_numbers)
+    attributes["_NODE"] = writer.add_numbers(node_numbers(vertices), Use::kVertices);
   GltfJson primitive = {{"attributes", std::move(attributes)},
                         {"indices", writer.add_indices(vertices.elements)},
                         {"mode", vertices.is_rope() ? kLines : kTriangles},
@@ -143,25 +232,23 @@ GltfClothNode add_cloth(GltfParts parts, const RecordingReader& reader, std::siz
                         const GltfOptions& options, const std::function<void()>& on_frame) {
   const Cloth& body = reader.scene().cloths[cloth];
   ClothMesh whole = make_mesh(body);
-  const bool has_places = corner_coordinates(whole).cols() > 0;
+  const bool has_places = body.drawn_mesh
+                              ? body.drawn_mesh->surface->corner_texture_coordinates.cols() > 0
+                              : corner_coordinates(whole).cols() > 0;
   const BodyLook look = cloth_look(reader.scene(), cloth, has_places);
-  const bool is_painted_from_middle =
-      look.mapping == TextureMapping::kByDirection || look.mapping == TextureMapping::kFromFront;
-  if (is_painted_from_middle) whole.corner_texture_coordinates = corner_places(look.mapping, whole);
-  const SceneState last = reader.frame(reader.num_frames() - 1);
-  TrackedNodes tracked(std::move(whole), last.cloths[cloth].topology);
-  const ClothVertices vertices = vertices_of(make_layout(tracked.mesh()));
-
-  const bool has_normals = !vertices.is_rope() && body.appearance.smooth;
-  ClothMotion motion = read_motion(reader, cloth, vertices.nodes, has_normals, tracked, on_frame);
+  MovingCloth moving = body.drawn_mesh
+                           ? read_drawn_cloth(reader, cloth, look, on_frame)
+                           : read_simulated_cloth(reader, cloth, std::move(whole), look, on_frame);
+  const ClothVertices& vertices = moving.vertices;
+  const bool has_normals = moving.motion.normals.cols() > 0;
   const MorphTargets morph =
-      fit_morph_targets(std::move(motion.positions), options.error, options.most_targets);
+      fit_morph_targets(std::move(moving.motion.positions), options.error, options.most_targets);
   MorphNormals normals;
-  if (has_normals) normals = fit_morph_normals(motion.normals, morph.weights);
+  if (has_normals) normals = fit_morph_normals(moving.motion.normals, morph.weights);
 
   const int material = parts.materials.add(look, body.appearance);
-  const int mesh =
-      parts.writer.add("meshes", mesh_of(parts.writer, body, vertices, morph, normals, material));
+  const int mesh = parts.writer.add("meshes", mesh_of(parts.writer, body, vertices, morph, normals,
+                                                      material, moving.has_node_numbers));
   GltfClothNode result;
   result.node = parts.writer.add("nodes", {{"name", body.name}, {"mesh", mesh}});
   if (morph.num_targets() > 0) parts.animation.add(result.node, "weights", morph.weights);

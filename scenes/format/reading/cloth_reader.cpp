@@ -15,7 +15,7 @@
 namespace weft::scenes {
 namespace {
 
-constexpr std::array<std::string_view, 13> kClothKeys = {"bulge",
+constexpr std::array<std::string_view, 14> kClothKeys = {"bulge",
                                                          "name",
                                                          "collision_margin",
                                                          "friction",
@@ -27,7 +27,8 @@ constexpr std::array<std::string_view, 13> kClothKeys = {"bulge",
                                                          "self_collision",
                                                          "self_thickness",
                                                          "soft_collision",
-                                                         "tear"};
+                                                         "tear",
+                                                         "drawn_mesh"};
 constexpr std::array<std::string_view, 3> kRegionKeys = {"name", "nodes", "springs"};
 constexpr std::array<std::string_view, 3> kConnectionKeys = {"name", "node", "to"};
 
@@ -165,6 +166,10 @@ Cloth read_cloth(const TomlTable& table, const World& world) {
   read_laws(table, world, cloth);
   if (const auto value = table.find("tear")) cloth.tear = read_tear(*value, cloth);
   cloth.appearance = read_appearance(table);
+  if (const auto value = table.find("drawn_mesh")) {
+    cloth.drawn_mesh = read_drawn_mesh(*value, cloth);
+    check_drawn_mesh(*value, cloth);
+  }
   return cloth;
 }
 

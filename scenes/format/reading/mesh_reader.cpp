@@ -18,28 +18,34 @@ constexpr std::array<std::string_view, 7> kFileKeys = {
 constexpr std::array<std::string_view, 3> kDataKeys = {"data", "center_node", "center_mass_share"};
 constexpr std::array<std::string_view, 2> kUpWords = {"y", "z"};
 
-/// A recording keeps the mesh inside the text of its scene, which has a largest size.
-constexpr int kMaxMeshNodes = 50'000;
+}  // namespace
+
+import::ImportedMesh read_mesh_file(const TomlTable& table, bool is_body){
+    const TomlValue file = table.require("file", "a mesh file such as \"shirt.obj\"");
+import::ImportOptions options;
+options.is_body = is_body;
+if (const auto value = table.find("scale")) options.scale = value->positive("1");
+if (const auto value = table.find("up")) {
+  options.up = static_cast<import::UpAxis>(value->choice(kUpWords, "axis"));
+}
+if (const auto value = table.find("part")) options.part = value->text();
+if (const auto value = table.find("weld")) options.weld_tolerance = value->non_negative("m");
+const std::string name = file.text();
+const import::MeshInput input{name, file.named_file("a mesh file"),
+                              files_beside(file.files(), name)};
+try {
+  return import::import_mesh(input, options);
+} catch (const InvalidArgument& error) {
+  file.fail(error.what());
+}
+}  // namespace weft::scenes
+
+namespace {
 
 MeshGeometry import_shape(const TomlTable& table) {
   table.allow(kFileKeys);
-  const TomlValue file = table.require("file", "a mesh file such as \"shirt.obj\"");
-  import::ImportOptions options;
-  if (const auto value = table.find("scale")) options.scale = value->positive("1");
-  if (const auto value = table.find("up")) {
-    options.up = static_cast<import::UpAxis>(value->choice(kUpWords, "axis"));
-  }
-  if (const auto value = table.find("part")) options.part = value->text();
-  if (const auto value = table.find("weld")) options.weld_tolerance = value->non_negative("m");
-  const std::string name = file.text();
-  const import::MeshInput input{name, file.named_file("a mesh file"),
-                                files_beside(file.files(), name)};
-  try {
-    import::ImportedMesh mesh = import::import_mesh(input, options);
-    return {std::move(mesh.surface), std::move(mesh.groups)};
-  } catch (const InvalidArgument& error) {
-    file.fail(error.what());
-  }
+  import::ImportedMesh mesh = read_mesh_file(table, true);
+  return {std::move(mesh.surface), std::move(mesh.groups)};
 }
 
 MeshGeometry stored_shape(const TomlTable& table) {

@@ -12,6 +12,8 @@ namespace weft::scenes {
 
 inline constexpr int kMaxSteps = 10'000'000;  ///< of a whole run
 inline constexpr int kMaxNodes = 1'000'000;   ///< of all cloths together
+/// A recording keeps a mesh inside the text of its scene, which has a largest size.
+inline constexpr int kMaxMeshNodes = 50'000;
 
 [[nodiscard]] Scene read_scene(const TomlTable& root);
 [[nodiscard]] World read_world(const TomlTable& table);
@@ -38,6 +40,14 @@ void read_character(const TomlTable& table, Scene& scene);
 /// acceleration.
 [[nodiscard]] forces::LawSpecification read_law(const TomlTable& table, const Cloth& cloth,
                                                 const World& world);
+/// The mesh that is drawn in place of a cloth whose rest shape is known.
+[[nodiscard]] DrawnCloth read_drawn_mesh(const TomlValue& value, const Cloth& cloth);
+/// The keys of it that say how it is bound to the cloth.
+[[nodiscard]] EmbeddingOptions read_embedding(const TomlTable& table);
+/// Refuses a drawn mesh that the cloth cannot lead.
+void check_drawn_mesh(const TomlValue& value, const Cloth& cloth);
+/// A mesh from the file of this table.
+[[nodiscard]] import::ImportedMesh read_mesh_file(const TomlTable& table, bool is_body);
 /// cloth: its regions may be weak, and its laws must allow a tear.
 [[nodiscard]] ClothTear read_tear(const TomlValue& value, const Cloth& cloth);
 [[nodiscard]] Path read_path(const TomlValue& value);

@@ -190,6 +190,7 @@ void write_cloth(std::string& out, const Cloth& cloth) {
   }
   if (cloth.tear) line(out, "tear", tear_text(*cloth.tear));
   out += write_appearance(cloth.appearance);
+  if (cloth.drawn_mesh) write_drawn_mesh(out, *cloth.drawn_mesh);
   for (const forces::LawSpecification& law : cloth.laws) write_law(out, "cloth.law", law);
 }
 

@@ -1,6 +1,7 @@
 #include <weft/playback/exchange/point_cache_export.hpp>
 
 #include <fstream>
+#include <memory>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -52,6 +53,31 @@ TEST(PointCacheExport, HoldsEveryFrameOfEveryBody) {
       EXPECT_EQ(cache.samples[static_cast<std::size_t>(frame)], expected.cast<float>());
     }
   }
+}
+
+// The drawn mesh is flat and lies around the cloth of 1 m x 1 m at rest.
+TEST(PointCacheExport, WritesADrawnMeshBesideItsCloth) {
+  const samples::TemporaryFolder folder;
+  Scene scene = samples::make_scene();
+  const ClothMesh fine = make_cloth_grid({.nodes = {17, 17}, .center = {0, 0.01, 0}});
+  scene.cloths[1].drawn_mesh =
+      DrawnCloth{std::make_shared<const Surface>(Surface{fine.rest_positions, fine.triangles})};
+  samples::write_sample(folder / "a.weftrec", scene, StoredPrecision::kFloat64, 3);
+  const RecordingReader reader(folder / "a.weftrec");
+  EXPECT_EQ(export_point_caches(reader, point_cache_folder(folder / "out")).num_bodies, 4);
+  const PointCache cloth = decode_point_cache(content(folder / "out/flag.pc2"), "flag");
+  const PointCache drawn = decode_point_cache(content(folder / "out/flag-drawn.pc2"), "drawn");
+  EXPECT_EQ(cloth.samples[2].cols(), 25);
+  ASSERT_EQ(drawn.samples[2].cols(), 17 * 17);
+  const ClothMesh mesh = make_mesh(scene.cloths[1]);
+  const ClothEmbedding embedding(mesh.rest_positions, mesh.triangles,
+                                 {fine.rest_positions, fine.triangles});
+  ClothPose pose = embedding.make_pose();
+  embedding.set_pose(reader.frame(2).cloths[1].positions, pose);
+  for (int v = 0; v < embedding.num_vertices(); ++v) {
+    EXPECT_EQ(drawn.samples[2].col(v), embedding.vertex(pose, v).position.cast<float>());
+  }
+  EXPECT_NE(content(folder / "out/flag-drawn.obj").find("o flag-drawn\n"), std::string::npos);
 }
 
 TEST(PointCacheExport, TurnsARigidBodyAboutItsCenter) {

@@ -86,6 +86,54 @@ std::string fault_of(const samples::TemporaryFolder& folder, const Change& chang
   return "none";
 }
 
+Scene scene_with_drawn_mesh() {
+  Scene scene = samples::make_scene();
+  const ClothMesh fine = make_cloth_grid({.nodes = {17, 17}, .center = {0, 0.01, 0}});
+  scene.cloths[1].drawn_mesh = DrawnCloth{std::make_shared<const Surface>(
+      Surface{fine.rest_positions, fine.triangles, fine.texture_coordinates})};
+  return scene;
+}
+
+TEST(GltfExport, ADrawnMeshStandsInPlaceOfItsCloth) {
+  const samples::TemporaryFolder folder;
+  const Document document(exported(folder, scene_with_drawn_mesh()).bytes);
+  const json& drawn = document.mesh("flag").at("primitives").at(0);
+  const json& attributes = drawn.at("attributes");
+  EXPECT_EQ(document.accessor(attributes.at("POSITION")).at("count"), 17 * 17);
+  EXPECT_EQ(document.accessor(drawn.at("indices")).at("count"), 3 * 2 * 16 * 16);
+  EXPECT_TRUE(attributes.contains("NORMAL"));
+  EXPECT_FALSE(attributes.contains("_NODE"));
+  EXPECT_TRUE(drawn.at("targets").at(0).contains("POSITION"));
+  const json& plain = document.mesh("towel").at("primitives").at(0).at("attributes");
+  EXPECT_EQ(document.accessor(plain.at("POSITION")).at("count"), 25);
+}
+
+TEST(GltfExport, ADrawnMeshThatTearsIsRefused) {
+  const samples::TemporaryFolder folder;
+  const Scene scene = scene_with_drawn_mesh();
+  {
+    RecordingWriter writer(folder / "a.weftrec", scene, {}, StoredPrecision::kFloat64);
+    SceneState state = samples::make_state(scene, 0, StoredPrecision::kFloat64);
+    ClothTopology topology;
+    topology.triangles = make_mesh(scene.cloths[1]).triangles;
+    topology.origins = {0};
+    topology.triangles(0, 0) = 25;
+    state.cloths[1].topology = std::make_shared<const ClothTopology>(topology);
+    for (Matrix3X<double>* values : {&state.cloths[1].positions, &state.cloths[1].velocities}) {
+      values->conservativeResize(3, 26);
+      values->col(25) = values->col(0);
+    }
+    writer.add_frame(state);
+    writer.finish();
+  }
+  try {
+    (void)export_gltf(RecordingReader(folder / "a.weftrec"), {});
+    FAIL() << "expected a refusal";
+  } catch (const UnfitRecording& error) {
+    EXPECT_THAT(error.what(), HasSubstr("cloth 'flag' has a drawn mesh and is torn at t = 0 s"));
+  }
+}
+
 TEST(GltfExport, HasAMeshForEveryBodyAndItsErrorInside) {
   const samples::TemporaryFolder folder;
   const GltfExport result = exported(folder, samples::make_scene());

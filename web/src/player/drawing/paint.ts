@@ -71,7 +71,8 @@ function fileTexture(bytes: Uint8Array, loaded: () => void): Texture {
 }
 
 function pictureOf(entry: TomlTable, ground: Rgb, assets: Map<string, Uint8Array>, loaded: () => void): Texture | null {
-  const name = text(entry["texture"]);
+  // A drawn mesh has texture coordinates of its own; the page shows the simulated cloth, for which the picture is not made.
+  const name = entry["drawn_mesh"] === undefined ? text(entry["texture"]) : "";
   if (name === "" || name === "plain") return null;
   const file = assets.get(name);
   const isPattern = (PATTERNS as readonly string[]).includes(name);

@@ -95,12 +95,17 @@ export function characterMeshes(character: TomlTable): Map<string, ClothMesh> {
     );
     meshes.set(name, entry ? body : asSkin(body));
   };
-  for (const entry of tables(character["cloth"])) {
-    const wanted = text(entry["part"]);
+  const take = (wanted: string): Part[] => {
     const key = (["node", "mesh", "material"] as const).find((k) => model.parts.some((part) => part[k] === wanted));
     const parts = model.parts.filter((part) => key && part[key] === wanted);
     for (const part of parts) taken.add(part);
+    return parts;
+  };
+  for (const entry of tables(character["cloth"])) {
+    const parts = take(text(entry["part"]));
     if (parts.length > 0) add(text(entry["name"]), parts, entry);
+    // The page shows the simulated cloth, so what Weft draws in its place is no skin either.
+    take(text(table(entry["drawn_mesh"])?.["part"]));
   }
   for (const node of new Set(model.parts.map((part) => part.node))) {
     const group = model.parts.filter((part) => part.node === node && !taken.has(part));
