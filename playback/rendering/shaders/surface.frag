@@ -101,7 +101,8 @@ void main() {
   vec3 color = albedo(front);
 
   float key_facing = dot(normal, u_key_direction);
-  float reached = key_light(v_position, key_facing < 0.0 ? -normal : normal);
+  // Behind a body it is dark, whatever stands in the way.
+  float reached = key_light(v_position, key_facing < 0.0 ? -normal : normal, key_facing > 0.0 || u_is_thin != 0);
   float key = max(key_facing, 0.0) * reached * smoothstep(0.0, 0.12, key_facing);
   // Cloth is thin: some light comes through from the other side.
   float through = u_is_thin != 0 ? 0.38 * max(-key_facing, 0.0) * reached : 0.0;
