@@ -181,6 +181,24 @@ TEST_F(RendererTest, AGhostLetsThroughItsPartOfTheLight) {
   EXPECT_LT(of_ghost, of_background - kOtherThing / 2);
 }
 
+TEST_F(RendererTest, MarksAreDrawnInTheirColorAndHiddenByWhatStandsBeforeThem) {
+  Renderer renderer(scene);
+  const Image plain = renderer.render(state, options);
+  Mark mark{
+      MarkKind::kPoints, "contact", {220, 0, 0}, Matrix3X<float>(3, 2), Matrix3X<float>(3, 0)};
+  mark.from << -2.0f, 2.0f, 1.0f, 0.5f, 0.0f,
+      0.0f;  // free in the air, and in the middle of the ball
+  options.marks = {mark};
+  const Image marked = renderer.render(state, options);
+  const Rgb red = pixel_at(marked, scene.camera, {-2.0, 1.0, 0.0});
+  EXPECT_GT(red[0], red[2] + kOtherThing);
+  const Vector3<double> hidden(2.0, 0.5, 0.0);
+  EXPECT_EQ(pixel_at(marked, scene.camera, hidden), pixel_at(plain, scene.camera, hidden));
+  // What was drawn once is gone with the marks.
+  options.marks.clear();
+  EXPECT_EQ(renderer.render(state, options).rgb, plain.rgb);
+}
+
 TEST_F(RendererTest, SameInputGivesSameBytes) {
   const Image first = Renderer(scene).render(state, options);
   Renderer renderer(scene);
