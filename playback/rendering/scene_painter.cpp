@@ -12,7 +12,7 @@ namespace weft::scenes {
 namespace {
 
 // As in surface.frag.
-enum class SurfaceMode { kCloth, kScalar, kWireframe, kSolid, kTwoTone };
+enum class SurfaceMode { kCloth, kScalar, kWireframe, kSolid, kTwoTone, kMark };
 
 constexpr int kScaleSize = 256;
 constexpr GLint kScaleUnit = 2;
@@ -33,7 +33,7 @@ constexpr double kLineWidth = 1.1;
 /// Radius of a rope that is thinner, in radii of the scene: it must be seen.
 constexpr double kThinnestRope = 0.004;
 /// Radius of a point that a program has drawn, in radii of the scene.
-constexpr double kPointRadius = 0.006;
+constexpr double kPointRadius = 0.009;
 
 Eigen::Matrix4f pose(const Vector3<double>& position, const Eigen::Quaterniond& orientation,
                      double scale) {
@@ -346,7 +346,7 @@ void ScenePainter::draw_cloths(const Picture& picture) const {
 void ScenePainter::draw_marks(const Picture& picture) const {
   const std::vector<Mark>& marks = picture.options.marks;
   if (marks.empty()) return;
-  surface_program_.set("u_mode", static_cast<int>(SurfaceMode::kSolid));
+  surface_program_.set("u_mode", static_cast<int>(SurfaceMode::kMark));
   surface_program_.set("u_is_thin", 0);
   set_opacity(picture, false);
   surface_program_.set("u_world_from_body", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));

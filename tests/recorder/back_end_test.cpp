@@ -43,11 +43,16 @@ struct BackEndTest : testing::Test {
     options.window_program = program;
     return options;
   }
-  /// "view", the recording, "yes" if it was there.
-  [[nodiscard]] std::vector<std::string> told() const {
-    for (int i = 0; i < 600 && !std::filesystem::exists(program.string() + ".told"); ++i) {
+  /// Whether the file of the stand-in with this ending comes.
+  [[nodiscard]] bool comes(const char* ending) const {
+    for (int i = 0; i < 600 && !std::filesystem::exists(program.string() + ending); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
+    return std::filesystem::exists(program.string() + ending);
+  }
+  /// "view", the recording, "yes" if it was there.
+  [[nodiscard]] std::vector<std::string> told() const {
+    EXPECT_TRUE(comes(".told"));
     std::ifstream file(program.string() + ".told");
     return {std::istream_iterator<std::string>(file), {}};
   }
@@ -79,6 +84,7 @@ TEST_F(BackEndTest, BothWritesTheFileAndShowsItFromTheFirstFrameOn) {
   EXPECT_FALSE(std::filesystem::exists(program.string() + ".closed"));
   EXPECT_EQ(RecordingReader(path).num_frames(), 2);
   close();
+  EXPECT_TRUE(comes(".closed"));
 }
 
 TEST_F(BackEndTest, AWindowAloneIsWaitedForAndLeavesNothing) {

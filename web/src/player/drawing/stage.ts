@@ -28,7 +28,7 @@ import { shapeGeometry } from "../meshes/shape_geometry";
 const BODY_SCALE = 0.998;
 const SHADOW_PIXELS = 2048;
 /** A point that a program has drawn has this radius, in radii of the scene. */
-const POINT_RADIUS = 0.006;
+const POINT_RADIUS = 0.009;
 
 /** Octants in two colours. */
 function paintOctants(geometry: BufferGeometry, paint: Paint): BufferGeometry {
