@@ -340,6 +340,8 @@ void RecordingWriter::add_marks(std::span<const Mark> marks) {
   const std::int64_t next = impl_->num_frames + std::ssize(impl_->times);
   if (next == 0) throw InvalidArgument("add_marks: no frame, expected one before its marks");
   impl_->marks.add(next - 1, marks);
+  // The frame has filled a chunk and is committed already: its marks must not wait for the next one.
+  if (impl_->times.empty() && !marks.empty()) impl_->commit();
 }
 
 void RecordingWriter::add_note(const Note& note) {
