@@ -13,22 +13,21 @@
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/core/error.hpp>
+#include <weft/recorder/frame_marks.hpp>
+#include <weft/recorder/own_scene.hpp>
 #include <weft/recorder/placed_shape.hpp>
 #include <weft/recorder/recorded_cloth.hpp>
-#include <weft/scenes/format/scene_file.hpp>
+#include <weft/recorder/temporary_folder.hpp>
+#include <weft/recorder/window_process.hpp>
 #include <weft/scenes/recording/own_loop.hpp>
 #include <weft/scenes/recording/recording.hpp>
 #include <weft/scenes/recording/recording_output.hpp>
-#include <weft/scenes/shapes/shape_surface.hpp>
 
 namespace weft::recorder {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
 using bridge::from_bullet;
-
-/// The duration of a loop is not known when its scene is written: so many frame intervals.
-constexpr double kNominalFrames = 1e6;
 
 /// A frame is taken when this share of an interval is missing: a program's time is a sum of rounded
 /// steps.
@@ -37,74 +36,21 @@ constexpr double kEarlyShare = 1e-3;
 /// A commit delays a step: smaller chunks than those of `weft run`, each within a few milliseconds.
 constexpr scenes::ChunkLimits kChunks{.frames = 64, .bytes = std::size_t{256} * 1024};
 
-/// Space around the bodies of the first frame, as a factor on the distance that just shows them.
-constexpr double kViewSpace = 1.5;
+/// So often a window gets new frames. [s] of the program's time
+constexpr double kWindowInterval = 0.1;
 
-Vector3<double> vector_of(const std::array<double, 3>& values) {
-  return {values[0], values[1], values[2]};
+scenes::ChunkLimits chunk_limits(const RecorderOptions& options) {
+  scenes::ChunkLimits limits = kChunks;
+  if (options.back_end != BackEnd::kFile) {
+    const double frames = std::round(kWindowInterval / options.frame_interval);
+    limits.frames = static_cast<int>(std::clamp(frames, 1.0, static_cast<double>(kChunks.frames)));
+  }
+  return limits;
 }
 
 Eigen::Quaterniond quaternion_of(const btQuaternion& q) {
   return {static_cast<double>(q.w()), static_cast<double>(q.x()), static_cast<double>(q.y()),
           static_cast<double>(q.z())};
-}
-
-scenes::Scene empty_scene(const RecorderOptions& options) {
-  if (!(options.frame_interval > 0) || !std::isfinite(options.frame_interval)) {
-    throw InvalidArgument(fmt::format("recorder: frame_interval = {} [s], expected > 0 and finite",
-                                      options.frame_interval));
-  }
-  scenes::Scene scene;
-  scene.name = options.name;
-  scene.summary = options.summary;
-  scene.world.time_step = options.frame_interval;
-  scene.world.frame_interval = options.frame_interval;
-  scene.world.duration = kNominalFrames * options.frame_interval;
-  if (options.gravity) scene.world.gravity = vector_of(*options.gravity);
-  if (options.view) {
-    scene.camera.position = vector_of(options.view->position);
-    scene.camera.target = vector_of(options.view->target);
-  }
-  return scene;
-}
-
-/// Throws InvalidArgument, which begins with `what`, if no reader would take this scene.
-void require_readable(scenes::Scene scene, const std::string& what) {
-  if (scene.cloths.empty()) {  // a scene needs one, which must not have the name of a collider
-    scenes::Cloth& cloth = scene.cloths.emplace_back();
-    cloth.name = scene.colliders.empty() || scene.colliders[0].name != "cloth" ? "cloth" : "other";
-  }
-  try {
-    (void)scenes::read_scene_text(scenes::write_scene(scene), "scene");
-  } catch (const InvalidArgument& error) {
-    throw InvalidArgument(fmt::format("{}: {}", what, error.what()));
-  }
-}
-
-/// A view from the front, the right and above of everything but planes.
-scenes::Camera view_of(const scenes::Scene& scene, const scenes::SceneState& state) {
-  Eigen::AlignedBox3d box;
-  for (const scenes::ClothState& cloth : state.cloths) {
-    for (const auto& position : cloth.positions.colwise()) {
-      if (position.allFinite()) box.extend(position);
-    }
-  }
-  for (std::size_t r = 0; r < state.rigids.size(); ++r) {
-    if (!scene.colliders[r].mass) continue;
-    const scenes::RigidState& rigid = state.rigids[r];
-    const scenes::MeshShape surface = scenes::shape_surface(scene.colliders[r].shape, 8);
-    for (const auto& point : surface.points.colwise()) {
-      const Vector3<double> position = rigid.position + rigid.orientation * point;
-      if (position.allFinite()) box.extend(position);
-    }
-  }
-  scenes::Camera camera;
-  if (box.isEmpty() || !(box.diagonal().norm() > 0)) return camera;
-  const double distance =
-      kViewSpace * 0.5 * box.diagonal().norm() / std::sin(0.5 * camera.field_of_view);
-  camera.target = box.center();
-  camera.position = camera.target + distance * Vector3<double>(0.6, 0.4, 0.7).normalized();
-  return camera;
 }
 
 }  // namespace
@@ -120,14 +66,23 @@ struct Recorder::Impl {
     Eigen::Quaterniond orientation;
   };
 
-  Impl(const std::filesystem::path& path, const RecorderOptions& the_options)
+  Impl(std::filesystem::path path, const RecorderOptions& the_options)
       : options(the_options),
         scene(empty_scene(options)),
-        file(path.string()),
         num_exceptions(std::uncaught_exceptions()) {
     require_readable(scene, "recorder");
-    output.emplace(path, options.may_replace);
+    if (options.back_end == BackEnd::kWindow) {
+      folder.emplace();
+      path = folder->path() / (options.name + ".weftrec");
+    }
+    file = path.string();
+    if (!is_off()) output.emplace(path, options.may_replace);
   }
+
+  [[nodiscard]] bool is_off() const { return options.back_end == BackEnd::kNone; }
+  void show();
+  void take_frame();
+  void require_frame(const std::string& what) const;
 
   void require_new(const std::string& name) const;
   void read_state(double time);
@@ -142,11 +97,16 @@ struct Recorder::Impl {
 
   RecorderOptions options;
   scenes::Scene scene;
+  std::optional<TemporaryFolder> folder;  ///< of a recording that is only shown
+  std::optional<WindowProcess> window;
   std::string file;
   int num_exceptions;
   std::vector<Soft> cloths;
   std::vector<Rigid> rigids;
   scenes::SceneState state;
+  FrameMarks marks;  ///< of the frame that has begun
+  bool is_in_frame = false;
+  bool is_frame_due = false;
   std::optional<scenes::RecordingOutput> output;  ///< none when all is done
   std::unique_ptr<scenes::RecordingWriter> writer;
   std::string content_hash;
@@ -154,13 +114,13 @@ struct Recorder::Impl {
   double first_time = 0.0;                                      ///< [s] of the first frame
   double last_interval = 0.0;  ///< number of the interval that the last frame stands for
   int num_frames = 0;
-  int num_calls = 0;  ///< of record(): the program's steps
+  int num_calls = 0;  ///< of begin_frame(): the program's steps
   std::optional<scenes::BlowUp> blow_up;
   bool is_blow_up_written = false;
 };
 
 void Recorder::Impl::require_new(const std::string& name) const {
-  if (num_frames > 0 || !output) {
+  if (writer || (!output && !is_off())) {
     throw InvalidArgument(fmt::format(
         "recorder: '{}' comes after the first frame, expected all bodies before it", name));
   }
@@ -258,7 +218,32 @@ void Recorder::Impl::begin() {
       {"bullet", fmt::format("{}.{}, {}", BT_BULLET_VERSION / 100, BT_BULLET_VERSION % 100,
                              bridge::precision_name())}};
   writer = std::make_unique<scenes::RecordingWriter>(output->partial(), scene, provenance,
-                                                     precision, kChunks);
+                                                     precision, chunk_limits(options));
+}
+
+void Recorder::Impl::show() {
+  const bool has_window =
+      options.back_end == BackEnd::kWindow || options.back_end == BackEnd::kBoth;
+  if (!has_window || window) return;
+  writer->commit();  // a window opens no recording without a frame
+  window.emplace(options.window_program, output->partial());
+}
+
+void Recorder::Impl::take_frame() {
+  read_state(last_call);
+  writer->add_frame(state);
+  writer->add_marks(marks.marks());
+  if (num_frames++ == 0) first_time = last_call;
+  last_interval = std::floor((last_call - first_time) / options.frame_interval + kEarlyShare);
+  write_blow_up(last_call);
+  show();
+}
+
+void Recorder::Impl::require_frame(const std::string& what) const {
+  if (!is_in_frame) {
+    throw InvalidArgument(
+        fmt::format("recorder: {}, expected it between begin_frame() and end_frame()", what));
+  }
 }
 
 std::string Recorder::Impl::keep_frames(std::string why) {
@@ -286,13 +271,15 @@ Recorder::Recorder(const std::filesystem::path& path, const RecorderOptions& opt
     : impl_(std::make_unique<Impl>(path, options)) {}
 
 Recorder::~Recorder() {
-  if (!impl_->output) return;
   try {
-    if (impl_->num_frames == 0 || std::uncaught_exceptions() > impl_->num_exceptions) {
-      (void)impl_->keep_frames({});
-    } else {
-      finish();
+    if (impl_->output) {
+      if (impl_->num_frames == 0 || std::uncaught_exceptions() > impl_->num_exceptions) {
+        (void)impl_->keep_frames({});
+      } else {
+        finish();
+      }
     }
+    if (impl_->folder && impl_->window) impl_->window->wait();
   } catch (...) {  // NOLINT(bugprone-empty-catch): the frames stay in the partial recording, and
                    // nobody can be told
   }
@@ -348,29 +335,73 @@ void Recorder::add(const btCollisionObject& body, const std::string& name) {
 }
 
 bool Recorder::record(double time) {
+  begin_frame(time);
+  return end_frame();
+}
+
+bool Recorder::begin_frame(double time) {
   Impl& impl = *impl_;
-  if (!impl.output) {
+  if (impl.is_in_frame) {
+    throw InvalidArgument(
+        "recorder: a frame in a frame, expected end_frame() before begin_frame()");
+  }
+  if (!impl.output && !impl.is_off()) {
     throw InvalidArgument(fmt::format("{}: is finished, expected no further frame", impl.file));
   }
   if (!std::isfinite(time) || time < impl.last_call) {
     throw InvalidArgument(fmt::format("recorder: time = {} [s], expected at least {} and finite",
                                       time, impl.last_call));
   }
-  if (!impl.is_due(time)) {
-    impl.last_call = time;
-    ++impl.num_calls;
-    return false;
+  impl.is_frame_due = !impl.is_off() && impl.is_due(time);
+  if (impl.is_frame_due && !impl.writer) {
+    impl.read_state(time);
+    impl.begin();
   }
-  impl.read_state(time);
-  if (!impl.writer) impl.begin();
-  impl.writer->add_frame(impl.state);
   impl.last_call = time;
   ++impl.num_calls;
-  if (impl.num_frames++ == 0) impl.first_time = time;
-  impl.last_interval =
-      std::floor((time - impl.first_time) / impl.options.frame_interval + kEarlyShare);
-  impl.write_blow_up(time);
-  return true;
+  impl.is_in_frame = true;
+  return impl.is_frame_due;
+}
+
+bool Recorder::end_frame() {
+  Impl& impl = *impl_;
+  impl.require_frame("end_frame()");
+  impl.is_in_frame = false;
+  // A blow-up since the beginning asks for a frame.
+  const bool is_due = !impl.is_off() && (impl.is_frame_due || impl.is_due(impl.last_call));
+  if (is_due) impl.take_frame();
+  impl.marks.clear();
+  return is_due;
+}
+
+void Recorder::log_points(const std::string& name, std::span<const btVector3> points) {
+  impl_->require_frame(fmt::format("points '{}'", name));
+  if (impl_->is_frame_due) impl_->marks.add(scenes::MarkKind::kPoints, name, points, {});
+}
+
+void Recorder::log_lines(const std::string& name, std::span<const btVector3> begins,
+                         std::span<const btVector3> ends) {
+  impl_->require_frame(fmt::format("lines '{}'", name));
+  if (impl_->is_frame_due) impl_->marks.add(scenes::MarkKind::kLines, name, begins, ends);
+}
+
+void Recorder::log_arrows(const std::string& name, std::span<const btVector3> origins,
+                          std::span<const btVector3> vectors) {
+  impl_->require_frame(fmt::format("arrows '{}'", name));
+  if (!impl_->is_frame_due) return;
+  std::vector<btVector3> ends(vectors.begin(), vectors.end());
+  for (std::size_t i = 0; i < std::min(ends.size(), origins.size()); ++i) ends[i] += origins[i];
+  impl_->marks.add(scenes::MarkKind::kArrows, name, origins, ends);
+}
+
+void Recorder::event(const std::string& text) {
+  if (impl_->is_off()) return;
+  if (!impl_->writer) {
+    throw InvalidArgument(fmt::format(
+        "recorder: event '{}' comes before the first frame or after the end, expected it between",
+        text));
+  }
+  impl_->writer->add_note({impl_->last_call, text});
 }
 
 void Recorder::blow_up(const btSoftBody& body, int node, const std::string& reason) {
@@ -385,6 +416,7 @@ void Recorder::blow_up(const btSoftBody& body, int node, const std::string& reas
 }
 
 void Recorder::metric(const std::string& name, double value) {
+  if (impl_->is_off()) return;
   if (!impl_->writer) {
     throw InvalidArgument(fmt::format(
         "recorder: metric '{}' comes before the first frame or after the end, expected it between",
@@ -395,7 +427,7 @@ void Recorder::metric(const std::string& name, double value) {
 
 std::string Recorder::finish() {
   Impl& impl = *impl_;
-  if (!impl.content_hash.empty()) return impl.content_hash;
+  if (!impl.content_hash.empty() || impl.is_off()) return impl.content_hash;
   if (!impl.output || impl.num_frames == 0) {
     throw Error(fmt::format("{}: has no frame, expected record() before finish()", impl.file));
   }

@@ -4,12 +4,14 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include <weft/bridge/bullet/precision.hpp>
 
 class btCollisionObject;
 class btSoftBody;
+class btVector3;
 
 namespace weft::recorder {
 inline namespace WEFT_BULLET_PRECISION {
@@ -32,6 +34,14 @@ enum class Wholeness {
   kMayTear,  ///< it may get nodes, to which faces are led, as by bridge::tear() and bridge::cut()
 };
 
+/// Where the frames go.
+enum class BackEnd {
+  kFile,
+  kWindow,  ///< `weft view` follows them; they are kept until it is closed, which ~Recorder() waits for
+  kBoth,  ///< a file, and a window that stays when the program has ended
+  kNone,  ///< nowhere: every call returns at once, so that the calls may stay in the program
+};
+
 struct RecorderOptions {
   std::string name = "recording";      ///< of the scene: lower-case letters, digits and '_'
   std::string summary = {};            ///< one sentence for titles
@@ -43,6 +53,8 @@ struct RecorderOptions {
   std::optional<View> view =
       std::nullopt;          ///< none: the bodies of the first frame fill the picture
   bool may_replace = false;  ///< a recording of this name may be replaced when this one is whole
+  BackEnd back_end = BackEnd::kFile;
+  std::string window_program = "weft";  ///< Weft's command, a path or a name in PATH
 };
 
 /// Records the bodies of a program's own Bullet world into a file that `weft render`, `weft info`
@@ -51,8 +63,8 @@ struct RecorderOptions {
 /// Bodies are only read. Each must live until the last record(). One thread at a time.
 class Recorder {
  public:
-  /// The frames go to "x.partial.weftrec" beside path until the recording is whole. Throws
-  /// InvalidArgument for options out of their domain and for a path that is taken by something else
+  /// The frames go to "x.partial.weftrec" beside path until the recording is whole; path means nothing without a file.
+  /// Throws InvalidArgument for options out of their domain and for a path that is taken by something else
   /// than a recording that may be replaced, and Error if another program records to it.
   explicit Recorder(const std::filesystem::path& path, const RecorderOptions& options = {});
   /// As finish(), but without a message: call finish() to learn of a full disk. While an exception
@@ -83,11 +95,28 @@ class Recorder {
   /// also not finite, but in the first frame those of rigid bodies are finite.
   bool record(double time);
 
+  /// record() in two parts, with what is drawn beside the bodies between them. begin_frame() returns whether a frame is due:
+  /// if not, marks are not kept, and need not be computed. The bodies are read by end_frame(), which returns whether it took
+  /// a frame. Throw as record(), and InvalidArgument for a frame in a frame, and for an end without a beginning.
+  bool begin_frame(double time);
+  bool end_frame();
+  /// Points, lines from begins to ends, and arrows from origins along vectors, all in [m] of the world; what is called alike
+  /// has one color. Kept are single precision. Throw InvalidArgument outside of a frame, without a name, and for other numbers
+  /// of ends than of beginnings.
+  void log_points(const std::string& name, std::span<const btVector3> points);
+  void log_lines(const std::string& name, std::span<const btVector3> begins,
+                 std::span<const btVector3> ends);
+  void log_arrows(const std::string& name, std::span<const btVector3> origins,
+                  std::span<const btVector3> vectors);
+  /// What has happened, such as "the gripper lets go", at the time of the frame that has begun, or of the last one. Throws as
+  /// metric().
+  void event(const std::string& text);
+
   /// Says that a soft body has blown up in the step before the next record(), which then takes a
   /// frame in any case. Made for SoftBodySolver::set_on_blow_up(): the first recorded body counts,
   /// everything else is ignored. node is counted from 0.
   void blow_up(const btSoftBody& body, int node, const std::string& reason);
-  /// A number at the time of the last record(), such as ("kinetic_energy_J", 1.25): its name ends
+  /// A number at the time of the frame that has begun, or of the last record(), such as ("kinetic_energy_J", 1.25): its name ends
   /// with its unit, and the playback page draws those in J. The value may be NaN. Throws
   /// InvalidArgument before the first frame, after the end, and for an empty name.
   void metric(const std::string& name, double value);

@@ -137,6 +137,9 @@ void print_info(const scenes::RecordingReader& reader, const Contents& contents)
     print("  blew up at step {}, t = {:.6g} s, body '{}', node {}: {}\n", blow_up->step,
           blow_up->time, blow_up->body, blow_up->node, blow_up->reason);
   }
+  for (const scenes::Note& note : reader.notes()) {
+    print("  t = {:.6g} s: {}\n", note.time, note.text);
+  }
   const std::string engine = recorded_engine(reader);
   print("  engine {}, {}; {}frame interval {:.6g} s\n", engine.empty() ? "unknown" : engine,
         scenes::to_string(reader.precision()),
@@ -159,6 +162,14 @@ Json json_of(const std::optional<scenes::BlowUp>& blow_up) {
           {"body", blow_up->body},
           {"node", blow_up->node},
           {"reason", blow_up->reason}};
+}
+
+Json json_of(const std::vector<scenes::Note>& notes) {
+  Json events = Json::array();
+  for (const scenes::Note& note : notes) {
+    events.push_back({{"time_s", note.time}, {"text", note.text}});
+  }
+  return events;
 }
 
 Json json_of(const scenes::Scene& scene, const std::vector<ClothSize>& sizes) {
@@ -201,6 +212,7 @@ Json json_of(const scenes::RecordingReader& reader, const Contents& contents) {
           {"last_time_s", last < 0 ? Json(nullptr) : Json(reader.frame_time(last))},
           {"bodies", json_of(scene, contents.cloths)},
           {"blow_up", json_of(reader.blow_up())},
+          {"notes", json_of(reader.notes())},
           {"provenance", Json(reader.provenance())},
           {"content_hash", contents.content_hash}};
 }

@@ -28,6 +28,7 @@ struct TrimOptions {
   std::string from;
   std::string to;
   int every = 1;
+  std::string error;
   bool force = false;
 };
 
@@ -78,9 +79,13 @@ std::string copy(const scenes::RecordingReader& reader, const scenes::TrimRange&
 }
 
 int trim(const TrimOptions& options) {
-  const scenes::TrimRange range = range_of(options);
+  scenes::TrimRange range = range_of(options);
   const scenes::RecordingReader reader(options.recording);
   refuse_same_file(options);
+  if (!options.error.empty()) {
+    range.rounding = scenes::rounding_bounds(quantity_option("--error", options.error, "m"),
+                                             reader.scene().world.frame_interval);
+  }
   const std::vector<int> frames = kept_frames(reader, options, range);
   note_if_partial(reader, options.recording);
   const scenes::RecordingOutput output(options.output, options.force);
@@ -95,6 +100,7 @@ int trim(const TrimOptions& options) {
   print("{}: {} of {} frames, t = {:.6g} s to {:.6g} s\ncontent hash {}\n", options.output,
         frames.size(), reader.num_frames(), reader.frame_time(frames.front()),
         reader.frame_time(frames.back()), hash);
+  if (range.rounding) print("rounded: {}\n", scenes::rounding_text(*range.rounding));
   return kOk;
 }
 
@@ -115,6 +121,10 @@ Action add_trim_command(CLI::App& parser) {
   command->add_option("--every", options->every, "Keep the first frame and then one in so many")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
+  command->add_option("--error", options->error,
+                      "Round coordinates by at most so much, e.g. \"0.1 mm\", which makes a "
+                      "smaller file; velocities by as "
+                      "much in a frame interval (default: every bit is kept)");
   command->add_flag("-f,--force", options->force, "Replace an existing recording");
   return [options] { return trim(*options); };
 }

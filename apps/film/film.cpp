@@ -72,6 +72,7 @@ Film::Film(const scenes::RecordingReader& reader, const scenes::RenderOptions& o
 
 scenes::Image Film::draw(int frame, const std::string& style) {
   const scenes::SceneState state = reader_.frame(frame);
+  options_.marks = reader_.marks(frame);
   if (style != "strain") {
     options_.style =
         style == "wireframe" ? scenes::SurfaceStyle::kWireframe : scenes::SurfaceStyle::kShaded;
@@ -84,6 +85,7 @@ scenes::Image Film::draw(int frame, const std::string& style) {
 
 scenes::Image Film::draw(int frame, const scenes::ScalarField& field) {
   options_.style = scenes::SurfaceStyle::kScalar;
+  options_.marks = reader_.marks(frame);
   return renderer_.render(reader_.frame(frame), options_, &field);
 }
 

@@ -8,6 +8,7 @@
 #include <weft/mesh/cloth_mesh.hpp>
 #include <weft/playback/rendering/image.hpp>
 #include <weft/playback/rendering/opengl/gl_context.hpp>
+#include <weft/scenes/appearance/mark.hpp>
 #include <weft/scenes/scene.hpp>
 #include <weft/scenes/simulator.hpp>
 
@@ -43,6 +44,7 @@ struct RenderOptions {
   bool show_shadow = true;
   std::optional<Camera> camera = {};  ///< none: that of the scene
   std::optional<Ghosts> ghosts = {};
+  std::vector<Mark> marks = {};  ///< drawn beside the bodies, without a shadow
 };
 
 /// Draws states of one scene, off-screen or in a window. One renderer, many frames.

@@ -6,12 +6,13 @@
 #include <utility>
 
 #include <weft/playback/rendering/meshes/collider_mesh.hpp>
+#include <weft/playback/rendering/meshes/mark_mesh.hpp>
 
 namespace weft::scenes {
 namespace {
 
 // As in surface.frag.
-enum class SurfaceMode { kCloth, kScalar, kWireframe, kSolid, kTwoTone };
+enum class SurfaceMode { kCloth, kScalar, kWireframe, kSolid, kTwoTone, kMark };
 
 constexpr int kScaleSize = 256;
 constexpr GLint kScaleUnit = 2;
@@ -31,6 +32,8 @@ constexpr double kLargestDistance = 1e6;
 constexpr double kLineWidth = 1.1;
 /// Radius of a rope that is thinner, in radii of the scene: it must be seen.
 constexpr double kThinnestRope = 0.004;
+/// Radius of a point that a program has drawn, in radii of the scene.
+constexpr double kPointRadius = 0.009;
 
 Eigen::Matrix4f pose(const Vector3<double>& position, const Eigen::Quaterniond& orientation,
                      double scale) {
@@ -137,6 +140,7 @@ void ScenePainter::draw(const SceneState& state, const RenderOptions& options,
   // Near and far planes must not cut the ground.
   gl_.Enable(GL_DEPTH_CLAMP);
   upload_cloths(state, options, scalar, map);
+  upload_marks(options.marks);
   if (map != nullptr) upload_scale(*map);
   const Vector3<double> shift = camera_shift(scene_, meshes_, state);
   Camera camera = options.camera.value_or(scene_.camera);
@@ -180,6 +184,14 @@ void ScenePainter::upload_cloths(const SceneState& state, const RenderOptions& o
     if (scalar != nullptr) set_scalar(*scalar, i, *map, mesh);
     const bool is_wireframe = options.style == SurfaceStyle::kWireframe;
     cloths_[i].upload(is_wireframe ? with_barycentrics(mesh) : mesh);
+  }
+}
+
+void ScenePainter::upload_marks(const std::vector<Mark>& marks) {
+  const DrawLimits limits{stage_.center, kLargestDistance * stage_.radius};
+  while (marks_.size() < marks.size()) marks_.emplace_back(gl_);
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    marks_[i].upload(mark_surface(marks[i], kPointRadius * stage_.radius, limits));
   }
 }
 
@@ -241,6 +253,7 @@ void ScenePainter::draw_tile(const Picture& picture, const Tile& tile) {
   surface_program_.set("u_texture", kTextureUnit);
   draw_colliders(picture);
   draw_cloths(picture);
+  draw_marks(picture);
 }
 
 void ScenePainter::set_common(const ShaderProgram& program, const Picture& picture,
@@ -342,6 +355,21 @@ void ScenePainter::draw_cloths(const Picture& picture) const {
     paint.set(gl_, surface_program_, kTextureUnit);
     set_opacity(picture, options.ghosts && i >= options.ghosts->first_cloth);
     cloths_[i].draw();
+  }
+}
+
+void ScenePainter::draw_marks(const Picture& picture) const {
+  const std::vector<Mark>& marks = picture.options.marks;
+  if (marks.empty()) return;
+  surface_program_.set("u_mode", static_cast<int>(SurfaceMode::kMark));
+  surface_program_.set("u_is_thin", 0);
+  set_opacity(picture, false);
+  surface_program_.set("u_world_from_body", Eigen::Matrix4f(Eigen::Matrix4f::Identity()));
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    BodyPaint paint;
+    paint.front = paint.back = linear_light(marks[i].color);
+    paint.set(gl_, surface_program_, kTextureUnit);
+    marks_[i].draw();
   }
 }
 

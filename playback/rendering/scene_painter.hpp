@@ -45,6 +45,7 @@ class ScenePainter {
   void upload_cloths(const SceneState& state, const RenderOptions& options,
                      const ScalarField* scalar, const ColorMap* map);
   [[nodiscard]] bool is_drawn_fine(std::size_t cloth, const RenderOptions& options) const;
+  void upload_marks(const std::vector<Mark>& marks);
   void upload_scale(const ColorMap& map);
   void set_scalar(const ScalarField& scalar, std::size_t cloth, const ColorMap& map,
                   SurfaceMesh& mesh) const;
@@ -54,6 +55,7 @@ class ScenePainter {
   void draw_ground(const Picture& picture, const Tile& tile);
   void draw_colliders(const Picture& picture) const;
   void draw_cloths(const Picture& picture) const;
+  void draw_marks(const Picture& picture) const;
   void set_opacity(const Picture& picture, bool is_ghost) const;
   [[nodiscard]] bool is_drawn(std::size_t collider, const SceneState& state) const;
   void set_common(const ShaderProgram& program, const Picture& picture, const Tile& tile) const;
@@ -71,6 +73,7 @@ class ScenePainter {
   GpuMesh ground_;
   std::vector<GpuMesh> bodies_;
   std::vector<GpuMesh> cloths_;
+  std::vector<GpuMesh> marks_;  ///< of the picture, and unused ones
   std::vector<BodyPaint> body_paints_;
   std::vector<TornLayout> layouts_;
   std::vector<std::unique_ptr<ClothDrawing>>

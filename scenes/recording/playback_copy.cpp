@@ -14,6 +14,7 @@
 #include <weft/scenes/recording/storage/asset_table.hpp>
 #include <weft/scenes/recording/storage/database.hpp>
 #include <weft/scenes/recording/storage/format.hpp>
+#include <weft/scenes/recording/storage/mark_table.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -60,6 +61,7 @@ class CopyWriter {
   void add(int frame) {
     const SceneState state = reader_.frame(frame);
     write_topologies(state, frame);
+    marks_.add(frame, reader_.marks(frame));
     RoundedFrame rounded;
     std::vector<int> nodes;
     for (const ClothState& cloth : state.cloths) {
@@ -88,6 +90,8 @@ class CopyWriter {
     flush();
     for (const std::string& name : reader_.metric_names()) write_metric(name, reader_.metric(name));
     for (const PlaybackMetric& metric : options.metrics) write_metric(metric.name, metric.samples);
+    for (const Note& note : reader_.notes()) marks_.add(note);
+    marks_.write(database_);
     write_event();
     write_meta(options.position_error);
     database_.execute("COMMIT");
@@ -176,6 +180,7 @@ class CopyWriter {
     meta["num_frames"] = std::to_string(num_frames_);
     meta["num_metrics"] = std::to_string(num_metrics_);
     meta["content_hash"] = reader_.content_hash();
+    marks_.update(meta);
     meta["position_error_m"] = fmt::format("{}", position_error);
     for (const auto& [key, value] : reader_.provenance()) {
       meta[std::string(kProvenancePrefix) + key] = value;
@@ -200,6 +205,7 @@ class CopyWriter {
   std::vector<int> nodes_;
   std::vector<double> times_;  ///< [s]
   std::vector<std::shared_ptr<const ClothTopology>> last_;
+  MarkWriter marks_;
   std::int64_t num_topologies_ = 0;
   std::int64_t num_chunks_ = 0;
   std::int64_t num_frames_ = 0;

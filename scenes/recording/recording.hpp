@@ -7,9 +7,11 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include <weft/scenes/recording/mark.hpp>
 #include <weft/scenes/simulator.hpp>
 
 namespace weft::scenes {
@@ -47,6 +49,10 @@ class RecordingWriter {
   void add_frame(const SceneState& state);
   /// A named scalar over time, e.g. ("kinetic_energy_J", 0.5, 1.25); the value may be NaN.
   void add_metric(const std::string& name, double time, double value);
+  /// What is drawn in the last frame beside its bodies. Throws InvalidArgument before the first one, and as check_mark().
+  void add_marks(std::span<const Mark> marks);
+  /// What happened at some time. Throws InvalidArgument for a time that is not finite, and without a text.
+  void add_note(const Note& note);
   /// Commits at once, together with the frames so far.
   void set_blow_up(const BlowUp& blow_up);
   /// Commits what was added so far; otherwise that happens chunk by chunk. Throws Error if it cannot
@@ -88,6 +94,9 @@ class RecordingReader {
   [[nodiscard]] int num_frames() const;
   [[nodiscard]] double frame_time(int frame) const;  ///< [s]
   [[nodiscard]] SceneState frame(int frame) const;
+  /// What the frame shows beside its bodies, in the order of writing.
+  [[nodiscard]] std::vector<Mark> marks(int frame) const;
+  [[nodiscard]] std::vector<Note> notes() const;
   [[nodiscard]] std::vector<std::string> metric_names() const;
   struct Sample {
     double time;  ///< [s]

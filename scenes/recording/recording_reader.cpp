@@ -12,6 +12,7 @@
 #include <weft/scenes/recording/codec/chunk_codec.hpp>
 #include <weft/scenes/recording/recording.hpp>
 #include <weft/scenes/recording/storage/asset_table.hpp>
+#include <weft/scenes/recording/storage/mark_table.hpp>
 #include <weft/scenes/recording/storage/open_recording.hpp>
 
 namespace weft::scenes {
@@ -70,6 +71,7 @@ struct RecordingReader::Impl {
   /// Decoded bytes of a frame's chunk; the last chunk is remembered.
   std::span<const std::byte> frame_bytes(int frame) const;
   const std::vector<StoredMetric>& metric_rows() const;
+  const std::vector<MarkEntry>& mark_entries() const;
   std::string compute_content_hash() const;
   Scene read_scene() const;
 
@@ -86,6 +88,7 @@ struct RecordingReader::Impl {
   mutable std::optional<std::size_t> cached_chunk;
   mutable std::vector<std::byte> cached_bytes;
   mutable std::optional<std::vector<StoredMetric>> metrics;
+  mutable std::optional<std::vector<MarkEntry>> marks;  ///< growing frames
   mutable std::string content_hash;
 };
 
@@ -176,6 +179,14 @@ const std::vector<StoredMetric>& RecordingReader::Impl::metric_rows() const {
   }
   metrics = std::move(found);
   return *metrics;
+}
+
+const std::vector<MarkEntry>& RecordingReader::Impl::mark_entries() const {
+  if (!marks) {
+    marks = with_database(
+        [&](const Database& database) { return read_mark_entries(database, header, file); });
+  }
+  return *marks;
 }
 
 std::string RecordingReader::Impl::compute_content_hash() const {
@@ -269,6 +280,26 @@ SceneState RecordingReader::frame(int frame) const {
     });
   }
   return state;
+}
+
+std::vector<Mark> RecordingReader::marks(int frame) const {
+  (void)frame_time(frame);  // refuses a frame that is not there
+  std::vector<Mark> found;
+  const std::vector<MarkEntry>& entries = impl_->mark_entries();
+  const auto is_before = [](const MarkEntry& entry, int wanted) { return entry.frame < wanted; };
+  auto entry = std::lower_bound(entries.begin(), entries.end(), frame, is_before);
+  if (entry == entries.end() || entry->frame != frame) return found;
+  return impl_->with_database([&](const Database& database) {
+    for (; entry != entries.end() && entry->frame == frame; ++entry) {
+      found.push_back(read_mark(database, *entry, impl_->file));
+    }
+    return found;
+  });
+}
+
+std::vector<Note> RecordingReader::notes() const {
+  return impl_->with_database(
+      [&](const Database& database) { return read_notes(database, impl_->header, impl_->file); });
 }
 
 std::vector<std::string> RecordingReader::metric_names() const {

@@ -19,6 +19,7 @@
 #include <weft/scenes/recording/storage/asset_table.hpp>
 #include <weft/scenes/recording/storage/database.hpp>
 #include <weft/scenes/recording/storage/format.hpp>
+#include <weft/scenes/recording/storage/mark_table.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -97,6 +98,7 @@ struct RecordingWriter::Impl {
   Header header;
   FrameCodec codec;
   TopologyWriter topologies;
+  MarkWriter marks;
   std::optional<Database> database;
   ContentHash content_hash;
   StreamHash index_hash;
@@ -178,6 +180,7 @@ void RecordingWriter::Impl::write_pending() {
   if (!times.empty()) {
     write_chunk();
   }
+  marks.write(*database);
   write_metrics();
   if (event_pending) {
     write_event();
@@ -243,6 +246,7 @@ void RecordingWriter::Impl::update_meta() {
   meta["index_hash"] = index_hash.hex();
   meta["metric_hash"] = metric_hash.hex();
   if (topologies.can_tear()) meta["topology_hash"] = topologies.hash();
+  marks.update(meta);
   meta["meta_hash"] = header_hash(header);
   Statement upsert = database->prepare("INSERT OR REPLACE INTO meta VALUES (?, ?)");
   for (const auto& [key, value] : meta) {
@@ -329,6 +333,24 @@ void RecordingWriter::add_metric(const std::string& name, double time, double va
   if (impl_->metrics.size() >= kMaxPendingMetrics) {
     impl_->commit();
   }
+}
+
+void RecordingWriter::add_marks(std::span<const Mark> marks) {
+  impl_->require_usable();
+  const std::int64_t next = impl_->num_frames + std::ssize(impl_->times);
+  if (next == 0) throw InvalidArgument("add_marks: no frame, expected one before its marks");
+  impl_->marks.add(next - 1, marks);
+  // The frame has filled a chunk and is committed already: its marks must not wait for the next one.
+  if (impl_->times.empty() && !marks.empty()) impl_->commit();
+}
+
+void RecordingWriter::add_note(const Note& note) {
+  impl_->require_usable();
+  if (note.text.empty() || !std::isfinite(note.time)) {
+    throw InvalidArgument(fmt::format(
+        "add_note: text = '{}', time = {} [s], expected a text and finite", note.text, note.time));
+  }
+  impl_->marks.add({without_negative_zero(note.time), note.text});
 }
 
 void RecordingWriter::set_blow_up(const BlowUp& blow_up) {

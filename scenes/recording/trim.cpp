@@ -43,7 +43,10 @@ void copy_range(const RecordingReader& reader, const TrimRange& range, Recording
                 const std::function<void(double)>& progress) {
   const std::vector<int> frames = frames_to_keep(reader, range);
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    writer.add_frame(reader.frame(frames[i]));
+    SceneState state = reader.frame(frames[i]);
+    if (range.rounding) round_state(state, *range.rounding);
+    writer.add_frame(state);
+    writer.add_marks(reader.marks(frames[i]));
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(frames.size()));
   }
   const double tolerance = time_tolerance(reader);
@@ -54,6 +57,9 @@ void copy_range(const RecordingReader& reader, const TrimRange& range, Recording
     for (const RecordingReader::Sample& sample : reader.metric(name)) {
       if (is_inside(sample.time)) writer.add_metric(name, sample.time, sample.value);
     }
+  }
+  for (const Note& note : reader.notes()) {
+    if (is_inside(note.time)) writer.add_note(note);
   }
   const std::optional<BlowUp> blow_up = reader.blow_up();
   if (blow_up && is_inside(blow_up->time)) writer.set_blow_up(*blow_up);
@@ -66,6 +72,7 @@ Provenance trimmed_provenance(const RecordingReader& reader, const TrimRange& ra
       fmt::format("frames {} to {} of {}{}, counted from 0{}", frames.front(), frames.back(),
                   reader.num_frames(), reader.finished() ? "" : " of a partial recording",
                   range.every > 1 ? fmt::format(", one in {}", range.every) : "");
+  if (range.rounding) provenance[kRoundedKey] = rounding_text(*range.rounding);
   return provenance;
 }
 

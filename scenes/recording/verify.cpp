@@ -45,6 +45,7 @@ class Verifier {
       if (progress) progress((frame + 1.0) / result_.num_frames);
     }
     attempt([&] { (void)reader_.metric_names(); });
+    attempt([&] { (void)reader_.notes(); });
     // With a frame that cannot be read it would only be the same fault again.
     if (result_.num_readable == result_.num_frames) attempt([&] { (void)reader_.content_hash(); });
     return result_;
@@ -64,6 +65,7 @@ class Verifier {
 
   void look_at(int frame) {
     const SceneState state = reader_.frame(frame);
+    attempt([&] { (void)reader_.marks(frame); });
     ++result_.num_readable;
     if (result_.readable.empty() || result_.readable.back().last != frame - 1) {
       result_.readable.push_back({frame, frame});

@@ -99,6 +99,7 @@ bool Comparison::follow() {
   }
   if (!has_grown) return false;
   measures_.resize(static_cast<std::size_t>(num_frames()));
+  notes_ = reader().notes();
   last_frame_ = -1;
   return true;
 }
@@ -167,6 +168,7 @@ void Comparison::rebuild() {
   meter_ = std::make_unique<Meter>(reader().scene());
   measures_.assign(static_cast<std::size_t>(num_frames()), std::nullopt);
   num_measured_ = 0;
+  notes_ = reader().notes();
   last_frame_ = -1;
 }
 
@@ -187,6 +189,7 @@ SnapshotPtr Comparison::frame(int frame) {
   if (!measures) measures = meter_->measure(snapshot->state);
   snapshot->measures = *measures;
   snapshot->step = frame;
+  snapshot->marks = reader().marks(frame);
   const auto blow_up = reader().blow_up();
   if (blow_up && blow_up->time <= snapshot->state.time) snapshot->blow_up = blow_up;
   for (std::size_t r = 0; has_ghosts() && r < readers_.size(); ++r) {

@@ -57,6 +57,8 @@ class Comparison {
   bool measure_more(double seconds);
   /// The figures of each frame of the solid recording; none where it was not measured yet.
   [[nodiscard]] const std::vector<std::optional<Measures>>& measures() const { return measures_; }
+  /// Those of the solid recording.
+  [[nodiscard]] const std::vector<scenes::Note>& notes() const { return notes_; }
 
  private:
   /// When a file and its log were changed last, and their sizes.
@@ -80,6 +82,7 @@ class Comparison {
   std::unique_ptr<Meter> meter_;                  ///< of the solid recording
   std::vector<std::optional<Measures>> measures_;
   std::size_t num_measured_ = 0;
+  std::vector<scenes::Note> notes_;
   SnapshotPtr last_;
   int last_frame_ = -1;
 };

@@ -152,6 +152,7 @@ void RecordedSource::describe(nlohmann::json& json) const {
   json["drawn_cloths"] = drawn_scene().cloths.size();
   json["loop"] = is_looping_;
   json["may_grow"] = comparison_.may_grow();
+  json["notes"] = comparison_.notes().size();
 }
 
 }  // namespace weft::viewer

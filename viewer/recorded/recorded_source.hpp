@@ -27,6 +27,7 @@ class RecordedSource final : public Source {
   [[nodiscard]] int frame() const override { return frame_; }
   [[nodiscard]] double frame_time(int frame) const override;
   void seek(int frame) override;
+  [[nodiscard]] std::vector<scenes::Note> notes() const override { return comparison_.notes(); }
   [[nodiscard]] std::vector<PlotPoint> plot() const override;
   void describe(nlohmann::json& json) const override;
 

@@ -127,8 +127,9 @@ void draw_marks(const PanelFrame& frame) {
   }
   const scenes::Camera camera =
       followed(frame.session.source().drawn_scene(), view.camera, shown->state);
-  if (view.shows_worst) draw_worst(frame, list, *shown, camera, aspect);
+  // Labels over the arrows.
   if (view.shows_contacts) draw_contacts(frame, *shown, camera, aspect);
+  if (view.shows_worst) draw_worst(frame, list, *shown, camera, aspect);
   draw_pull(frame, list, *shown, camera, aspect);
   draw_carry(frame, list, *shown, camera, aspect);
 }

@@ -81,6 +81,7 @@ void Stage::paint(Session& session, const Key& key) {
   options.show_shadow = key.has_shadow;
   options.camera = session.view().camera;
   options.ghosts = session.source().ghosts();
+  options.marks = key.shown->marks;
   scenes::ScalarField field;
   if (key.style == scenes::SurfaceStyle::kScalar) {
     const std::vector<Eigen::VectorXd> strains = meter_->strains(key.shown->state);

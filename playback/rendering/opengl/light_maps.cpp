@@ -9,7 +9,6 @@ namespace {
 
 constexpr int kNumSkyLights = 24;            // as in prelude.glsl
 constexpr int kNumSkyTaps = 6;               // as in prelude.glsl
-constexpr int kNumShadowTaps = 32;           // as in prelude.glsl
 constexpr GLsizei kKeySize = 2048;           // [texel]
 constexpr GLsizei kSkySize = 512;            // [texel]
 constexpr float kGoldenAngle = 2.39996323f;  // [rad] spreads points evenly without a pattern
@@ -17,6 +16,8 @@ constexpr float kGoldenAngle = 2.39996323f;  // [rad] spreads points evenly with
 /// Radius of the filter of the key shadow, part of the map: 12 texels are soft, but keep the
 /// shape of a fold.
 constexpr float kKeySpread = 12.0f / kKeySize;
+// Linear comparison looks at one texel more.
+static_assert(kKeySpread * kKeySize + 1 < ShadowBounds::kBlock);
 /// Lift along the normal, in texels: the depth inside of one texel varies by the slope times half
 /// its diagonal; the filter looks that much farther.
 constexpr float kKeyLift = 8.0f;
@@ -29,6 +30,7 @@ constexpr float kBodySkySpread = 6.0f / kSkySize;
 
 constexpr GLint kKeyUnit = 0;
 constexpr GLint kSkyUnit = 1;
+constexpr GLint kBoundsUnit = 4;  // after those of ScenePainter
 
 /// Points evenly spread over the upper half of the unit sphere.
 std::vector<Eigen::Vector3f> sky_directions() {
@@ -66,8 +68,8 @@ void set_comparing(const GlFunctions& gl, GLenum target) {
 LightMaps::LightMaps(const GlFunctions& gl)
     : gl_(gl),
       depth_program_(gl, {"depth.vert"}, {"depth.frag"}),
+      key_bounds_(gl, kKeySize),
       sky_directions_(sky_directions()),
-      key_taps_(disk_points(kNumShadowTaps)),
       sky_taps_(disk_points(kNumSkyTaps)) {
   gl.GenFramebuffers(1, &framebuffer_);
   gl.GenTextures(1, &key_map_);
@@ -115,6 +117,7 @@ void LightMaps::update(const Eigen::Vector3f& key_direction, const Eigen::Vector
     depth_program_.set("u_clip_from_world", sky_matrices_.back());
     draw_casters(depth_program_);
   }
+  key_bounds_.update(key_map_);
 }
 
 void LightMaps::bind(const ShaderProgram& program, Receiver receiver) const {
@@ -123,13 +126,15 @@ void LightMaps::bind(const ShaderProgram& program, Receiver receiver) const {
   gl_.BindTexture(GL_TEXTURE_2D, key_map_);
   gl_.ActiveTexture(GL_TEXTURE0 + kSkyUnit);
   gl_.BindTexture(GL_TEXTURE_2D_ARRAY, sky_maps_);
+  gl_.ActiveTexture(GL_TEXTURE0 + kBoundsUnit);
+  gl_.BindTexture(GL_TEXTURE_2D, key_bounds_.texture());
+  program.set("u_key_bounds", kBoundsUnit);
   program.set("u_key_map", kKeyUnit);
   program.set("u_sky_maps", kSkyUnit);
   program.set("u_key_direction", key_direction_);
   program.set("u_key_clip_from_world", key_matrix_);
   program.set("u_key_offset", kKeyLift * diameter / kKeySize);
   program.set("u_key_spread", kKeySpread);
-  program.set("u_key_taps", key_taps_);
   program.set("u_sky_offset", kSkyLift * diameter / kSkySize);
   program.set("u_sky_spread", receiver == Receiver::kGround ? kGroundSkySpread : kBodySkySpread);
   program.set("u_sky_taps", sky_taps_);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <weft/playback/rendering/opengl/shader_program.hpp>
+#include <weft/playback/rendering/opengl/shadow_bounds.hpp>
 
 namespace weft::scenes {
 
@@ -31,6 +32,7 @@ class LightMaps {
  private:
   const GlFunctions& gl_;
   ShaderProgram depth_program_;
+  ShadowBounds key_bounds_;
   GLuint framebuffer_ = 0;
   GLuint key_map_ = 0;
   GLuint sky_maps_ = 0;
@@ -39,7 +41,6 @@ class LightMaps {
   Eigen::Matrix4f key_matrix_;
   std::vector<Eigen::Vector3f> sky_directions_;
   std::vector<Eigen::Matrix4f> sky_matrices_;
-  std::vector<Eigen::Vector3f> key_taps_;
   std::vector<Eigen::Vector3f> sky_taps_;
 };
 

@@ -29,7 +29,7 @@ void main() {
   color *= mix(vec3(1.0), u_tint, near_weight);
   color *= 1.0 + 0.10 * near_weight;
   color *= 1.0 - 0.10 * near_weight * grid(v_extra.xz + u_shift, 2.0);
-  float light = 0.48 * clamp(v_sky.x, 0.0, 1.0) + 0.52 * key_light(v_position, normalize(v_normal));
+  float light = 0.48 * clamp(v_sky.x, 0.0, 1.0) + 0.52 * key_light(v_position, normalize(v_normal), true);
   // Shadows keep some of the sky's blue, as they do outdoors.
   o_color = vec4(color * mix(vec3(0.16, 0.18, 0.22), vec3(1.0), light), 1.0);
 }

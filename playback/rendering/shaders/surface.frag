@@ -10,6 +10,7 @@ const int kScalar = 1;
 const int kWireframe = 2;
 const int kSolid = 3;
 const int kTwoTone = 4;
+const int kMark = 5;
 
 // As TextureMapping.
 const int kNoTexture = 0;
@@ -97,11 +98,17 @@ void main() {
   vec3 normal = u_is_flat != 0 ? normalize(cross(dFdx(v_position), dFdy(v_position)))
                                : normalize(front ? v_normal : -v_normal);
   vec3 view = normalize(u_eye - v_position);
+  if (u_mode == kMark) {
+    // What stands in the shadow of a cloth, or half inside of it, must be seen too.
+    o_color = vec4(u_front_color * (0.6 + 0.4 * clamp(dot(normal, view), 0.0, 1.0)), 1.0);
+    return;
+  }
   float sky = front ? v_sky.x : v_sky.y;
   vec3 color = albedo(front);
 
   float key_facing = dot(normal, u_key_direction);
-  float reached = key_light(v_position, key_facing < 0.0 ? -normal : normal);
+  // Behind a body it is dark, whatever stands in the way.
+  float reached = key_light(v_position, key_facing < 0.0 ? -normal : normal, key_facing > 0.0 || u_is_thin != 0);
   float key = max(key_facing, 0.0) * reached * smoothstep(0.0, 0.12, key_facing);
   // Cloth is thin: some light comes through from the other side.
   float through = u_is_thin != 0 ? 0.38 * max(-key_facing, 0.0) * reached : 0.0;

@@ -10,6 +10,7 @@
 #include <weft/core/error.hpp>
 #include <weft/core/input_file.hpp>
 #include <weft/scenes/recording/storage/asset_table.hpp>
+#include <weft/scenes/recording/storage/mark_table.hpp>
 
 namespace weft::scenes {
 namespace {
@@ -153,7 +154,7 @@ Database open_recording(const std::filesystem::path& path) {
   }
   std::string tables(kTableSchema);
   if (version == kTornFormatVersion) tables += kTopologySchema;
-  database.require_schema(tables, kAssetSchema);
+  database.require_schema(tables, std::string(kAssetSchema) + ";" + std::string(kMarkSchema));
   return database;
 }
 

@@ -1,5 +1,6 @@
 #include <cstdio>
 #include <memory>
+#include <vector>
 
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
@@ -33,7 +34,19 @@ int main() {
   recorder.add(ball, "ball");
   for (int step = 1; step <= 60; ++step) {
     world.stepSimulation(btScalar(1) / 60, 0);
-    recorder.record(step / 60.0);
+    recorder.begin_frame(step / 60.0);
+    std::vector<btVector3> touching;
+    std::vector<btVector3> ways;  // within a tenth of a second
+    for (int i = 0; i < cloth->m_nodes.size(); ++i) {
+      const btSoftBody::Node& node = cloth->m_nodes[i];
+      if (node.m_x.length() > btScalar(0.85)) continue;
+      touching.push_back(node.m_x);
+      ways.push_back(btScalar(0.1) * node.m_v);
+    }
+    recorder.log_points("near", touching);
+    recorder.log_arrows("velocity", touching, ways);
+    if (step == 30) recorder.event("half of the time is over");
+    recorder.end_frame();
   }
   std::printf("%d frames, content hash %s\n", recorder.num_frames(), recorder.finish().c_str());
   world.removeRigidBody(&ball);

@@ -181,6 +181,35 @@ TEST_F(RendererTest, AGhostLetsThroughItsPartOfTheLight) {
   EXPECT_LT(of_ghost, of_background - kOtherThing / 2);
 }
 
+TEST_F(RendererTest, MarksAreDrawnInTheirColorAndHiddenByWhatStandsBeforeThem) {
+  Renderer renderer(scene);
+  Mark mark{
+      MarkKind::kPoints, "contact", {220, 0, 0}, Matrix3X<float>(3, 2), Matrix3X<float>(3, 0)};
+  const Vector3<double> free(-2.0, 1.0, 0.0);
+  const Vector3<double> hidden = scene.colliders[0].position;  // in the middle of the ball
+  mark.from.col(0) = free.cast<float>();
+  mark.from.col(1) = hidden.cast<float>();
+  for (const Vector3<double>& place : {free, hidden}) {
+    // Near enough that a point is some pixels wide.
+    options.camera = scene.camera;
+    options.camera->target = place;
+    options.camera->position = place + Vector3<double>(0.0, 0.3, 1.0);
+    options.marks.clear();
+    const Image plain = renderer.render(state, options);
+    options.marks = {mark};
+    const Image marked = renderer.render(state, options);
+    const Rgb red = pixel_at(marked, *options.camera, place);
+    if (place == free) {
+      EXPECT_GT(red[0], red[2] + kOtherThing);
+    } else {
+      EXPECT_EQ(marked.rgb, plain.rgb);
+    }
+    // What was drawn once is gone with the marks.
+    options.marks.clear();
+    EXPECT_EQ(renderer.render(state, options).rgb, plain.rgb);
+  }
+}
+
 TEST_F(RendererTest, SameInputGivesSameBytes) {
   const Image first = Renderer(scene).render(state, options);
   Renderer renderer(scene);

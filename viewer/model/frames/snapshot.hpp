@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include <weft/scenes/appearance/mark.hpp>
 #include <weft/scenes/contact_view.hpp>
 #include <weft/scenes/simulator.hpp>
 #include <weft/viewer/model/measures.hpp>
@@ -22,6 +23,7 @@ struct Snapshot {
   double pull_force = 0.0;  ///< [N] with which the mouse pulls
   /// Of the last step; none: the engine, or a recording, does not tell.
   std::optional<std::vector<scenes::NodeTouch>> touches;
+  std::vector<scenes::Mark> marks;  ///< of a program that has recorded its own loop
   std::optional<scenes::BlowUp> blow_up;
 };
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <weft/playback/rendering/renderer.hpp>
+#include <weft/scenes/recording/mark.hpp>
 #include <weft/viewer/model/action.hpp>
 #include <weft/viewer/model/frames/snapshot.hpp>
 
@@ -58,6 +59,9 @@ class Source {
   [[nodiscard]] virtual int frame() const = 0;
   [[nodiscard]] virtual double frame_time(int frame) const = 0;
   virtual void seek(int frame) = 0;
+
+  /// What a program has said about moments of its loop, in the order of their times.
+  [[nodiscard]] virtual std::vector<scenes::Note> notes() const { return {}; }
 
   /// Oldest first.
   [[nodiscard]] virtual std::vector<PlotPoint> plot() const = 0;

@@ -2,6 +2,8 @@
 
 #include <imgui.h>
 
+#include <cmath>
+
 #include <weft/viewer/ui/panels/panels.hpp>
 
 namespace weft::viewer {
@@ -19,6 +21,32 @@ void speed_slider(Session& session, float width) {
   if (ImGui::IsItemHovered()) {
     ImGui::SetTooltip("Simulated over wall time, at most  [%s slower, %s faster]",
                       info_of(Action::kSlower).key.data(), info_of(Action::kFaster).key.data());
+  }
+}
+
+/// So long after its time a note stands beside the frame. [s]
+constexpr double kNoteTime = 1.0;
+
+/// Ticks below the slider where the program has said something; the one under the mouse is told.
+void note_ticks(Session& session, float scale) {
+  const std::vector<scenes::Note> notes = session.source().notes();
+  const int last = session.source().num_frames() - 1;
+  if (notes.empty() || last < 1) return;
+  const double begin = session.source().frame_time(0);
+  const double duration = session.source().frame_time(last) - begin;
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const ImVec2 high = ImGui::GetItemRectMax();
+  const ImVec2 mouse = ImGui::GetMousePos();
+  for (const scenes::Note& note : notes) {
+    const double part = (note.time - begin) / duration;
+    if (part < 0.0 || part > 1.0) continue;
+    const float x = low.x + static_cast<float>(part) * (high.x - low.x);
+    ImGui::GetWindowDrawList()->AddTriangleFilled(
+        ImVec2(x - 4.0f * scale, high.y), ImVec2(x + 4.0f * scale, high.y),
+        ImVec2(x, high.y - 7.0f * scale), ImGui::GetColorU32(ImGuiCol_PlotHistogram));
+    if (ImGui::IsItemHovered() && std::abs(mouse.x - x) < 5.0f * scale) {
+      ImGui::SetTooltip("t = %.3f s: %s", note.time, note.text.c_str());
+    }
   }
 }
 
@@ -40,6 +68,15 @@ void frame_slider(Session& session, float width) {
   }
 }
 
+/// What the program has said last, for a while.
+std::string note_at(Session& session, double time) {
+  std::string text;
+  for (const scenes::Note& note : session.source().notes()) {
+    if (note.time <= time && note.time > time - kNoteTime) text = "   " + note.text;
+  }
+  return text;
+}
+
 void status(Session& session) {
   const SnapshotPtr shown = session.source().shown();
   if (!shown) return;
@@ -57,8 +94,8 @@ void status(Session& session) {
       }
     }
   } else {
-    ImGui::Text("t = %.3f s   frame %d of %d", shown->state.time, shown->step + 1,
-                session.source().num_frames());
+    ImGui::Text("t = %.3f s   frame %d of %d%s", shown->state.time, shown->step + 1,
+                session.source().num_frames(), note_at(session, shown->state.time).c_str());
   }
 }
 
@@ -71,6 +108,7 @@ void draw_timeline(const PanelFrame& frame) {
   const float s = frame.scale;
   const bool is_playing = session.source().is_playing();
   frame_slider(session, ImGui::GetContentRegionAvail().x);
+  note_ticks(session, s);
   action_button(session, Action::kPause, is_playing ? "Pause" : "Run", 64.0f * s);
   ImGui::SameLine();
   action_button(session, Action::kRestart, "Restart", 64.0f * s);

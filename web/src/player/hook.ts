@@ -14,6 +14,8 @@ export interface Hook {
   positions: (body: string, recording?: number) => number[];
   /** [-], strain of each node of a cloth in the frame that is shown. */
   strain: (body: string, recording?: number) => number[];
+  /** What a program has drawn into the frame that is shown: name, kind, and [m] where it is. */
+  marks: (recording?: number) => { name: string; kind: string; from: number[]; to: number[] }[];
   /** Three nodes for each triangle of a cloth that is drawn. */
   triangles: (body: string, recording?: number) => number[];
   /** Times [s] and values of a metric. */
@@ -61,6 +63,10 @@ export function makeHook(player: Player, ready: Promise<void>): Hook {
       const { place, data } = find(name, index);
       return Array.from(player.strainOf(index ?? 0, place, data.positions[place] ?? []) ?? []);
     },
+    marks: (index = 0) =>
+      recordingOf(index)
+        .recording.marks(player.frames()[index] ?? 0)
+        .map(({ name, kind, from, to }) => ({ name, kind, from: [...from], to: [...to] })),
     triangles: (name, index) => {
       const { exhibit, at, place, frame } = find(name, index);
       return Array.from(exhibit.recording.topology(at, frame)?.triangles ?? exhibit.meshes[place]?.triangles ?? []);

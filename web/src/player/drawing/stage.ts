@@ -19,6 +19,7 @@ import { boundsOf } from "./bounds";
 import { ClothView, type Look } from "./cloth_view";
 import type { Exhibit } from "../exhibit";
 import { Ground } from "./ground";
+import { MarkView } from "./mark_view";
 import { bodyPaint, clothPaint, colourOf, type Paint } from "./paint";
 import { clothEntry, quantity, text } from "../scene";
 import { shapeGeometry } from "../meshes/shape_geometry";
@@ -26,6 +27,8 @@ import { shapeGeometry } from "../meshes/shape_geometry";
 /** Obstacles are drawn 0.2 % smaller: between its nodes a cloth is flat, and a ball would shine through it. */
 const BODY_SCALE = 0.998;
 const SHADOW_PIXELS = 2048;
+/** A point that a program has drawn has this radius, in radii of the scene. */
+const POINT_RADIUS = 0.009;
 
 /** Octants in two colours. */
 function paintOctants(geometry: BufferGeometry, paint: Paint): BufferGeometry {
@@ -70,6 +73,7 @@ export class Stage {
   readonly shift = new Vector3();
   private readonly bodies: (Mesh | null)[];
   private readonly ground: Ground | null;
+  private readonly marks: MarkView;
   private readonly sun = new DirectionalLight(0xfff6ea, 2.1);
   private readonly sky = new HemisphereLight(0xffffff, 0xb8b4ae, 1.35);
   private followed: { isCloth: boolean; index: number; start: Vector3 } | null = null;
@@ -94,6 +98,8 @@ export class Stage {
       return mesh;
     });
     this.ground = this.makeGround(entries);
+    this.marks = new MarkView(POINT_RADIUS * this.radius);
+    this.scene.add(this.marks.group);
     this.addLights();
     this.findFollowed();
   }
@@ -193,6 +199,7 @@ export class Stage {
       mesh.position.set(x - origin[0], y - origin[1], z - origin[2]);
       mesh.quaternion.set(i, j, k, w).normalize();
     });
+    if (index !== this.shown) this.marks.show(recording.marks(index), origin);
     const place = this.placeOfFollowed(index);
     if (place && Number.isFinite(place.length())) this.shift.copy(place).sub(this.followed!.start);
     if (this.ground && this.followed) {
@@ -217,6 +224,7 @@ export class Stage {
       (mesh?.material as MeshStandardMaterial | undefined)?.dispose();
     }
     this.ground?.dispose();
+    this.marks.dispose();
     this.sun.shadow.map?.dispose();
   }
 }

@@ -3,6 +3,7 @@ import type { Database, SqlValue } from "sql.js";
 
 import { decodeFull, decodeRounded, unshuffled, type Frame, type Layout } from "./chunk_codec";
 import type { Engines } from "./engines";
+import { decodeMark, type Mark, type MarkRow } from "./marks";
 import { databaseFile, UnreadableFile } from "./sqlite_file";
 import { sizeText } from "./bytes";
 
@@ -32,6 +33,12 @@ export interface BlowUp {
   body: string;
   node: number;
   reason: string;
+}
+
+/** What a program has said about a moment. */
+export interface ProgramNote {
+  time: number; // [s]
+  text: string;
 }
 
 interface Chunk {
@@ -64,6 +71,7 @@ export class Recording {
   readonly metrics: Metric[] = [];
   readonly assets = new Map<string, Uint8Array>();
   readonly blowUp: BlowUp | null;
+  readonly events: ProgramNote[] = [];
   /** What its reader must know: partial, cut off, damaged. */
   readonly notes: string[] = [];
 
@@ -71,6 +79,7 @@ export class Recording {
   private readonly chunks: Chunk[] = [];
   private readonly chunkOf: Chunk[] = []; // of each frame in times
   private readonly storedFrame: number[] = []; // frame.id of each frame in times
+  private readonly markRows = new Map<number, MarkRow[]>(); // of each stored frame
   private readonly topologies = new Map<number, Topology[]>();
   private readonly cache = new Map<number, Frame[]>();
   private cached = 0;
@@ -101,6 +110,7 @@ export class Recording {
       this.readFrames(file.missing > 0);
       this.readMetrics(file.missing > 0);
       this.readAssets();
+      this.readMarks(file.missing > 0);
     } catch (error) {
       this.close();
       if (error instanceof UnreadableFile) throw error;
@@ -275,6 +285,32 @@ export class Recording {
     }
   }
 
+  private readMarks(isCut: boolean): void {
+    const notes = "SELECT time_s, reason FROM event WHERE kind = 'note' ORDER BY id";
+    for (const [time, text] of this.rowsThatAreThere(notes, isCut)) this.events.push({ time: Number(time), text: String(text) });
+    if (!this.has("mark")) return;
+    const sql = "SELECT id, frame, color, raw_bytes, name, kind, hash FROM mark ORDER BY id";
+    for (const row of this.rowsThatAreThere(sql, isCut)) {
+      const [id, frame, colour, rawBytes] = row.slice(0, 4).map(Number) as [number, number, number, number];
+      const list = this.markRows.get(frame) ?? [];
+      list.push({ id, frame, colour, rawBytes, name: String(row[4]), kind: String(row[5]), hash: String(row[6]) });
+      this.markRows.set(frame, list);
+    }
+  }
+
+  /** What a frame shows beside its bodies; what is damaged is left out. */
+  marks(index: number): Mark[] {
+    const rows = this.markRows.get(this.storedFrame[index] ?? -1) ?? [];
+    return rows.flatMap((row) => {
+      try {
+        const data = this.blob("SELECT data FROM mark WHERE id = ?", row.id);
+        return this.engines.hash(data) === row.hash ? [decodeMark(row, data)] : [];
+      } catch {
+        return [];
+      }
+    });
+  }
+
   private noteState(missing: number, lacksLog: boolean): void {
     const last = this.times.at(-1);
     const reach = last === undefined ? "no frame" : `${this.times.length} frames, to t = ${Number(last.toPrecision(6))} s`;
@@ -287,6 +323,7 @@ export class Recording {
       const { time, body, node, reason } = this.blowUp;
       this.notes.push(`The simulation blew up at t = ${Number(time.toPrecision(6))} s: ${body}, node ${node}: ${reason}.`);
     }
+    for (const { time, text } of this.events) this.notes.push(`t = ${Number(time.toPrecision(6))} s: ${text}`);
     if (last === undefined && missing === 0) this.notes.push("The recording has no frame yet.");
   }
 
