@@ -220,7 +220,7 @@ TEST(CoarseCorrection, CorrectsNothingWhereAllIsPinned) {
   correction.restrict_residual(0, {}, values);
   correction.solve(team);
   correction.prolongate(0, {}, values);
-  EXPECT_TRUE(values.isZero(0));
+  EXPECT_TRUE(values.topRows(3).isZero(0));
 }
 
 }  // namespace

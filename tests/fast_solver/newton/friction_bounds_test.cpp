@@ -1,4 +1,4 @@
-// Tested: a decision on contact states gives friction other bounds, which change the energy without any motion.
+// A decision on contact states gives friction other bounds, which changes the energy without any motion.
 #include <gtest/gtest.h>
 
 #include <weft/fast_solver/implicit_solver.hpp>
