@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -9,6 +10,7 @@
 
 #include <weft/core/error.hpp>
 #include <weft/scenes/catalog.hpp>
+#include <weft/scenes/format/mesh_text.hpp>
 #include <weft/scenes/format/scene_file.hpp>
 
 namespace weft::scenes {
@@ -122,8 +124,9 @@ TEST_F(DrawnMeshFile, MistakesAreErrorsWithTheirPlace) {
   EXPECT_THAT(with("{ file = \"points.obj\" }"), HasSubstr("has no triangle"));
   EXPECT_THAT(
       with("{ file = \"square.obj\", max_distance = \"10 cm\" }"),
-      HasSubstr("10:14: cloth.drawn_mesh = {...}: embedding: vertex 2 of the drawn mesh is 1.000000 m "
-                "from the cloth, expected at most 0.100000 m (2 vertices are farther)"));
+      HasSubstr(
+          "10:14: cloth.drawn_mesh = {...}: embedding: vertex 2 of the drawn mesh is 1.000000 m "
+          "from the cloth, expected at most 0.100000 m (2 vertices are farther)"));
   EXPECT_THAT(with("{ file = \"flat.obj\", max_distance = \"0 m\" }"), HasSubstr("max_distance"));
   EXPECT_THAT(with("{ file = \"flat.obj\", rigid_pieces = 3 }"), HasSubstr("rigid_pieces"));
   EXPECT_THAT(with("{ file = \"flat.obj\", thickness = \"1 cm\" }"), HasSubstr("unknown key"));
@@ -146,6 +149,30 @@ std::string fault_of_part(const std::string& table) {
     return error.what();
   }
   return "no error";
+}
+
+TEST(DrawnMeshText, TextureCoordinatesMustFitAndBeNumbers) {
+  Surface surface;
+  surface.positions.resize(3, 3);
+  surface.positions << 0, 1, 0, 0, 0, 0, 0, 0, 1;
+  surface.triangles.resize(3, 1);
+  surface.triangles << 0, 2, 1;
+  const auto fault_of = [&] {
+    try {
+      (void)read_scene_text(
+          kClothStart + kGrid + "drawn_mesh = { data = \"" + mesh_text(surface) + "\" }\n",
+          "a.toml");
+    } catch (const SceneError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(fault_of(), "no error");
+  surface.corner_texture_coordinates = Matrix2X<double>::Zero(2, 2);
+  EXPECT_THAT(fault_of(), HasSubstr("cloth.drawn_mesh = {...}: "));
+  surface.corner_texture_coordinates =
+      Matrix2X<double>::Constant(2, 3, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_THAT(fault_of(), HasSubstr("a texture coordinate is not finite"));
 }
 
 TEST(DrawnPart, IsNoSkinAndLiesAroundItsCloth) {

@@ -27,7 +27,7 @@ struct GltfClothNode {
 };
 
 /// Adds a cloth or rope as a mesh with morph targets. Its positions in all frames must be finite in single precision. Throws UnfitRecording for tears that close
-/// again. on_frame is called for every frame that is read.
+/// again, and for a cloth with a drawn mesh that tears. on_frame is called for every frame that is read.
 [[nodiscard]] GltfClothNode add_cloth(GltfParts parts, const RecordingReader& reader,
                                       std::size_t cloth, const GltfOptions& options,
                                       const std::function<void()>& on_frame);

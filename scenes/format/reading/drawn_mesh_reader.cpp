@@ -61,10 +61,25 @@ DrawnCloth read_drawn_mesh(const TomlValue& value, const Cloth& cloth) {
   return drawn;
 }
 
+namespace {
+
+void check_texture_coordinates(const Surface& surface) {
+  ClothMesh mesh;
+  mesh.rest_positions = surface.positions;
+  mesh.triangles = surface.triangles;
+  mesh.corner_texture_coordinates = surface.corner_texture_coordinates;
+  if (!corner_coordinates(mesh).allFinite()) {
+    throw InvalidArgument("a texture coordinate is not finite, expected a number");
+  }
+}
+
+}  // namespace
+
 void check_drawn_mesh(const TomlValue& value, const Cloth& cloth) {
   const DrawnCloth& drawn = cloth.drawn_mesh.value();
   try {
     const ClothMesh mesh = make_mesh(cloth);
+    check_texture_coordinates(*drawn.surface);
     (void)ClothEmbedding(mesh.rest_positions, mesh.triangles,
                          {drawn.surface->positions, drawn.surface->triangles}, drawn.embedding);
   } catch (const InvalidArgument& error) {

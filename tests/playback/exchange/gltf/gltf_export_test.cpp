@@ -108,32 +108,6 @@ TEST(GltfExport, ADrawnMeshStandsInPlaceOfItsCloth) {
   EXPECT_EQ(document.accessor(plain.at("POSITION")).at("count"), 25);
 }
 
-TEST(GltfExport, ADrawnMeshThatTearsIsRefused) {
-  const samples::TemporaryFolder folder;
-  const Scene scene = scene_with_drawn_mesh();
-  {
-    RecordingWriter writer(folder / "a.weftrec", scene, {}, StoredPrecision::kFloat64);
-    SceneState state = samples::make_state(scene, 0, StoredPrecision::kFloat64);
-    ClothTopology topology;
-    topology.triangles = make_mesh(scene.cloths[1]).triangles;
-    topology.origins = {0};
-    topology.triangles(0, 0) = 25;
-    state.cloths[1].topology = std::make_shared<const ClothTopology>(topology);
-    for (Matrix3X<double>* values : {&state.cloths[1].positions, &state.cloths[1].velocities}) {
-      values->conservativeResize(3, 26);
-      values->col(25) = values->col(0);
-    }
-    writer.add_frame(state);
-    writer.finish();
-  }
-  try {
-    (void)export_gltf(RecordingReader(folder / "a.weftrec"), {});
-    FAIL() << "expected a refusal";
-  } catch (const UnfitRecording& error) {
-    EXPECT_THAT(error.what(), HasSubstr("cloth 'flag' has a drawn mesh and is torn at t = 0 s"));
-  }
-}
-
 TEST(GltfExport, HasAMeshForEveryBodyAndItsErrorInside) {
   const samples::TemporaryFolder folder;
   const GltfExport result = exported(folder, samples::make_scene());
