@@ -25,7 +25,8 @@ constexpr btScalar kReach = btScalar(1.1);
 /// How fast layers that are closer than their thickness part, while they are pressed together [1/s].
 constexpr btScalar kRecoveryRate = 5;
 
-btVector3 at(const btVector3& weights, const btVector3& a, const btVector3& b, const btVector3& c) {
+btVector3 weighted_sum(const btVector3& weights, const btVector3& a, const btVector3& b,
+                       const btVector3& c) {
   return weights.x() * a + weights.y() * b + weights.z() * c;
 }
 
@@ -85,8 +86,8 @@ void try_contact(btSoftBody& body, Node& node, Face& face, const ContactRules& r
   if (!(normal.length2() > 0) || !(start_normal.length2() > 0)) return;
   const std::optional<btVector3> weights = weights_below(face, node, normal);
   if (!weights) return;
-  const btVector3 point = at(*weights, a.m_x, b.m_x, c.m_x);
-  const btVector3 start_point = at(*weights, a.m_q, b.m_q, c.m_q);
+  const btVector3 point = weighted_sum(*weights, a.m_x, b.m_x, c.m_x);
+  const btVector3 start_point = weighted_sum(*weights, a.m_q, b.m_q, c.m_q);
   // The side on which the step began: a node that would pass the face is held back.
   const btScalar start_height = btDot(node.m_q - start_point, start_normal.normalized());
   const bool is_negative =
