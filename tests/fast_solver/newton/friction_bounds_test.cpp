@@ -7,8 +7,8 @@
 namespace weft::fast {
 namespace {
 
-constexpr float kTimeStep = 1.0F / 60;  // [s]
-constexpr float kGravity = 9.81F;       // [m/s^2]
+constexpr float kStepOfBoxes = 1.0F / 60;  // [s]
+constexpr float kFreeFall = 9.81F;         // [m/s^2]
 
 /// How many of these steps were not solved: a stiff sheet that slides over a floor and is bumpy, so that its nodes press on the
 /// floor more or less from step to step.
@@ -37,11 +37,11 @@ int num_unsolved(int num_steps) {
   }
   int count = 0;
   for (int step = 0; step < num_steps; ++step) {
-    Matrix3X<float> y = q + kTimeStep * v;
+    Matrix3X<float> y = q + kStepOfBoxes * v;
     Matrix3X<float> x = y;
-    y.row(1).array() -= kGravity * kTimeStep * kTimeStep;
-    solver.solve({y, q, kTimeStep, kTimeStep, contacts}, {}, x);
-    v = (x - q) / kTimeStep;
+    y.row(1).array() -= kFreeFall * kStepOfBoxes * kStepOfBoxes;
+    solver.solve({y, q, kStepOfBoxes, kStepOfBoxes, contacts}, {}, x);
+    v = (x - q) / kStepOfBoxes;
     q = x;
     count += solver.report().is_converged ? 0 : 1;
   }
