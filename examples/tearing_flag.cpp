@@ -10,10 +10,10 @@ namespace {
 constexpr double kStep = 1 / 120.0;  // [s]
 
 std::vector<weft::forces::LawSpecification> laws(double wind_speed) {
-  return {
-      weft::laws::tension({.stiffness = 400}), weft::laws::velocity_damping({.rate = 0.5}),
-      weft::laws::gravity({.acceleration = {0, -9.81, 0}}),
-      weft::laws::wind({.velocity = {0.8 * wind_speed, 0, 0.6 * wind_speed}, .tangential_drag = 0.05})};
+  return {weft::laws::tension({.stiffness = 400}), weft::laws::velocity_damping({.rate = 0.5}),
+          weft::laws::gravity({.acceleration = {0, -9.81, 0}}),
+          weft::laws::wind(
+              {.velocity = {0.8 * wind_speed, 0, 0.6 * wind_speed}, .tangential_drag = 0.05})};
 }
 
 double mass_of(const btSoftBody& flag, const weft::ClothMesh& mesh) {

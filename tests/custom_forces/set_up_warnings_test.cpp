@@ -19,8 +19,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double kEdge = 0.1;  ///< of nodes [m]
-constexpr double kMass = 0.36;    ///< 10 g a node [kg]
+constexpr double kEdge = 0.1;   ///< of nodes [m]
+constexpr double kMass = 0.36;  ///< 10 g a node [kg]
 constexpr double kJustBelow = 1 - 1e-6;
 constexpr double kJustAbove = 1 + 1e-6;
 
