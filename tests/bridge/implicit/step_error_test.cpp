@@ -76,7 +76,7 @@ constexpr double kMostTooLarge =
 constexpr double kRoundedStiffness =
     1e5;  ///< [N/m] from which on single precision leaves errors of its own
 constexpr double kRightShare =
-    0.95;  ///< of the steps that are said to be within tolerance; 0.96 to 1.00 over stiffness and precision
+    0.92;  ///< of the steps that are said to be within tolerance; 0.94 to 1.00 over stiffness, precision and processors
 
 TEST(StepError, IsNoLessThanTheTrueOne) {
   for (const double stiffness : {1e2, 1e4, 1e6}) {
