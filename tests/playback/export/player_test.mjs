@@ -19,7 +19,8 @@ const work = mkdtempSync(join(tmpdir(), "weft-player-"));
 const at = (name) => join(work, name);
 
 const MB = 1e6;
-const LIMITS = { frames: 5 * MB, nodes: 20 * MB, opening: 3000 /* ms */ };
+// A page opens within 3 s; other tests run beside this one and take half of the processors.
+const LIMITS = { frames: 5 * MB, nodes: 20 * MB, opening: 2 * 3000 /* ms */ };
 
 const command = (...words) => execFileSync(weft, words, { cwd: work, encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] });
 
