@@ -69,7 +69,7 @@ class Cloth {
   /// The laws as they were given, in order. Empty for a body without laws, or that was attached with a LawSet.
   [[nodiscard]] std::vector<forces::LawSpecification> laws() const;
 
-  /// What will most likely not do what was meant: springs that are too stiff for the step, colliders that pass between nodes, gravity that
+  /// Lists what will most likely not do what was meant: springs that are too stiff for the step, colliders that pass between nodes, gravity that
   /// acts twice, and the like (docs/warnings.md). time_step: that of the world's steps [s], > 0. Looks at the world as it is
   /// now, and takes some milliseconds. Empty for a body without laws, or that was attached with a LawSet.
   [[nodiscard]] std::vector<forces::SetUpWarning> warnings(const btCollisionWorld& world,

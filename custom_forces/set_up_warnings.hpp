@@ -76,7 +76,7 @@ inline constexpr double kLongestStepWithLayers = 1.0 / 250;
 /// Rounding of a position over the shortest edge, from which on strains are noise [-].
 inline constexpr double kLargestRounding = 1e-4;
 
-/// What a user would want to know before the first step, in the order of the kinds. Each is decided by a formula or by a limit that
+/// Lists what a user would want to know before the first step, in the order of the kinds. Each is decided by a formula or by a limit that
 /// tests have measured; docs/warnings.md lists them. Throws InvalidArgument as make_law(), and for a time step that is not > 0.
 [[nodiscard]] std::vector<SetUpWarning> find_warnings(const ClothSetUp& set_up);
 

@@ -7,7 +7,7 @@
 
 namespace weft {
 
-/// What is to be done for an index: a reference to a function object, which has to outlive it. The compiled library runs it
+/// The work that is done for an index: a reference to a function object, which has to outlive it. The compiled library runs it
 /// without knowing its type, so that no header of Weft depends on the library that provides the threads.
 class IndexWork {
  public:

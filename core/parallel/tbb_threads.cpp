@@ -71,7 +71,7 @@ TaskGroup::~TaskGroup() {
   try {
     wait();
   } catch (...) {
-    // What a task threw concerned a result that nobody has waited for.
+    // An exception of a task concerned a result that nobody has waited for.
   }
 }
 

@@ -17,7 +17,7 @@ namespace {
 /// other faster.
 constexpr int kLooks = 2000;
 
-/// What the calling thread is at work in.
+/// The arena and the job that the calling thread works in.
 struct Context {
   Arena* arena = nullptr;  ///< null for that of the pool
   Job* job = nullptr;

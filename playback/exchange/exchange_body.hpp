@@ -22,7 +22,7 @@ struct ExchangeBody {
   std::size_t index = 0;  ///< among the scene's cloths, or among its colliders
   /// At rest: of a cloth in the world, of a rigid body in its own frame [m].
   ClothMesh mesh;
-  /// What leads the points of a drawn mesh; null: the points are the cloth's nodes.
+  /// The drawing that leads the points of a drawn mesh; null: the points are the cloth's nodes.
   std::shared_ptr<const ClothEmbedding> embedding = nullptr;
 };
 

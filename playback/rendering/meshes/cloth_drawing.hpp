@@ -32,7 +32,7 @@ class ClothDrawing {
   std::shared_ptr<const ClothTopology> topology_;  ///< that the embedding has
 };
 
-/// What is drawn of a cloth with a drawn mesh. Triangles with a vertex that is not finite or out of the limits are left out.
+/// The picture of a cloth with a drawn mesh. Triangles with a vertex that is not finite or out of the limits are left out.
 [[nodiscard]] SurfaceMesh drawn_surface(ClothDrawing& drawing, const ClothState& cloth,
                                         const DrawLimits& limits);
 
