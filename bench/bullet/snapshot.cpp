@@ -33,7 +33,7 @@ double milliseconds(const std::function<void()>& call) {
 }
 
 /// A cape of n x n nodes on two shoulders that swings against a ball, a body's back.
-void measure(int n, int num_rounds, ResultFile& file) {
+void measure(int n, int threads, int num_rounds, ResultFile& file) {
   ClothGrid grid;
   grid.nodes = {n, n};
   grid.size = {1.2, 1.2};
@@ -78,24 +78,26 @@ void measure(int n, int num_rounds, ResultFile& file) {
     }));
   }
   const double bytes = static_cast<double>(snapshot.size()) / (n * n);
-  file.add({std::to_string(n * n), three_digits(median(save_ms)), three_digits(median(restore_ms)),
-            three_digits(bytes), three_digits(bytes - 6 * sizeof(btScalar)),
-            three_digits(median(step_ms)), three_digits(median(rollback_ms))});
+  file.add({std::to_string(n * n), std::to_string(threads), three_digits(median(save_ms)),
+            three_digits(median(restore_ms)), three_digits(bytes),
+            three_digits(bytes - 6 * sizeof(btScalar)), three_digits(median(step_ms)),
+            three_digits(median(rollback_ms))});
 }
 
 }  // namespace
 
 void bench_snapshot(const Settings& settings) {
   ResultFile file(
-      "a cape on two shoulders beside a ball, steps of 1/60 s on one thread, medians: a snapshot "
-      "of "
+      "a cape on two shoulders beside a ball, steps of 1/60 s, medians: a snapshot of "
       "its world, and a rollback, which is a restore and eight steps with a snapshot after each",
-      {"nodes", "save_ms", "restore_ms", "bytes_per_node", "beside_positions_and_velocities_bytes",
-       "step_ms", "rollback_of_8_ms"});
-  tbb::task_arena arena(1);
-  arena.execute([&] {
-    for (const int n : {24, 50}) measure(n, 2 * settings.num_rounds, file);
-  });
+      {"nodes", "threads", "save_ms", "restore_ms", "bytes_per_node",
+       "beside_positions_and_velocities_bytes", "step_ms", "rollback_of_8_ms"});
+  for (const int threads : {1, 2}) {
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+      for (const int n : {24, 50}) measure(n, threads, 2 * settings.num_rounds, file);
+    });
+  }
   file.write(settings.folder / "snapshot.csv");
 }
 

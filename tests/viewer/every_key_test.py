@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
-"""Each key of the help of `weft view`, pressed through X in a window at scale 1 and at scale 2: what it says must happen, in
-the state and in the picture.
+"""Each key of the help of `weft view`, pressed through X in a window: what it says must happen, in the state and in the
+picture.
 
 usage: every_key_test.py PATH_OF_WEFT
+The scale of the window is that of the environment variable WEFT_TEST_SCALE (default 1).
 Skipped with exit code 77 where Xvfb or xdotool is not there, or where the display has no OpenGL 3.3.
 """
+import os
 import re
 import subprocess
 from pathlib import Path
 
 from window_display import BALL, PATIENCE, Window, has_engine, run_tests
 
+SCALE = int(os.environ.get("WEFT_TEST_SCALE", "1"))
 X_NAMES = {"Space": "space", "PageUp": "Prior", "PageDown": "Next", "Enter": "Return", "[": "bracketleft",
            "]": "bracketright", "=": "equal", "-": "minus", "Ctrl": "ctrl", "Shift": "shift"}
 
@@ -204,12 +207,8 @@ def check_all(weft, display, folder, scale):
     print(f"{len(pressed)} keys at scale {scale}", flush=True)
 
 
-def test_every_key_at_scale_1(weft, display, folder):
-    check_all(weft, display, folder, 1)
-
-
-def test_every_key_at_scale_2(weft, display, folder):
-    check_all(weft, display, folder, 2)
+def test_every_key(weft, display, folder):
+    check_all(weft, display, folder, SCALE)
 
 
 def pictures_of(weft, display, folder, files, lines, scale):
@@ -224,16 +223,15 @@ def pictures_of(weft, display, folder, files, lines, scale):
 
 
 def test_every_function_is_seen(weft, display, folder):
-    """What moves the camera, the run or the panels changes the picture, at both scales."""
+    """What moves the camera, the run or the panels changes the picture."""
     actions = ["wireframe", "strain", "next_style", "shadow", "rotate_left", "rotate_up", "rotate_right", "rotate_down",
                "move_left", "move_up", "move_right", "move_down", "zoom_in", "zoom_out", "worst_node", "step_forward",
                "step_back", "first_frame", "last_frame", "take_back", "panels", "plots", "laws", "next_parameter",
                "wind_x_more", "gravity_z_less", "next_cloth", "faster", "larger_text", "help", "close", "scene_list", "list_down",
                "close", "restart"]
-    for scale in (1, 2):
-        pictures = pictures_of(weft, display, folder, ["small.toml", "--paused"], [f"do {action}" for action in actions], scale)
-        same = [f"{i}: {action}" for i, action in enumerate(actions, 1) if pictures[i] == pictures[i - 1]]
-        assert not same, f"at scale {scale} these change nothing: {same}"
+    pictures = pictures_of(weft, display, folder, ["small.toml", "--paused"], [f"do {action}" for action in actions], SCALE)
+    same = [f"{i}: {action}" for i, action in enumerate(actions, 1) if pictures[i] == pictures[i - 1]]
+    assert not same, f"these change nothing: {same}"
 
 
 def test_ghosts_and_contacts_are_seen(weft, display, folder):
@@ -246,13 +244,12 @@ def test_ghosts_and_contacts_are_seen(weft, display, folder):
                                       encoding="utf-8")
     subprocess.run([weft, "run", "soft.toml", "-f", "-o", "b.weftrec"], cwd=folder, check=True, capture_output=True)
     lines = ["do last_frame", "do ghosts", "do next_ghost", "do ghosts"]
-    for scale in (1, 2):
-        pictures = pictures_of(weft, display, folder, ["a.weftrec", "b.weftrec"], lines, scale)
-        assert len(set(pictures)) == len(pictures), f"ghosts are not seen at scale {scale}"
-        files = ["ball.toml", "-e", "bullet_forces", "--paused"]
-        # Paused again: a run that goes on would change the picture without contacts too.
-        pictures = pictures_of(weft, display, folder, files, ["do pause\nwait_time 0.59\ndo pause", "do contacts"], scale)
-        assert pictures[2] != pictures[1], f"contacts are not seen at scale {scale}"
+    pictures = pictures_of(weft, display, folder, ["a.weftrec", "b.weftrec"], lines, SCALE)
+    assert len(set(pictures)) == len(pictures), "ghosts are not seen"
+    files = ["ball.toml", "-e", "bullet_forces", "--paused"]
+    # Paused again: a run that goes on would change the picture without contacts too.
+    pictures = pictures_of(weft, display, folder, files, ["do pause\nwait_time 0.59\ndo pause", "do contacts"], SCALE)
+    assert pictures[2] != pictures[1], "contacts are not seen"
 
 
 if __name__ == "__main__":
