@@ -15,7 +15,7 @@ namespace {
 /// A node sticks once the slip that is left would take this share of its friction to stop [-].
 constexpr double kStopped = 0.01;
 /// Over what resists the motion of a node: a drag. Much more, and conjugate gradients would see nothing else.
-constexpr double kStiffestDrag = 30;
+constexpr double kStiffestDrag = 300;
 /// A moving node's least inertia [N/m], which keeps a quotient finite.
 constexpr double kLeastInertia = 1e-30;
 
@@ -170,12 +170,15 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   // it never drives a node, however wrong the pressure still is. Forces foretell the slip of a node alone, the motion so far
   // that of others too (iteratively reweighted least squares, which converge for any pressure).
   friction_bounds_[i] = most;
-  // Alone, a node has its springs and inertia against it. A drag for that slip would hold nodes that slide together too much.
+  // Alone, a node has its springs and inertia against it. A drag for that slip would hold nodes that slide together too much:
+  // they have their inertia, and slip no farther than without springs.
   const auto slip_against = [&](Scalar resistance) {
     return (size - most) / std::max(resistance, Scalar(kLeastInertia));
   };
   const Scalar alone = slip_against(inertia + largest_stiffness(i));
-  const Scalar together = std::min(slipped, slip_against(inertia));
+  const Scalar without_springs =
+      slip_of(contact, at_node(inertial_positions_, i), &Body::motion).norm();
+  const Scalar together = std::min(std::max(slipped, without_springs), slip_against(inertia));
   const bool is_foretold = is_first || did_stick || !(slipped > 0);
   const Scalar expected = is_foretold ? std::max(alone, together) : slipped;
   set_friction(contact, expected);

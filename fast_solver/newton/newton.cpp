@@ -72,6 +72,9 @@ void ImplicitSolver<Scalar>::iterate_once(const StepProblem<Scalar>& problem,
   save_positions();
   if (iteration.decides) {
     decide_contact_states(problem, iteration);
+    // It gives friction other bounds: with these the energy before counts too.
+    if (!iteration.is_first && !problem.contacts.empty())
+      energy_before_ = energy(problem, positions_, &Body::motion);
   } else {
     list_constrained();
     update_friction(problem);

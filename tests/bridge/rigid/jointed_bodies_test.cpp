@@ -15,9 +15,11 @@ namespace {
 
 constexpr double kMassOfBox = 0.3;  // [kg]
 
+constexpr double kEdge = 1.0;  // [m] of the sheet
+
 /// A sheet that is pinned along its rim.
 ClothMesh trampoline() {
-  ClothMesh mesh = cloth(21, 1.0, 0, 0.2);
+  ClothMesh mesh = cloth(21, kEdge, 0, 0.2);
   for (int i = 0; i < mesh.num_nodes(); ++i) {
     const Vector3<double> x = mesh.rest_positions.col(i);
     if (std::abs(x.x()) > 0.49 || std::abs(x.z()) > 0.49) mesh.pinned.push_back(i);
@@ -31,6 +33,11 @@ double energy_of_box(const btRigidBody& box) {
   return 0.5 * kMassOfBox * static_cast<double>(box.getLinearVelocity().length2()) +
          0.5 * static_cast<double>(turning) +
          kMassOfBox * 9.81 * static_cast<double>(box.getCenterOfMassPosition().y());
+}
+
+bool is_over_sheet(const btVector3& place) {
+  return 2 * std::abs(static_cast<double>(place.x())) < kEdge &&
+         2 * std::abs(static_cast<double>(place.z())) < kEdge;
 }
 
 class JointedBodies : public testing::TestWithParam<double> {};
@@ -64,7 +71,11 @@ TEST_P(JointedBodies, GainNothingOnATrampoline) {
   for (int step = 0; step < 120; ++step) {
     scene.step();
     most = std::max(most, energy());
-    lowest = std::min(lowest, static_cast<double>(boxes[1]->getCenterOfMassPosition().y()));
+    // Folded up they may walk over the rim, and then they fall.
+    for (const btRigidBody* one : boxes) {
+      const btVector3& place = one->getCenterOfMassPosition();
+      if (is_over_sheet(place)) lowest = std::min(lowest, static_cast<double>(place.y()));
+    }
   }
   // While they are thrown back, energies are those of the middle of a step, and may read some percent too high.
   EXPECT_LT(most, 1.1 * first);
