@@ -231,8 +231,7 @@ void Recorder::Impl::show() {
 
 void Recorder::Impl::take_frame() {
   read_state(last_call);
-  writer->add_frame(state);
-  writer->add_marks(marks.marks());
+  writer->add_frame(state, marks.marks());
   if (num_frames++ == 0) first_time = last_call;
   last_interval = std::floor((last_call - first_time) / options.frame_interval + kEarlyShare);
   write_blow_up(last_call);

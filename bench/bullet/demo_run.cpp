@@ -89,13 +89,17 @@ struct Outcome {
   double depth = 0;        ///< [m] of the lowest node below the top of the ground
   double stretch = 0;      ///< mean over the last second of the largest of all links [-]
   double step_time = 0;    ///< [ms] of processors, all threads together
+  int num_solved = 0;      ///< steps of adopted bodies that were awake
+  int num_unsolved = 0;    ///< those that ended outside of the tolerance
   std::vector<btVector3> end;
 };
 
 class Demo {
  public:
-  Demo(std::size_t scene, btSoftBodySolver* solver)
-      : top_(scene < kFirstOnWaves ? kTopOfBox : kLowestOfWaves) {
+  /// weft: the solver, if it adopts; or none.
+  Demo(std::size_t scene, btSoftBodySolver* solver,
+       const weft::bridge::SoftBodySolver* weft = nullptr)
+      : top_(scene < kFirstOnWaves ? kTopOfBox : kLowestOfWaves), weft_(weft) {
     std::srand(1);
     g_solver = solver;
     CommonExampleOptions options(&helper_, static_cast<int>(scene));
@@ -140,11 +144,17 @@ class Demo {
       }
       if (step >= num_steps - kMeasuredSteps)
         stretch = std::max(stretch, largest_stretch(*bodies[b]));
+      if (weft_ == nullptr || !weft_->is_fast(*bodies[b])) continue;
+      const weft::bridge::StepError error = weft_->step_error(*bodies[b]);
+      if (error.newton_iterations == 0) continue;  // asleep
+      ++outcome.num_solved;
+      if (!error.is_within_tolerance) ++outcome.num_unsolved;
     }
     outcome.stretch += stretch / kMeasuredSteps;
   }
 
   double top_;
+  const weft::bridge::SoftBodySolver* weft_;
   DummyGUIHelper helper_;
   std::unique_ptr<CommonExampleInterface> example_;
   btSoftRigidDynamicsWorld* world_;
@@ -169,11 +179,13 @@ void write_row(std::size_t scene, int num_steps, std::FILE* file) {
   weft::bridge::SoftBodySolver idle;
   const Outcome bullet = Demo(scene, nullptr).run(num_steps);
   const bool is_same = Demo(scene, &idle).run(num_steps).end == bullet.end;
-  const Outcome weft = Demo(scene, &adopting).run(num_steps);
-  std::fprintf(file, "%s,%d,%d,\"%s\",%s,%s,%s,%.3f,%.3f,%.1f,%.1f,%.3f,%.3f,%d\n", kScenes[scene],
-               num_adopted + num_refused, num_adopted, reason.c_str(), is_same ? "equal" : "differ",
-               verdict(bullet), verdict(weft), bullet.depth, weft.depth, 100 * bullet.stretch,
-               100 * weft.stretch, bullet.step_time, weft.step_time, num_blown_up);
+  const Outcome weft = Demo(scene, &adopting, &adopting).run(num_steps);
+  std::fprintf(file, "%s,%d,%d,\"%s\",%s,%s,%s,%.3f,%.3f,%.1f,%.1f,%.3f,%.3f,%d,%.1f\n",
+               kScenes[scene], num_adopted + num_refused, num_adopted, reason.c_str(),
+               is_same ? "equal" : "differ", verdict(bullet), verdict(weft), bullet.depth,
+               weft.depth, 100 * bullet.stretch, 100 * weft.stretch, bullet.step_time,
+               weft.step_time, num_blown_up,
+               100.0 * weft.num_unsolved / std::max(1, weft.num_solved));
   std::fflush(file);
 }
 
@@ -212,7 +224,7 @@ int main(int argc, char** argv) {
                "scene,bodies,adopted,left to Bullet because,bits with nothing adopted,Bullet,Weft,"
                "Bullet depth [m],Weft depth [m],"
                "Bullet stretch [%%],Weft stretch [%%],Bullet step [ms of processors],Weft step [ms "
-               "of processors],blown up\n");
+               "of processors],blown up,unsolved steps [%%]\n");
   for (const std::size_t scene : scenes) {
     write_row(scene, static_cast<int>(std::lround(seconds / kStep)), file);
   }

@@ -44,13 +44,11 @@ class RecordingWriter {
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
-  /// Throws InvalidArgument for other bodies than the scene's and for a time that does not grow;
-  /// positions and velocities may be anything, also not finite.
-  void add_frame(const SceneState& state);
+  /// marks: what is drawn in the frame beside its bodies. Throws InvalidArgument for other bodies than the scene's, for a time
+  /// that does not grow, and as check_mark(), and adds nothing then; positions and velocities may be anything, also not finite.
+  void add_frame(const SceneState& state, std::span<const Mark> marks = {});
   /// A named scalar over time, e.g. ("kinetic_energy_J", 0.5, 1.25); the value may be NaN.
   void add_metric(const std::string& name, double time, double value);
-  /// What is drawn in the last frame beside its bodies. Throws InvalidArgument before the first one, and as check_mark().
-  void add_marks(std::span<const Mark> marks);
   /// What happened at some time. Throws InvalidArgument for a time that is not finite, and without a text.
   void add_note(const Note& note);
   /// Commits at once, together with the frames so far.

@@ -300,18 +300,21 @@ RecordingWriter::~RecordingWriter() {
   }
 }
 
-void RecordingWriter::add_frame(const SceneState& state) {
+void RecordingWriter::add_frame(const SceneState& state, std::span<const Mark> marks) {
   impl_->require_usable();
   const double time = without_negative_zero(state.time);
   if (!std::isfinite(time) || time <= impl_->last_time) {
     throw InvalidArgument(fmt::format("add_frame: time = {} [s], expected more than {} and finite",
                                       time, impl_->last_time));
   }
+  for (const Mark& mark : marks) check_mark(mark);
   FrameCodec codec = impl_->codec;
   impl_->topologies.prepare(state, codec);
   codec.check(state);
   impl_->codec = std::move(codec);
-  impl_->topologies.take(state, impl_->num_frames + std::ssize(impl_->times), impl_->content_hash);
+  const std::int64_t frame = impl_->num_frames + std::ssize(impl_->times);
+  impl_->topologies.take(state, frame, impl_->content_hash);
+  impl_->marks.add(frame, marks);
   const std::size_t begin = impl_->raw.size();
   impl_->codec.encode(state, impl_->raw);
   impl_->times.push_back(time);
@@ -333,15 +336,6 @@ void RecordingWriter::add_metric(const std::string& name, double time, double va
   if (impl_->metrics.size() >= kMaxPendingMetrics) {
     impl_->commit();
   }
-}
-
-void RecordingWriter::add_marks(std::span<const Mark> marks) {
-  impl_->require_usable();
-  const std::int64_t next = impl_->num_frames + std::ssize(impl_->times);
-  if (next == 0) throw InvalidArgument("add_marks: no frame, expected one before its marks");
-  impl_->marks.add(next - 1, marks);
-  // The frame has filled a chunk and is committed already: its marks must not wait for the next one.
-  if (impl_->times.empty() && !marks.empty()) impl_->commit();
 }
 
 void RecordingWriter::add_note(const Note& note) {

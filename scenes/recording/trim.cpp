@@ -45,8 +45,7 @@ void copy_range(const RecordingReader& reader, const TrimRange& range, Recording
   for (std::size_t i = 0; i < frames.size(); ++i) {
     SceneState state = reader.frame(frames[i]);
     if (range.rounding) round_state(state, *range.rounding);
-    writer.add_frame(state);
-    writer.add_marks(reader.marks(frames[i]));
+    writer.add_frame(state, reader.marks(frames[i]));
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(frames.size()));
   }
   const double tolerance = time_tolerance(reader);

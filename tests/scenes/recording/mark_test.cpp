@@ -43,11 +43,11 @@ std::string write_marked(const std::filesystem::path& path, bool has_marks = tru
   const Scene scene = make_scene();
   RecordingWriter writer(path, scene, {}, kMarkPrecision, {.frames = 4});
   for (int frame = 0; frame < 10; ++frame) {
-    writer.add_frame(make_state(scene, frame, kMarkPrecision));
-    if (!has_marks) continue;
-    if (frame % 2 == 1) writer.add_marks(std::vector<Mark>{arrows(frame)});
-    if (frame == 3) writer.add_marks(std::vector<Mark>{points(5)});
-    if (frame == 6) writer.add_note({frame / 60.0, "the gripper lets go"});
+    std::vector<Mark> marks;
+    if (has_marks && frame % 2 == 1) marks.push_back(arrows(frame));
+    if (has_marks && frame == 3) marks.push_back(points(5));
+    writer.add_frame(make_state(scene, frame, kMarkPrecision), marks);
+    if (has_marks && frame == 6) writer.add_note({frame / 60.0, "the gripper lets go"});
   }
   return writer.finish();
 }
@@ -97,14 +97,12 @@ TEST(Marks, OfAGrowingRecordingAreThoseOfItsCommittedFrames) {
   const Scene scene = make_scene();
   RecordingWriter writer(folder / "a", scene, {}, kMarkPrecision, {.frames = 2});
   for (int frame = 0; frame < 3; ++frame) {
-    writer.add_frame(make_state(scene, frame, kMarkPrecision));
-    writer.add_marks(std::vector<Mark>{arrows(frame)});
+    writer.add_frame(make_state(scene, frame, kMarkPrecision), std::vector<Mark>{arrows(frame)});
   }
   const RecordingReader reader(folder / "a");
   ASSERT_EQ(reader.num_frames(), 2);
   for (int frame = 3; frame < 9; ++frame) {
-    writer.add_frame(make_state(scene, frame, kMarkPrecision));
-    writer.add_marks(std::vector<Mark>{arrows(frame)});
+    writer.add_frame(make_state(scene, frame, kMarkPrecision), std::vector<Mark>{arrows(frame)});
   }
   // Rows that came later are not those that the header has counted.
   EXPECT_EQ(reader.marks(0).size() + reader.marks(1).size(), 2U);
@@ -154,21 +152,26 @@ TEST(Marks, OfAWrongShapeAreRefused) {
   const TemporaryFolder folder;
   const Scene scene = make_scene();
   RecordingWriter writer(folder / "a", scene, {}, kMarkPrecision);
-  EXPECT_THROW(writer.add_marks(std::vector<Mark>{points(1)}), InvalidArgument) << "no frame";
-  writer.add_frame(make_state(scene, 0, kMarkPrecision));
+  const SceneState state = make_state(scene, 0, kMarkPrecision);
   Mark mark = arrows(0);
   mark.to = Matrix3X<float>(3, 1);
   try {
-    writer.add_marks(std::vector<Mark>{mark});
+    writer.add_frame(state, std::vector<Mark>{points(1), mark});
     FAIL() << "nothing was thrown";
   } catch (const InvalidArgument& error) {
     EXPECT_THAT(error.what(), HasSubstr("arrows 'force': 1 ends, expected 2"));
   }
   mark = points(1);
   mark.name.clear();
-  EXPECT_THROW(writer.add_marks(std::vector<Mark>{mark}), InvalidArgument);
+  EXPECT_THROW(writer.add_frame(state, std::vector<Mark>{mark}), InvalidArgument);
+  writer.add_frame(state, std::vector<Mark>{points(2)});  // refused ones have left nothing
   EXPECT_THROW(writer.add_note({0.0, ""}), InvalidArgument);
   EXPECT_THROW(writer.add_note({NAN, "when?"}), InvalidArgument);
+  writer.finish();
+  const RecordingReader reader(folder / "a");
+  EXPECT_EQ(reader.num_frames(), 1);
+  ASSERT_EQ(reader.marks(0).size(), 1U);
+  EXPECT_EQ(reader.marks(0)[0].from.cols(), 2);
 }
 
 }  // namespace
