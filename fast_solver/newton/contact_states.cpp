@@ -171,14 +171,18 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   // that of others too (iteratively reweighted least squares, which converge for any pressure).
   friction_bounds_[i] = most;
   // Alone, a node has its springs and inertia against it. A drag for that slip would hold nodes that slide together too much:
-  // they have their inertia, and slip no farther than without springs.
+  // they have their inertia, and slip no farther than so far or, if nothing presses them on what no cloth moves, than without springs.
   const auto slip_against = [&](Scalar resistance) {
     return (size - most) / std::max(resistance, Scalar(kLeastInertia));
   };
   const Scalar alone = slip_against(inertia + largest_stiffness(i));
-  const Scalar without_springs =
-      slip_of(contact, at_node(inertial_positions_, i), &Body::motion).norm();
-  const Scalar together = std::min(std::max(slipped, without_springs), slip_against(inertia));
+  Scalar farthest = slipped;
+  const bool is_pressed = contact.squeeze > 0 || !supports_.empty();
+  if (contact.body < 0 && !is_pressed) {
+    const Vector3<Scalar> inertial = at_node(inertial_positions_, i);
+    farthest = std::max(farthest, slip_of(contact, inertial, &Body::motion).norm());
+  }
+  const Scalar together = std::min(farthest, slip_against(inertia));
   const bool is_foretold = is_first || did_stick || !(slipped > 0);
   const Scalar expected = is_foretold ? std::max(alone, together) : slipped;
   set_friction(contact, expected);
