@@ -14,7 +14,8 @@ namespace {
 
 /// A node sticks once the slip that is left would take this share of its friction to stop [-].
 constexpr double kStopped = 0.01;
-/// Over what resists the motion of a node: a drag. Much more, and conjugate gradients would see nothing else.
+/// Over what resists the motion of a node: a drag. With less, a node that begins to slide is too fast, by mu g h over this. With
+/// much more, conjugate gradients would see nothing else.
 constexpr double kStiffestDrag = 300;
 /// A moving node's least inertia [N/m], which keeps a quotient finite.
 constexpr double kLeastInertia = 1e-30;
@@ -171,7 +172,8 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   // that of others too (iteratively reweighted least squares, which converge for any pressure).
   friction_bounds_[i] = most;
   // Alone, a node has its springs and inertia against it. A drag for that slip would hold nodes that slide together too much:
-  // they have their inertia, and slip no farther than so far or, if nothing presses them on what no cloth moves, than without springs.
+  // they have their inertia, and slip no farther than so far or, if no body presses the cloth on what does not move, than
+  // without springs.
   const auto slip_against = [&](Scalar resistance) {
     return (size - most) / std::max(resistance, Scalar(kLeastInertia));
   };

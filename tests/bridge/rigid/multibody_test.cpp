@@ -55,7 +55,8 @@ btMultiBody& free_box(RobotWorld& world, double mass, const btVector3& half,
   return robot;
 }
 
-// From low enough: one that bounces for seconds turns a little more each time, from what rounding began, and walks off.
+// From low enough: bouncing flat is not stable. What a push of 10 um begins is a tumble after a second, also in steps of 1/240 s
+// and in double precision, and from 0.3 m on one box in six walks off the sheet.
 TEST(MultiBody, AFreeBoxComesToRestOnATrampoline) {
   RobotWorld world;
   btSoftBody& sheet =
@@ -64,7 +65,7 @@ TEST(MultiBody, AFreeBoxComesToRestOnATrampoline) {
   const btMultiBody& box =
       free_box(world, 1.0, btVector3(btScalar(0.1), btScalar(0.1), btScalar(0.1)),
                btVector3(0, btScalar(0.15), 0));
-  world.step(600);
+  world.step(1200);
   EXPECT_LT(box.getBasePos().y(), 0.11);
   EXPECT_GT(box.getBasePos().y(), -0.3);
   EXPECT_LT(box.getBaseVel().length(), 2e-3);

@@ -223,9 +223,7 @@ Tolerance sliding_tolerance(const EngineChoice& engine) {
   }
   if (engine.engine == "bullet_weft") {
     return {1e-4, Basis::kModelGap,
-            "friction that starts is a drag of 300 times what resists a node: it slides as if it "
-            "had mu "
-            "g h / 300 more speed"};
+            "a cloth that begins to slide has up to mu g h / 300 too much speed"};
   }
   return {engine.engine == "reference" ? 1e-12 : 1e-10, Basis::kRoundoff,
           "the scheme's own sum of steps; at 1 % above the threshold a hundred roundings are left"};
