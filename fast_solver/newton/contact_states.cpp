@@ -17,6 +17,8 @@ constexpr double kStopped = 0.01;
 /// Over what resists the motion of a node: a drag. With less, a node that begins to slide is too fast, by mu g h over this. With
 /// much more, conjugate gradients would see nothing else.
 constexpr double kStiffestDrag = 300;
+/// Springs that pull at a node by less than this share of its friction leave its slip as it is without them [-].
+constexpr double kSlack = 0.1;
 /// A moving node's least inertia [N/m], which keeps a quotient finite.
 constexpr double kLeastInertia = 1e-30;
 
@@ -172,17 +174,17 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   // that of others too (iteratively reweighted least squares, which converge for any pressure).
   friction_bounds_[i] = most;
   // Alone, a node has its springs and inertia against it. A drag for that slip would hold nodes that slide together too much:
-  // they have their inertia, and slip no farther than so far or, if no body presses the cloth on what does not move, than
-  // without springs.
+  // they have their inertia, and slip no farther than so far or, if springs hardly pull at them, than without springs.
   const auto slip_against = [&](Scalar resistance) {
     return (size - most) / std::max(resistance, Scalar(kLeastInertia));
   };
   const Scalar alone = slip_against(inertia + largest_stiffness(i));
   Scalar farthest = slipped;
-  const bool is_pressed = contact.squeeze > 0 || !supports_.empty();
-  if (contact.body < 0 && !is_pressed) {
-    const Vector3<Scalar> inertial = at_node(inertial_positions_, i);
-    farthest = std::max(farthest, slip_of(contact, inertial, &Body::motion).norm());
+  if (contact.body < 0 && !(contact.squeeze > 0)) {
+    const Vector3<Scalar> free_slip =
+        slip_of(contact, at_node(inertial_positions_, i), &Body::motion);
+    const bool is_pulled = (tendency - inertia * free_slip).norm() > Scalar(kSlack) * most;
+    if (!is_pulled) farthest = std::max(farthest, free_slip.norm());
   }
   const Scalar together = std::min(farthest, slip_against(inertia));
   const bool is_foretold = is_first || did_stick || !(slipped > 0);
