@@ -145,6 +145,7 @@ class ImplicitSolver : TeamLoops {
   void set_system_inertia();
   void decide_contact_state(const PlaneContact<Scalar>& contact, const NewtonIteration& iteration);
   void list_constrained();
+  void list_sliding();
   [[nodiscard]] Scalar rounding_of_force(int node) const;
   [[nodiscard]] Scalar first_push(int node, const Vector3<Scalar>& normal) const;
   void project(NodeRange nodes, Floats& vectors) const;
@@ -212,7 +213,8 @@ class ImplicitSolver : TeamLoops {
   bool has_torn_ = false;
   std::vector<int> kinematic_;  ///< those of the last step, ascending
   std::vector<int> next_kinematic_;
-  std::vector<int> constrained_;  ///< not kFree; ascending while linear systems are solved
+  std::vector<int> constrained_;      ///< not kFree; ascending while linear systems are solved
+  std::vector<SlidingNode> sliding_;  ///< for the coarse correction, ascending
   std::vector<BodyLink> links_;
   std::vector<Body> bodies_;
   BodyCouplings<Scalar> couplings_;

@@ -318,6 +318,8 @@ void CoarseCorrection::find_ranges(int p) {
   fill_gaps(nodes);
   for (int i = nodes.begin; i < nodes.end; ++i) {
     for (const int basis : weights_[at(i)].basis_functions) include(basis, part.basis_functions);
+    const CoarseNode& alone = (*alone_)[at(i)];
+    for (int k = 0; k < alone.num_terms; ++k) include(alone.terms[k].sum, part.sums);
   }
   for (int b = nodes.begin / kNodeBlock; b < nodes.end / kNodeBlock; ++b) {
     if (at(b) >= blocks_->size()) break;
@@ -377,10 +379,11 @@ void CoarseCorrection::set_masses(const VectorX<float>& masses) {
 }
 
 void CoarseCorrection::factorize(const unsigned short* linear, float root_scale,
-                                 const std::vector<ContactState>& holds, float inertia_over_mass,
+                                 const std::vector<ContactState>& holds,
+                                 std::span<const SlidingNode> sliding, float inertia_over_mass,
                                  WorkerTeam& team) {
   if (num_basis_ == 0) return;
-  static_assert(sizeof(ContactState) == 1 && ContactState::kFree == ContactState{});
+  static_assert(sizeof(ContactState) == 1);
   const CoarseKernel& kernel = coarse_kernel();
   const float scale = 1 / (root_scale * root_scale);
   team.run(parts_.count(), [&](int p) {
@@ -392,9 +395,24 @@ void CoarseCorrection::factorize(const unsigned short* linear, float root_scale,
       const Block& block = (*blocks_)[at(b)];
       kernel.add_springs(
           {block.springs.data(), static_cast<int>(block.springs.size()), block.terms.data(),
-           alone_->data(), reinterpret_cast<const unsigned char*>(holds.data()), linear, scale,
-           part.sums.begin},
+           alone_->data(), reinterpret_cast<const unsigned char*>(holds.data()),
+           static_cast<unsigned char>(ContactState::kFixed), linear, scale, part.sums.begin},
           part.blocks.data());
+    }
+    const auto is_before = [](const SlidingNode& one, int node) { return one.node < node; };
+    for (auto one = std::lower_bound(sliding.begin(), sliding.end(), nodes.begin, is_before);
+         one != sliding.end() && one->node < nodes.end; ++one) {
+      const Vector3<float>& n = one->normal;
+      const std::array<float, 6> numbers = {n[0] * n[0], n[1] * n[1], n[2] * n[2],
+                                            n[0] * n[1], n[1] * n[2], n[2] * n[0]};
+      const CoarseNode& alone = (*alone_)[at(one->node)];
+      for (int k = 0; k < alone.num_terms; ++k) {
+        const CoarseTerm& term = alone.terms[k];
+        float* const sum = &part.blocks[at(term.sum - part.sums.begin) * kBlockNumbers];
+        for (std::size_t number = 0; number < numbers.size(); ++number) {
+          sum[number] += term.factor * one->stiffness * numbers[number];
+        }
+      }
     }
   });
   const std::int64_t num_numbers = std::ssize(sums_);
@@ -416,11 +434,16 @@ void CoarseCorrection::factorize(const unsigned short* linear, float root_scale,
     }
   }
   for (std::size_t k = 0; k < masses_.size(); ++k) inertia_[k] = inertia_over_mass * masses_[k];
+  for (const SlidingNode& one : sliding) {
+    const BasisWeights& of_node = weights_[at(one.node)];
+    for (int k = 0; k < kMostWeights; ++k) {
+      inertia_[at(of_node.basis_functions[k])] += one.drag * of_node.weights[k];
+    }
+  }
   factor_.factorize(sums_.data(), inertia_.data(), team);
 }
 
-void CoarseCorrection::restrict_residual(int part, const std::vector<int>& constrained,
-                                         const NodeArrays<float>& residual) {
+void CoarseCorrection::restrict_residual(int part, const NodeArrays<float>& residual) {
   if (num_basis_ == 0) return;
   Part& of_part = of_parts_[at(part)];
   of_part.residual.setZero();
@@ -430,13 +453,6 @@ void CoarseCorrection::restrict_residual(int part, const std::vector<int>& const
                                     residual.rows(), of_part.basis_functions.begin,
                                     of_part.residual.data(), of_part.other_residual.data());
   of_part.residual += of_part.other_residual;
-  for (const int i : in_range(constrained, nodes)) {
-    const BasisWeights& of_node = weights_[at(i)];
-    for (int k = 0; k < kMostWeights; ++k) {
-      of_part.residual.col(of_node.basis_functions[k] - of_part.basis_functions.begin).head<3>() -=
-          of_node.weights[k] * residual.row(i).transpose();
-    }
-  }
 }
 
 void CoarseCorrection::solve(WorkerTeam& team) {
@@ -449,8 +465,7 @@ void CoarseCorrection::solve(WorkerTeam& team) {
   factor_.solve(std::span(residuals).first(of_parts_.size()), solution_.data(), team);
 }
 
-void CoarseCorrection::prolongate(int part, const std::vector<int>& constrained,
-                                  NodeArrays<float>& correction) const {
+void CoarseCorrection::prolongate(int part, NodeArrays<float>& correction) const {
   const NodeRange nodes = parts_[part];
   const auto stride = correction.rows();
   if (num_basis_ == 0) {
@@ -459,7 +474,6 @@ void CoarseCorrection::prolongate(int part, const std::vector<int>& constrained,
   }
   coarse_kernel().prolongate(weights_.data(), nodes.begin, nodes.end, solution_.data(),
                              correction.data(), stride);
-  for (const int i : in_range(constrained, nodes)) correction.row(i).setZero();
 }
 
 }  // namespace weft::fast

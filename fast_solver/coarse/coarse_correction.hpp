@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,14 @@ namespace weft::fast {
 
 /// Vectors of x, y, z and a number that is not used: what a processor loads and adds at once.
 using Fours = AlignedMatrix<float, 4, Eigen::Dynamic>;
+
+/// A node that slides on a plane: what keeps it there, and what brakes it.
+struct SlidingNode {
+  int node = 0;
+  Vector3<float> normal = Vector3<float>::Zero();  ///< unit vector
+  float stiffness = 0;  ///< in that direction, for what does not move there [N/m]
+  float drag = 0;       ///< of friction [N/m]
+};
 
 /// The coarse level of the preconditioner: P (P^T A P)^-1 P^T residual, with A the linearized network of the present step and P
 /// the coarse basis functions of smoothed aggregation (Vanek, Mandel and Brezina 1996; smoothed_aggregation.hpp). It carries
@@ -60,16 +69,15 @@ class CoarseCorrection {
   void set_masses(const VectorX<float>& masses);
   /// Assembles and factorizes P^T A P. linear and root_scale are those of NetworkView; holds are the contact states of the nodes.
   void factorize(const unsigned short* linear, float root_scale,
-                 const std::vector<ContactState>& holds, float inertia_over_mass, WorkerTeam& team);
+                 const std::vector<ContactState>& holds, std::span<const SlidingNode> sliding,
+                 float inertia_over_mass, WorkerTeam& team);
 
   /// Restriction: the residual of one node range. Calls for different ranges may run at the same time.
-  void restrict_residual(int part, const std::vector<int>& constrained,
-                         const NodeArrays<float>& residual);
+  void restrict_residual(int part, const NodeArrays<float>& residual);
   /// Solves for the coarse coefficients, after restrict_residual() of all ranges.
   void solve(WorkerTeam& team);
   /// Prolongation: the correction of one node range. Calls for different ranges may run at the same time.
-  void prolongate(int part, const std::vector<int>& constrained,
-                  NodeArrays<float>& correction) const;
+  void prolongate(int part, NodeArrays<float>& correction) const;
 
  private:
   /// The springs of a block of nodes.

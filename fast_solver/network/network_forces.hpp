@@ -80,8 +80,9 @@ class NetworkForces {
   void note_bending(CoarseCorrection& correction) const;
   /// Makes a correction for the last linearization.
   void factorize(CoarseCorrection& correction, const std::vector<ContactState>& holds,
-                 float inertia_over_mass, WorkerTeam& team) const {
-    correction.factorize(linear_.data(), root_scale_, holds, inertia_over_mass, team);
+                 std::span<const SlidingNode> sliding, float inertia_over_mass,
+                 WorkerTeam& team) const {
+    correction.factorize(linear_.data(), root_scale_, holds, sliding, inertia_over_mass, team);
   }
 
  private:

@@ -19,6 +19,8 @@ constexpr double kStopped = 0.01;
 constexpr double kStiffestDrag = 300;
 /// Springs that pull at a node by less than this share of its friction leave its slip as it is without them [-].
 constexpr double kSlack = 0.1;
+/// The stiffness of a plane for the coarse correction, over that of the node's springs.
+constexpr float kPlane = 2;
 /// A moving node's least inertia [N/m], which keeps a quotient finite.
 constexpr double kLeastInertia = 1e-30;
 
@@ -115,6 +117,16 @@ void ImplicitSolver<Scalar>::list_constrained() {
     for (std::size_t i = first; i < first + kTogether; ++i) {
       if (contact_states_[i] != ContactState::kFree) constrained_.push_back(static_cast<int>(i));
     }
+  }
+}
+
+template <class Scalar>
+void ImplicitSolver<Scalar>::list_sliding() {
+  sliding_.clear();
+  for (const int i : constrained_) {
+    if (contact_states_[at(i)] != ContactState::kOnPlane) continue;
+    const auto stiffness = static_cast<float>(largest_stiffness(i)) + inertia_[i];
+    sliding_.push_back({i, normals_.col(i), kPlane * stiffness, static_cast<float>(drag_[i])});
   }
 }
 

@@ -83,8 +83,9 @@ void ImplicitSolver<Scalar>::iterate_once(const StepProblem<Scalar>& problem,
   set_system_inertia();
   if (iteration.is_first || iteration.factorizes) {
     const Scalar squared_step = problem.inertia_step * problem.inertia_step;
-    forces_.factorize(coarse_correction_, contact_states_, static_cast<float>(1 / squared_step),
-                      *team_);
+    list_sliding();
+    forces_.factorize(coarse_correction_, contact_states_, sliding_,
+                      static_cast<float>(1 / squared_step), *team_);
   }
   last_gain_ = solve_linear(problem, iteration);
   const double of_bodies = work_of_bodies();

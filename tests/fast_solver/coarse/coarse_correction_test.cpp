@@ -65,37 +65,40 @@ struct Sheet {
   }
   void factorize() {
     correction.set_masses(inertia);
-    forces->factorize(correction, holds, 1, team);
+    forces->factorize(correction, holds, sliding, 1, team);
   }
   [[nodiscard]] NodeArrays<float> corrected(const NodeArrays<float>& residual) {
     NodeArrays<float> zeros(residual.rows(), 3);
     NodeArrays<float> result(residual.rows(), 3);
     const NodePartition parts(mesh.num_nodes());
     for (int part = 0; part < parts.count(); ++part) {
-      correction.restrict_residual(part, held, residual);
+      correction.restrict_residual(part, residual);
     }
     correction.solve(team);
-    for (int part = 0; part < parts.count(); ++part) correction.prolongate(part, held, result);
+    for (int part = 0; part < parts.count(); ++part) correction.prolongate(part, result);
+    project(result);
     return result;
   }
   [[nodiscard]] NodeArrays<float> stiffness_times(const NodeArrays<float>& displacements) {
     NodeArrays<float> product(displacements.rows(), 3);
     forces->multiply(forces->all_nodes(), inertia, displacements, product);
-    clear_held(product);
+    project(product);
     return product;
   }
   [[nodiscard]] NodeArrays<float> any_residual() const {
     NodeArrays<float> residual = NodeArrays<float>::Random(inertia.rows(), 3);
-    clear_held(residual);
+    project(residual);
     residual.bottomRows(inertia.rows() - mesh.num_nodes()).setZero();
     return residual;
   }
 
-  void clear_held(NodeArrays<float>& vectors) const {
+  void project(NodeArrays<float>& vectors) const {
     for (const int i : names) {
       if (!is_free[at(i)]) vectors.row(i).setZero();
     }
-    for (const int i : held) vectors.row(i).setZero();
+    for (const int i : fixed) vectors.row(i).setZero();
+    for (const SlidingNode& one : sliding)
+      vectors.row(one.node) -= vectors.row(one.node).dot(one.normal) * one.normal.transpose();
   }
   [[nodiscard]] static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -107,7 +110,8 @@ struct Sheet {
   CoarseCorrection correction;
   VectorX<float> inertia;
   std::vector<ContactState> holds;
-  std::vector<int> held;
+  std::vector<int> fixed;
+  std::vector<SlidingNode> sliding;
   WorkerTeam team;
 };
 
@@ -168,18 +172,55 @@ TEST(CoarseCorrection, FindsADisplacementFromItsForces) {
   Sheet sheet(0.01F);
   for (const bool is_held : {false, true}) {
     if (is_held) {
-      sheet.held = {40, 75, 76, 90, 150};
-      for (const int i : sheet.held) {
-        sheet.holds[static_cast<std::size_t>(i)] =
-            i % 2 == 0 ? ContactState::kFixed : ContactState::kOnPlane;
+      sheet.fixed = {40, 75, 76, 90, 150};
+      for (const int i : sheet.fixed) {
+        sheet.holds[static_cast<std::size_t>(i)] = ContactState::kFixed;
       }
     }
     sheet.factorize();
     const NodeArrays<float> displacements = sheet.corrected(sheet.any_residual());
-    for (const int i : sheet.held) EXPECT_TRUE(displacements.row(i).isZero(0));
+    for (const int i : sheet.fixed) EXPECT_TRUE(displacements.row(i).isZero(0));
     const NodeArrays<float> found = sheet.corrected(sheet.stiffness_times(displacements));
     EXPECT_LT((found - displacements).norm(), 0.1F * displacements.norm()) << is_held;
     EXPECT_GT(displacements.norm(), 0);
+  }
+}
+
+// A free sheet of which all nodes slide on one plane has only its inertia and friction against it: springs stiffer by 1e4 do not
+// hold it, and it does not leave the plane.
+TEST(CoarseCorrection, ASheetOnAPlaneSlidesAsAWhole) {
+  constexpr float kDrag = 0.03F;
+  Sheet sheet(0.01F);
+  sheet.pin({});
+  const Vector3<float> normal = Vector3<float>(1, 2, -2) / 3;
+  for (const int i : sheet.names) sheet.sliding.push_back({i, normal, 1000, kDrag});
+  sheet.factorize();
+  const Vector3<float> along = Vector3<float>(2, -1, 0).normalized();
+  NodeArrays<float> residual = NodeArrays<float>::Zero(sheet.inertia.rows(), 3);
+  for (const int i : sheet.names) residual.row(i) = (0.01F + kDrag) * along.transpose();
+  const NodeArrays<float> found = sheet.corrected(residual);
+  for (const int i : sheet.names)
+    EXPECT_LT((found.row(i) - along.transpose()).norm(), 0.01F) << found.row(i);
+}
+
+// Around a ball nothing can slide as a whole: what is found costs springs no more than it gains, up to a factor.
+TEST(CoarseCorrection, OvershootsNowhereOnACurvedSurface) {
+  Sheet sheet(0.01F);
+  sheet.pin({});
+  for (const int i : sheet.names) {
+    const Vector3<float> normal =
+        (sheet.mesh.rest_positions.col(i).cast<float>() - Vector3<float>(0.5F, -0.3F, 0.5F))
+            .normalized();
+    sheet.sliding.push_back({i, normal, 1000, 0});
+  }
+  sheet.factorize();
+  for (int k = 0; k < 20; ++k) {
+    const NodeArrays<float> residual = sheet.any_residual();
+    const NodeArrays<float> found = sheet.corrected(residual);
+    const float work = found.cwiseProduct(residual).sum();
+    const float energy = found.cwiseProduct(sheet.stiffness_times(found)).sum();
+    EXPECT_GT(work, 0);
+    EXPECT_LT(energy, 4 * work);
   }
 }
 
@@ -206,7 +247,7 @@ TEST(CoarseCorrection, ASheetWithoutSpringsMovesAsItsMassesDo) {
   sheet.factorize();
   NodeArrays<float> residual(sheet.inertia.rows(), 3);
   residual.col(1).setConstant(1e6F);
-  sheet.clear_held(residual);
+  sheet.project(residual);
   const NodeArrays<float> found = sheet.corrected(residual);
   const int last = sheet.mesh.num_nodes() - 1;
   EXPECT_NEAR(found(last, 1), 1, 1e-3);
@@ -217,9 +258,9 @@ TEST(CoarseCorrection, CorrectsNothingWhereAllIsPinned) {
   CoarseCorrection correction(ConnectivityGraph{{{0, 0, 0, 0}, {}, {}, {1, 1, 1}}, {}}, {});
   NodeArrays<float> values = NodeArrays<float>::Ones(rows_for(3), 3);
   WorkerTeam team;
-  correction.restrict_residual(0, {}, values);
+  correction.restrict_residual(0, values);
   correction.solve(team);
-  correction.prolongate(0, {}, values);
+  correction.prolongate(0, values);
   EXPECT_TRUE(values.topRows(3).isZero(0));
 }
 

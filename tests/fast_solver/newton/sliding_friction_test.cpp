@@ -94,7 +94,7 @@ TEST(SlidingFriction, AcceleratesASheetFromRestAsCoulombSays) {
       const double exact = along - kFriction * down;
       const double found = sheet.velocity_along() / (num_steps * time_step);
       // A step that is solved to the tolerance may leave this much.
-      EXPECT_NEAR(found, exact, 0.2 * SolverSettings{}.tolerance * kWeight)
+      EXPECT_NEAR(found, exact, 0.25 * SolverSettings{}.tolerance * kWeight)
           << "step " << time_step << " s, " << steeper << " times as steep";
     }
   }
