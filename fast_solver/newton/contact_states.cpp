@@ -162,8 +162,9 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   // A node that slides, or that a plane has only now been found for, would be drawn back to where the step began: not by what
   // may be rounding.
   const bool did_stick = contact_states_before_[at(i)] == ContactState::kFixed;
-  const Scalar doubt = is_first || did_stick ? Scalar(0) : friction * rounding_of_force(i);
   const Scalar slipped = (slip - normal.dot(slip) * normal).norm();
+  const bool was_at_rest = is_first && !(inertia * slipped > most);
+  const Scalar doubt = was_at_rest || did_stick ? Scalar(0) : friction * rounding_of_force(i);
   // One that has slid would be drawn back to where the step began, and let go by the next decision: its drag stops it first.
   const bool has_stopped = inertia * slipped <= kStopped * most;
   // A light node that a body presses could be stopped alone, but not all that have slid with it.
@@ -198,7 +199,10 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
     const bool is_pulled = (tendency - inertia * free_slip).norm() > Scalar(kSlack) * most;
     if (!is_pulled) farthest = std::max(farthest, free_slip.norm());
   }
-  const Scalar together = std::min(farthest, slip_against(inertia));
+  // Rounding of stiff springs' forces is larger than friction, and says nothing of all nodes together.
+  const Scalar together =
+      std::min(farthest, slip_against(inertia) +
+                             rounding_of_force(i) / std::max(inertia, Scalar(kLeastInertia)));
   const bool is_foretold = is_first || did_stick || !(slipped > 0);
   const Scalar expected = is_foretold ? std::max(alone, together) : slipped;
   set_friction(contact, expected);

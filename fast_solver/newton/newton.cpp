@@ -125,15 +125,16 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
                            .continues = problem.continues,
                            .factorizes = iteration % kIterationsPerFactor == 0});
     if (decides) ++num_decisions;
-    if (iteration == 0) rounding = kRoundings * gain_of_rounding();
+    if (iteration == 0) rounding = gain_of_rounding();
     const bool are_contact_states_new = decides && (iteration == 0 || have_contact_states_changed_);
     const double now = energy(problem, positions_, &Body::motion);
-    if (!are_contact_states_new && !(now <= energy_before_ * (1 + kEnergyRounding) + asked)) {
+    if (!are_contact_states_new &&
+        !(now <= energy_before_ * (1 + kEnergyRounding) + asked + rounding)) {
       if (transverse == 1) {
         // With this linearization every spring gains. What is left is rounding, if that is all that the step could have gained.
         restore_positions();
         const double least =
-            std::max({rounding, asked, kEnergyRounding * std::abs(energy_before_)});
+            std::max({kRoundings * rounding, asked, kEnergyRounding * std::abs(energy_before_)});
         const bool is_decided = !has_contacts || num_decisions >= kMostDecisions;
         report_.is_converged = is_decided && !last_gain_.is_broken && last_gain_.total <= least;
         break;
@@ -160,7 +161,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     const bool is_slow = !(shrinks < kStalled) && !(lowered > kLowered * last_gain_.total);
     num_stalled = is_slow && !are_contact_states_new ? num_stalled + 1 : 0;
     // Stiff springs keep gaining by rounding while soft ones may still be far from their solution.
-    const bool is_rounding = last_gain_.total <= rounding && !(shrinks < kStalled);
+    const bool is_rounding = last_gain_.total <= kRoundings * rounding && !(shrinks < kStalled);
     const bool is_solved = (left <= asked || is_rounding) && !last_gain_.is_broken;
     const bool is_over =
         is_solved || (num_stalled >= kMostStalled && solver_settings.tolerance > 0);

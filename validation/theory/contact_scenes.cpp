@@ -47,6 +47,10 @@ Sabotage friction_scaled(double factor) {
   return sabotage;
 }
 
+void set_stiffness(scenes::Scene& scene, double stiffness) {
+  for (scenes::Cloth& cloth : scene.cloths) cloth.laws[0] = tension_law(stiffness);
+}
+
 }  // namespace
 
 std::vector<TheoryScene> incline_scenes(const CaseInfo&, const CaseOptions&) {
@@ -79,25 +83,52 @@ std::vector<TheoryScene> incline_scenes(const CaseInfo&, const CaseOptions&) {
 }
 
 std::vector<TheoryScene> stopping_scenes(const CaseInfo&, const CaseOptions&) {
-  constexpr double kSpeed = 2.0;     // [m/s]
-  constexpr double kFriction = 0.3;  // [-]
+  constexpr double kSpeed = 2.0;          // [m/s]
+  constexpr double kFriction = 0.3;       // [-]
+  constexpr double kSoft = 20.0;          // [N/m]: what nothing pulls at needs no more
+  constexpr int kNodesAcross = 15;        // of stiff sheets, which must move as one
+  constexpr double kArealDensity = 0.25;  // [kg/m^2]
   const double exact = kSpeed * kSpeed / (2 * kFriction * kTheoryGravity);
-  TheoryBound bound;
-  bound.claim = "in the engine: a cloth thrown along the ground at 2 m/s stops";
-  bound.metric = "relative error of its way, at 1.5 s";
-  bound.formula = "v^2 / (2 mu g)";
-  bound.source = "Coulomb friction of a body that moves as a whole";
-  bound.values = [exact](const Frames& frames) -> std::vector<ComparedValue> {
-    return {{"way", way_of(frames), exact, "m"}};
-  };
-  bound.tolerance = [exact](double h) {
-    return Tolerance{kSpeed * h / exact + 0.005, Basis::kTruncation,
-                     "v h: a sum over steps misses the integral by half of that"};
-  };
-  bound.sabotages = {friction_scaled(1.3), friction_removed()};
-  scenes::Scene scene = flat_scene(0.0, kFriction, 1.5);
-  scene.cloths[0].velocity = {kSpeed, 0, 0};
-  return {{"thrown", scene, {bound}}};
+  std::vector<TheoryScene> list;
+  for (const double stiffness : {kSoft, 1e3, 1e5, 1e6}) {
+    const bool is_stiff = stiffness > kSoft;
+    TheoryBound bound;
+    bound.claim = is_stiff ? fmt::format(
+                                 "in the engine: a sheet of {:g} N/m thrown along the ground at 2 "
+                                 "m/s stops",
+                                 stiffness)
+                           : "in the engine: a cloth thrown along the ground at 2 m/s stops";
+    bound.metric = "relative error of its way, at 1.5 s";
+    bound.formula = "v^2 / (2 mu g)";
+    bound.source = "Coulomb friction of a body that moves as a whole";
+    bound.values = [exact](const Frames& frames) -> std::vector<ComparedValue> {
+      return {{"way", way_of(frames), exact, "m"}};
+    };
+    bound.tolerance = [exact](double h) {
+      return Tolerance{kSpeed * h / exact + 0.005, Basis::kTruncation,
+                       "v h: a sum over steps misses the integral by half of that"};
+    };
+    bound.sabotages = {friction_scaled(1.3), friction_removed()};
+    scenes::Scene scene = flat_scene(0.0, kFriction, 1.5);
+    scene.cloths[0].velocity = {kSpeed, 0, 0};
+    if (!is_stiff) {
+      list.push_back({"thrown", scene, {bound}});
+      continue;
+    }
+    for (Sabotage& sabotage : bound.sabotages) {
+      sabotage.edit_scene = [edit = sabotage.edit_scene](scenes::Scene& wrong) {
+        edit(wrong);
+        set_stiffness(wrong, kSoft);
+      };
+    }
+    ClothGrid& grid = scene.cloths[0].grid();
+    grid.nodes = {kNodesAcross, kNodesAcross};
+    grid.size = {0.5, 0.5};
+    grid.total_mass = kArealDensity * grid.size[0] * grid.size[1];
+    set_stiffness(scene, stiffness);
+    list.push_back({fmt::format("thrown_{:.0f}", stiffness), scene, {bound}, is_stiff});
+  }
+  return list;
 }
 
 }  // namespace weft::validation

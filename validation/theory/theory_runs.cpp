@@ -31,6 +31,10 @@ std::string wrong_id(const CaseInfo& info, const TheoryScene& theory, std::size_
   return fmt::format("{}_{}_wrong_{}_{}", info.id, theory.id, bound, sabotage);
 }
 
+bool can_run(const TheoryEngine& engine, const TheoryScene& theory) {
+  return engine.steps_per_second > 0 || !theory.is_stiff;
+}
+
 bool is_complete(const History& history, const scenes::Scene& scene) {
   const auto frames =
       static_cast<std::size_t>(std::llround(scene.world.duration / scene.world.frame_interval)) + 1;
@@ -126,6 +130,7 @@ std::vector<std::string> theory_engine_names(bool with_bullet) {
 void plan_theory(const CaseInfo& info, const CaseOptions& options, EngineRuns& runs) {
   for (const TheoryScene& theory : info.theory(info, options)) {
     for (const TheoryEngine& engine : theory_engines(options.bullet, options.engine)) {
+      if (!can_run(engine, theory)) continue;
       runs.add({engine.choice.label(run_id(info, theory, engine)), scene_for(theory, engine),
                 engine.choice.engine, engine.choice.precision});
     }
@@ -181,7 +186,7 @@ void judge_theory(const CaseInfo& info, const CaseOptions& options, const Engine
       }
     }
     for (const TheoryEngine& engine : engines) {
-      judge_engine(info, theory, engine, runs, sabotaged, own);
+      if (can_run(engine, theory)) judge_engine(info, theory, engine, runs, sabotaged, own);
     }
   }
   Table table = table_of(info, engines, own.checks);

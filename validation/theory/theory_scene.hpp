@@ -34,6 +34,9 @@ struct TheoryScene {
   /// every step of kTheoryStepsPerSecond meets them.
   scenes::Scene scene;
   std::vector<TheoryBound> bounds;
+  /// Its springs are too stiff for explicit steps of any use: bullet_weft alone runs it. Its sabotages, which the reference runs,
+  /// have softer ones.
+  bool is_stiff = false;
 };
 
 /// Steps of bullet_weft, 1/s.

@@ -52,6 +52,32 @@ TEST(SpringNetwork, HasTheForcesOfTheLaws) {
   EXPECT_LT((forces - expected).norm(), 1e-10 * expected.norm());
 }
 
+// At rest all that stiff springs pull with is rounding, which is much more than what friction or gravity may be. It must be equal
+// at both ends, wherever the loops over nodes meet them: else it drives the sheet.
+TEST(SpringNetwork, SpringsPullAlikeAtBothEnds) {
+  const LawSpecification stiff{"tension", {}, {{"stiffness", {1e6}}}};
+  for (const int nodes : {3, 7, 15, 40}) {
+    for (const bool has_dampers : {false, true}) {
+      ClothGrid grid;
+      grid.nodes = {nodes, nodes};
+      grid.size = {0.5, 0.5};
+      const ClothMesh mesh = make_cloth_grid(grid);
+      std::vector<LawSpecification> laws{stiff};
+      if (has_dampers) laws.push_back(kDamping);
+      NetworkForces<float> network(make_network(mesh, laws), mesh.num_nodes());
+      for (const double place : {0.0, 0.011, -0.3, 0.7}) {
+        Matrix3X<double> x = mesh.rest_positions;
+        x.colwise() += place * Vector3<double>(1, -0.2, 0.3);
+        const Matrix3X<float> at_rest = x.cast<float>();
+        begin_step<float>(network, at_rest, 1.0F / 60);
+        const Matrix3X<double> forces = forces_at<float>(network, at_rest).cast<double>();
+        EXPECT_LE(forces.rowwise().sum().norm(), 1e-4 * forces.cwiseAbs().sum())
+            << nodes << " nodes, " << has_dampers << " " << place;
+      }
+    }
+  }
+}
+
 TEST(SpringNetwork, DampsTheChangeOfLength) {
   const ClothMesh mesh = cloth();
   const double h = 1e-6;  // [s] so that (l - l_q) / h is the rate of the length to a part in 1e5

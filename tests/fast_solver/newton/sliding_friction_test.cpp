@@ -100,5 +100,28 @@ TEST(SlidingFriction, AcceleratesASheetFromRestAsCoulombSays) {
   }
 }
 
+// Friction is a thousandth of what rounding makes of a stiff spring's force, and brakes the sheet as a whole all the same.
+template <class Scalar>
+void expect_to_brake(double stiffness, double bound) {
+  constexpr double kFriction = 0.4;
+  constexpr double kTimeStep = 1.0 / 60;
+  constexpr int kSteps = 25;
+  SlidingSheet<Scalar> sheet(25, 0.5, 0.25, stiffness, kFriction);
+  sheet.velocities().row(0).setConstant(2);
+  for (int i = 1; i <= kSteps; ++i) {
+    (void)sheet.step(kTimeStep, 0, kWeight);
+    EXPECT_NEAR(sheet.velocity_along(), 2 - kFriction * kWeight * kTimeStep * i, bound)
+        << stiffness << " N/m, step " << i;
+  }
+}
+
+TEST(SlidingFriction, BrakesSheetsOfAnyStiffness) {
+  for (const double stiffness : {1e2, 1e3, 1e4, 1e5, 1e6}) {
+    expect_to_brake<double>(stiffness, 1e-3);
+    // A hundredth of the motion of a step, in steps that rounding ends.
+    expect_to_brake<float>(stiffness, 2e-2);
+  }
+}
+
 }  // namespace
 }  // namespace weft::fast
