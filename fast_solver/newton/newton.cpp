@@ -44,6 +44,9 @@ constexpr double kTransverseGrowth = 7;
 constexpr double kEnergyRounding = 2e-7;
 /// There is no more to be gained than so many times what positions gain by their rounding alone [-].
 constexpr double kRoundings = 4;
+/// The share of an energy that a step without motion is held against [-].
+constexpr double kAtRest = 0.01;
+constexpr double kAtRestInContact = 0.3;
 /// A single iteration may leave this share of the gain that is asked for [-].
 constexpr double kLastShare = 0.02;
 
@@ -105,13 +108,17 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
                                      const SolverSettings& solver_settings) {
   const bool has_contacts = !problem.contacts.empty();
   const int first_decisions = num_first_decisions(!supports_.empty(), problem.continues);
-  const double asked = 2 * solver_settings.tolerance * solver_settings.tolerance * step_energy_;
+  const double squared_tolerance = solver_settings.tolerance * solver_settings.tolerance;
+  const double asked = squared_tolerance * 2 * step_energy_;
+  double wanted = squared_tolerance * motion_that_counts(has_contacts);
   double before = 0;
   energy_before_ = 0;
   std::array<double, kShrinksSeen> last_shrinks{};
   double transverse = 0, rounding = 0;
   int num_stalled = 0;
   int num_decisions = 0;
+  bool are_states_right = !has_contacts;
+  bool is_within = false;
   bool decides = true;
   report_ = {.is_converged = false};
   anderson_.forget();
@@ -119,12 +126,13 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
        ++iteration) {
     report_.newton_iterations = iteration + 1;
     iterate_once(problem, {.iterations = solver_settings.linear_iterations,
-                           .accuracy = accuracy_of(iteration, has_contacts, asked),
+                           .accuracy = accuracy_of(iteration, has_contacts, wanted),
                            .is_first = iteration == 0,
                            .decides = decides,
                            .continues = problem.continues,
                            .factorizes = iteration % kIterationsPerFactor == 0});
     if (decides) ++num_decisions;
+    if (decides && has_contacts) are_states_right = iteration > 0 && !have_contact_states_changed_;
     if (iteration == 0) rounding = gain_of_rounding();
     const bool are_contact_states_new = decides && (iteration == 0 || have_contact_states_changed_);
     const double now = energy(problem, positions_, &Body::motion);
@@ -146,6 +154,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
       decides = false;
       continue;
     }
+    wanted = squared_tolerance * motion_that_counts(has_contacts);
     const double lowered = has_contacts ? 0 : energy_before_ - now;
     energy_before_ = now;
     transverse = transverse > kFirstTransverse ? transverse / kTransverseGrowth : 0.0;
@@ -162,13 +171,14 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     num_stalled = is_slow && !are_contact_states_new ? num_stalled + 1 : 0;
     // Stiff springs keep gaining by rounding while soft ones may still be far from their solution.
     const bool is_rounding = last_gain_.total <= kRoundings * rounding && !(shrinks < kStalled);
-    const bool is_solved = (left <= asked || is_rounding) && !last_gain_.is_broken;
+    const bool is_solved = (left <= wanted || is_rounding) && !last_gain_.is_broken;
     const bool is_over =
         is_solved || (num_stalled >= kMostStalled && solver_settings.tolerance > 0);
     // With these contacts. Whether they are the right ones is asked of a solution: on the way there forces say little.
     const bool can_decide = has_contacts && num_decisions < kMostDecisions;
     report_.is_converged =
         is_solved && (!has_contacts || (decides && !are_contact_states_new) || !can_decide);
+    is_within = left <= asked && !last_gain_.is_broken && (are_states_right || !can_decide);
     if (is_over && !report_.is_converged && !can_decide) break;
     decides = can_decide && (iteration < first_decisions || is_over);
     if (decides) num_stalled = 0;
@@ -179,7 +189,22 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
       energy_before_ = accelerate(problem, now);
     }
   }
+  report_.is_converged = report_.is_converged || is_within;
   forces_.set_least_transverse_stiffness(0);
+}
+
+// Twice the energy of the motion that the tolerance is a share of [J]: that of the step, m |x - q|^2 / (2 h'^2). Where cloth
+// rests it is a share of that without springs, m |y - q|^2 / (2 h'^2): with all of it, stiff springs could keep several weights
+// of a node. If the budget ends before, all of it is enough for the step to count as solved.
+template <class Scalar>
+double ImplicitSolver<Scalar>::motion_that_counts(bool has_contacts) {
+  const auto stride = static_cast<int>(weights_.size());
+  const double squares = sum_over_parts([&](NodeRange nodes) {
+    return sum_kernel<Scalar>().weighted_distance(weights_.data(), stride, nodes, positions_.data(),
+                                                  start_positions_.data());
+  });
+  const double least = has_contacts ? kAtRestInContact : kAtRest;
+  return std::clamp(squares, least * 2 * step_energy_, 2 * step_energy_);
 }
 
 // Continues from the Anderson combination of the last iterations if it has less energy than the last result. Returns the
