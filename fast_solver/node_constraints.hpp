@@ -71,6 +71,14 @@ struct KinematicNode {
   Vector3<Scalar> lever_arm = Vector3<Scalar>::Zero();  ///< from the body's center to the node [m]
 };
 
+/// A node that slides on a plane, as the coarse correction sees it.
+struct SlidingNode {
+  int node = 0;
+  Vector3<float> normal = Vector3<float>::Zero();  ///< unit vector
+  float stiffness = 0;  ///< in that direction, for what does not move there [N/m]
+  float drag = 0;       ///< of friction [N/m]
+};
+
 /// The contact state of one node during a solve.
 enum class ContactState : unsigned char {
   kFree,

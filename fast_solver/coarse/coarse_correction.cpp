@@ -134,15 +134,6 @@ void CoarseCorrection::fill_gaps(NodeRange nodes) {
   }
 }
 
-void CoarseCorrection::Row::add(int basis, float coefficient) {
-  for (int k = 0; k < count; ++k) {
-    if (entries[at(k)].basis != basis) continue;
-    entries[at(k)].coefficient += coefficient;
-    return;
-  }
-  entries[at(count++)] = {basis, coefficient};
-}
-
 CoarseCorrection::Row CoarseCorrection::row_of(int node) const {
   const BasisWeights& of_node = weights_[at(node)];
   Row row;

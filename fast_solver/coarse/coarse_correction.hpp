@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <weft/fast_solver/coarse/coarse_kernel.hpp>
+#include <weft/fast_solver/coarse/coarse_row.hpp>
 #include <weft/fast_solver/coarse/dissected_cholesky.hpp>
 #include <weft/fast_solver/coarse/smoothed_aggregation.hpp>
 #include <weft/fast_solver/network/connectivity_graph.hpp>
@@ -24,14 +25,6 @@ namespace weft::fast {
 
 /// Vectors of x, y, z and a number that is not used: what a processor loads and adds at once.
 using Fours = AlignedMatrix<float, 4, Eigen::Dynamic>;
-
-/// A node that slides on a plane: what keeps it there, and what brakes it.
-struct SlidingNode {
-  int node = 0;
-  Vector3<float> normal = Vector3<float>::Zero();  ///< unit vector
-  float stiffness = 0;  ///< in that direction, for what does not move there [N/m]
-  float drag = 0;       ///< of friction [N/m]
-};
 
 /// The coarse level of the preconditioner: P (P^T A P)^-1 P^T residual, with A the linearized network of the present step and P
 /// the coarse basis functions of smoothed aggregation (Vanek, Mandel and Brezina 1996; smoothed_aggregation.hpp). It carries
@@ -98,19 +91,7 @@ class CoarseCorrection {
     Fours residual;
     Fours other_residual;
   };
-  /// A sparse row: coefficients of some coarse basis functions.
-  struct Row {
-    struct Entry {
-      int basis;
-      float coefficient;
-    };
-    std::array<Entry, 6> entries;  ///< those of two nodes at most
-    int count = 0;
-
-    [[nodiscard]] const Entry* begin() const { return entries.data(); }
-    [[nodiscard]] const Entry* end() const { return entries.data() + count; }
-    void add(int basis, float coefficient);
-  };
+  using Row = CoarseRow;
 
   /// The couplings of each coarse basis function to higher ones, ascending [N/m].
   using Couplings = std::vector<std::vector<std::pair<int, float>>>;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <weft/fast_solver/implicit_solver.hpp>
+#include <weft/fast_solver/newton/node_stiffness.hpp>
 
 #include <weft/core/index.hpp>
 
@@ -279,13 +280,8 @@ Scalar ImplicitSolver<Scalar>::rounding_of_force(int node) const {
 // be too far by much: gas in a ball pushes thirty times as hard as the weight, and the skin holds it back.
 template <class Scalar>
 Scalar ImplicitSolver<Scalar>::first_push(int node, const Vector3<Scalar>& normal) const {
-  const auto block = [&](int k) { return Scalar(forces_.diagonal_blocks()(node, k)); };
-  const Scalar normal_stiffness =
-      block(0) * normal[0] * normal[0] + block(1) * normal[1] * normal[1] +
-      block(2) * normal[2] * normal[2] +
-      2 * (block(3) * normal[0] * normal[1] + block(4) * normal[1] * normal[2] +
-           block(5) * normal[2] * normal[0]);
-  return normal.dot(at_node(residual_forces_, node)) / (Scalar(inertia_[node]) + normal_stiffness);
+  const Scalar stiffness = stiffness_along<Scalar>(forces_.diagonal_blocks(), node, normal);
+  return normal.dot(at_node(residual_forces_, node)) / (Scalar(inertia_[node]) + stiffness);
 }
 
 template <class Scalar>

@@ -1,11 +1,11 @@
 // Newton's method on the energy that an implicit step minimizes (Gast et al. 2015), with a line search on it.
 // Tested by tests/fast_solver/implicit_solver_test.cpp.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include <weft/fast_solver/implicit_solver.hpp>
+#include <weft/fast_solver/newton/node_stiffness.hpp>
+#include <weft/fast_solver/newton/stop_criterion.hpp>
 
 #include <weft/core/index.hpp>
 
@@ -14,57 +14,24 @@ namespace {
 
 /// The coarse matrix is factorized again after so many iterations.
 constexpr int kIterationsPerFactor = 4;
-/// A step that so many iterations have not solved has stiff springs that turn. There conjugate gradients have long plateaus,
-/// and what they leave on each of them is what the next iterations of Newton's method would gain slowly. With contacts it is
-/// their states that take iterations.
-constexpr int kRoughIterations = 4;
-constexpr LinearAccuracy kRough = {.forcing = 0.1};
-constexpr LinearAccuracy kAccurate = {.forcing = 0.03, .delay = 0.5};
 /// How often contact states are decided in a step: in its first iterations, which find most of them, and at solutions.
 constexpr int kFirstDecisions = 2;
 constexpr int kMostDecisions = 8;
 /// Which nodes a body presses says how much each of them bears: they are decided together with its motion.
 constexpr int kFirstDecisionsWithSupports = kMostDecisions;
-/// The ratio of an iteration's gain to that of the one before: assumed for the first, and the upper bound.
-constexpr double kFirstShrink = 0.1;
-constexpr double kSlowest = 0.9;
-/// Iterations whose shrinking tells how much the last one may have left.
-constexpr std::size_t kShrinksSeen = 4;
-/// If the ratio exceeds this so many times in a row, iterations only gain rounding.
-constexpr double kStalled = 0.9;
-constexpr int kMostStalled = 3;
-/// Without contacts, whose states change energies, an iteration that lowers the energy by this share of its gain gets somewhere,
-/// however slowly, as in a sheet that is pulled in on itself. Rounding has gains too, and lowers nothing.
-constexpr double kLowered = 0.125;
 /// Least transverse over axial stiffness of a spring after an iteration that increased the energy, and its growth if that was not
 /// enough: with 1 no iteration gains any.
 constexpr double kFirstTransverse = 0.02;
 constexpr double kTransverseGrowth = 7;
 /// The share of an energy that is rounding [-].
 constexpr double kEnergyRounding = 2e-7;
-/// There is no more to be gained than so many times what positions gain by their rounding alone [-].
-constexpr double kRoundings = 4;
 /// The share of an energy that a step without motion is held against [-].
 constexpr double kAtRest = 0.01;
 constexpr double kAtRestInContact = 0.3;
-/// A single iteration may leave this share of the gain that is asked for [-].
-constexpr double kLastShare = 0.02;
-
-/// What further iterations gain if each gains this share of the one before [J].
-double rest_of(double gain, double shrinks) {
-  const double limited = std::min(kSlowest, shrinks);
-  return gain * limited / (1 - limited);
-}
 
 int num_first_decisions(bool has_supports, bool continues) {
   if (has_supports) return kFirstDecisionsWithSupports;
   return continues ? 0 : kFirstDecisions;
-}
-
-LinearAccuracy accuracy_of(int iteration, bool has_contacts, double asked) {
-  LinearAccuracy accuracy = has_contacts || iteration < kRoughIterations ? kRough : kAccurate;
-  accuracy.least_gain = kLastShare * asked;
-  return accuracy;
 }
 
 }  // namespace
@@ -111,14 +78,11 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
   const double squared_tolerance = solver_settings.tolerance * solver_settings.tolerance;
   const double asked = squared_tolerance * 2 * step_energy_;
   double wanted = squared_tolerance * motion_that_counts(has_contacts);
-  double before = 0;
+  StopCriterion stop;
   energy_before_ = 0;
-  std::array<double, kShrinksSeen> last_shrinks{};
-  double transverse = 0, rounding = 0;
-  int num_stalled = 0;
+  double transverse = 0;
   int num_decisions = 0;
-  bool are_states_right = !has_contacts;
-  bool is_within = false;
+  bool are_states_right = !has_contacts, is_within = false;
   bool decides = true;
   report_ = {.is_converged = false};
   anderson_.forget();
@@ -133,16 +97,20 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
                            .factorizes = iteration % kIterationsPerFactor == 0});
     if (decides) ++num_decisions;
     if (decides && has_contacts) are_states_right = iteration > 0 && !have_contact_states_changed_;
-    if (iteration == 0) rounding = gain_of_rounding();
+    if (iteration == 0) {
+      stop.set_rounding(sum_over_parts([this](NodeRange nodes) {
+        return gain_of_rounding<Scalar>(nodes, forces_.diagonal_blocks(), inertia_, positions_);
+      }));
+    }
     const bool are_contact_states_new = decides && (iteration == 0 || have_contact_states_changed_);
     const double now = energy(problem, positions_, &Body::motion);
     if (!are_contact_states_new &&
-        !(now <= energy_before_ * (1 + kEnergyRounding) + asked + rounding)) {
+        !(now <= energy_before_ * (1 + kEnergyRounding) + asked + stop.rounding())) {
       if (transverse == 1) {
         // With this linearization every spring gains. What is left is rounding, if that is all that the step could have gained.
         restore_positions();
-        const double least =
-            std::max({kRoundings * rounding, asked, kEnergyRounding * std::abs(energy_before_)});
+        const double least = std::max({StopCriterion::kRoundings * stop.rounding(), asked,
+                                       kEnergyRounding * std::abs(energy_before_)});
         const bool is_decided = !has_contacts || num_decisions >= kMostDecisions;
         report_.is_converged = is_decided && !last_gain_.is_broken && last_gain_.total <= least;
         break;
@@ -155,34 +123,21 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
       continue;
     }
     wanted = squared_tolerance * motion_that_counts(has_contacts);
-    const double lowered = has_contacts ? 0 : energy_before_ - now;
+    stop.add(last_gain_, has_contacts ? 0 : energy_before_ - now, are_contact_states_new);
     energy_before_ = now;
     transverse = transverse > kFirstTransverse ? transverse / kTransverseGrowth : 0.0;
     forces_.set_least_transverse_stiffness(static_cast<Scalar>(transverse));
-    const double shrinks = before > 0 ? last_gain_.total / before : kFirstShrink;
-    const double left = last_gain_.left + rest_of(last_gain_.total, shrinks);
-    // Accelerated iterations gain little now and then, with some way to go. That is known here, but too late to stop by.
-    last_shrinks[at(iteration) % last_shrinks.size()] = shrinks;
-    const double slowest = *std::max_element(last_shrinks.begin(), last_shrinks.end());
-    report_.energy_left = last_gain_.is_broken
-                              ? step_energy_
-                              : (last_gain_.left + rest_of(last_gain_.total, slowest)) / 2;
-    const bool is_slow = !(shrinks < kStalled) && !(lowered > kLowered * last_gain_.total);
-    num_stalled = is_slow && !are_contact_states_new ? num_stalled + 1 : 0;
-    // Stiff springs keep gaining by rounding while soft ones may still be far from their solution.
-    const bool is_rounding = last_gain_.total <= kRoundings * rounding && !(shrinks < kStalled);
-    const bool is_solved = (left <= wanted || is_rounding) && !last_gain_.is_broken;
-    const bool is_over =
-        is_solved || (num_stalled >= kMostStalled && solver_settings.tolerance > 0);
+    report_.energy_left = last_gain_.is_broken ? step_energy_ : stop.energy_left();
+    const bool is_solved = stop.is_solved(wanted);
+    const bool is_over = is_solved || (stop.is_stalled() && solver_settings.tolerance > 0);
     // With these contacts. Whether they are the right ones is asked of a solution: on the way there forces say little.
     const bool can_decide = has_contacts && num_decisions < kMostDecisions;
     report_.is_converged =
         is_solved && (!has_contacts || (decides && !are_contact_states_new) || !can_decide);
-    is_within = left <= asked && !last_gain_.is_broken && (are_states_right || !can_decide);
+    is_within = stop.is_within(asked) && (are_states_right || !can_decide);
     if (is_over && !report_.is_converged && !can_decide) break;
     decides = can_decide && (iteration < first_decisions || is_over);
-    if (decides) num_stalled = 0;
-    before = last_gain_.total;
+    if (decides) stop.forget_stalls();
     if (are_contact_states_new) {
       anderson_.forget();
     } else if (!report_.is_converged && iteration + 1 < solver_settings.newton_iterations) {
@@ -243,26 +198,6 @@ double ImplicitSolver<Scalar>::accelerate(const StepProblem<Scalar>& problem, do
   positions_ = last_results_;
   for (Body& body : bodies_) body.motion = body.last_result;
   return reached;
-}
-
-/// The gain of an iteration from the rounding of positions alone [J], twice an energy as in LinearGain.
-template <class Scalar>
-double ImplicitSolver<Scalar>::gain_of_rounding() {
-  constexpr double kVariance = 1.0 / 12;  // of numbers rounded to whole ones
-  constexpr double kUnit = std::numeric_limits<Scalar>::epsilon();
-  const BlockArrays& blocks = forces_.diagonal_blocks();
-  return kVariance * kUnit * kUnit * sum_over_parts([&](NodeRange nodes) {
-           const int count = nodes.end - nodes.begin;
-           double sum = 0;
-           for (int axis = 0; axis < 3; ++axis) {
-             const auto stiffness = blocks.col(axis).segment(nodes.begin, count) +
-                                    inertia_.segment(nodes.begin, count);
-             const auto positions = positions_.col(axis).segment(nodes.begin, count);
-             sum +=
-                 static_cast<double>(positions.cwiseAbs2().template cast<float>().dot(stiffness));
-           }
-           return sum;
-         });
 }
 
 template <class Scalar>
