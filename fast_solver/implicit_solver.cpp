@@ -143,7 +143,7 @@ void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body:
 template <class Scalar>
 void ImplicitSolver<Scalar>::smooth(int part) {
   smooth(parts_[part], smoothed_);
-  coarse_correction_.restrict_residual(part, residual_vector_);
+  coarse_correction_.restrict_residual(part, coarse_roles_.held(), residual_vector_);
 }
 
 // correction = P residual, with its product with the stiffness. P is additive (Dryja and Widlund 1987): the sum of the
@@ -156,7 +156,7 @@ typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition(F
   coarse_correction_.solve(*team_);
   const auto stride = static_cast<int>(coarse_.rows());
   team_->run(parts_.count(), [this, &correction, stride](int part) {
-    coarse_correction_.prolongate(part, coarse_);
+    coarse_correction_.prolongate(part, coarse_roles_.held(), coarse_);
     project(parts_[part], coarse_);
     vector_kernel().add(smoothed_.data(), coarse_.data(), stride, parts_[part], correction.data());
   });

@@ -14,6 +14,7 @@
 #include <weft/fast_solver/newton/anderson_history.hpp>
 #include <weft/fast_solver/newton/body_couplings.hpp>
 #include <weft/fast_solver/newton/body_links.hpp>
+#include <weft/fast_solver/newton/coarse_roles.hpp>
 #include <weft/fast_solver/newton/direction_weights.hpp>
 #include <weft/fast_solver/newton/newton_iteration.hpp>
 #include <weft/fast_solver/newton/node_supports.hpp>
@@ -145,7 +146,7 @@ class ImplicitSolver : TeamLoops {
   void set_system_inertia();
   void decide_contact_state(const PlaneContact<Scalar>& contact, const NewtonIteration& iteration);
   void list_constrained();
-  void list_sliding();
+  void find_coarse_roles();
   [[nodiscard]] Scalar rounding_of_force(int node) const;
   [[nodiscard]] Scalar first_push(int node, const Vector3<Scalar>& normal) const;
   void project(NodeRange nodes, Floats& vectors) const;
@@ -213,8 +214,8 @@ class ImplicitSolver : TeamLoops {
   bool has_torn_ = false;
   std::vector<int> kinematic_;  ///< those of the last step, ascending
   std::vector<int> next_kinematic_;
-  std::vector<int> constrained_;      ///< not kFree; ascending while linear systems are solved
-  std::vector<SlidingNode> sliding_;  ///< for the coarse correction, ascending
+  std::vector<int> constrained_;  ///< not kFree; ascending while linear systems are solved
+  CoarseRoles coarse_roles_;
   std::vector<BodyLink> links_;
   std::vector<Body> bodies_;
   BodyCouplings<Scalar> couplings_;

@@ -32,6 +32,12 @@ float sum_of(const BasisWeights& of_node) {
   return of_node.weights[0] + of_node.weights[1] + of_node.weights[2];
 }
 
+/// Adds a number of a node to those of its basis functions, by its weights.
+void add_lumped(AlignedVector<float>& sums, const BasisWeights& of_node, float number) {
+  for (int k = 0; k < kMostWeights; ++k)
+    sums[at(of_node.basis_functions[k])] += number * of_node.weights[k];
+}
+
 int basis_size_for(int num_unknowns) {
   return std::max(kLeastBasis, static_cast<int>(kBasisPerRoot * std::sqrt(num_unknowns)));
 }
@@ -361,20 +367,15 @@ void CoarseCorrection::set_bending(const EdgeSlots& slots,
 
 void CoarseCorrection::set_masses(const VectorX<float>& masses) {
   std::fill(masses_.begin(), masses_.end(), 0.0F);
-  for (int i = 0; i < num_nodes_ && num_basis_ > 0; ++i) {
-    const BasisWeights& of_node = weights_[at(i)];
-    for (int k = 0; k < kMostWeights; ++k) {
-      masses_[at(of_node.basis_functions[k])] += masses[i] * of_node.weights[k];
-    }
-  }
+  for (int i = 0; i < num_nodes_ && num_basis_ > 0; ++i)
+    add_lumped(masses_, weights_[at(i)], masses[i]);
 }
 
 void CoarseCorrection::factorize(const unsigned short* linear, float root_scale,
-                                 const std::vector<ContactState>& holds,
+                                 std::span<const char> is_held,
                                  std::span<const SlidingNode> sliding, float inertia_over_mass,
                                  WorkerTeam& team) {
   if (num_basis_ == 0) return;
-  static_assert(sizeof(ContactState) == 1);
   const CoarseKernel& kernel = coarse_kernel();
   const float scale = 1 / (root_scale * root_scale);
   team.run(parts_.count(), [&](int p) {
@@ -386,8 +387,7 @@ void CoarseCorrection::factorize(const unsigned short* linear, float root_scale,
       const Block& block = (*blocks_)[at(b)];
       kernel.add_springs(
           {block.springs.data(), static_cast<int>(block.springs.size()), block.terms.data(),
-           alone_->data(), reinterpret_cast<const unsigned char*>(holds.data()),
-           static_cast<unsigned char>(ContactState::kFixed), linear, scale, part.sums.begin},
+           alone_->data(), is_held.data(), linear, scale, part.sums.begin},
           part.blocks.data());
     }
     const auto is_before = [](const SlidingNode& one, int node) { return one.node < node; };
@@ -425,16 +425,12 @@ void CoarseCorrection::factorize(const unsigned short* linear, float root_scale,
     }
   }
   for (std::size_t k = 0; k < masses_.size(); ++k) inertia_[k] = inertia_over_mass * masses_[k];
-  for (const SlidingNode& one : sliding) {
-    const BasisWeights& of_node = weights_[at(one.node)];
-    for (int k = 0; k < kMostWeights; ++k) {
-      inertia_[at(of_node.basis_functions[k])] += one.drag * of_node.weights[k];
-    }
-  }
+  for (const SlidingNode& one : sliding) add_lumped(inertia_, weights_[at(one.node)], one.drag);
   factor_.factorize(sums_.data(), inertia_.data(), team);
 }
 
-void CoarseCorrection::restrict_residual(int part, const NodeArrays<float>& residual) {
+void CoarseCorrection::restrict_residual(int part, const std::vector<int>& held,
+                                         const NodeArrays<float>& residual) {
   if (num_basis_ == 0) return;
   Part& of_part = of_parts_[at(part)];
   of_part.residual.setZero();
@@ -444,6 +440,13 @@ void CoarseCorrection::restrict_residual(int part, const NodeArrays<float>& resi
                                     residual.rows(), of_part.basis_functions.begin,
                                     of_part.residual.data(), of_part.other_residual.data());
   of_part.residual += of_part.other_residual;
+  for (const int i : in_range(held, nodes)) {
+    const BasisWeights& of_node = weights_[at(i)];
+    for (int k = 0; k < kMostWeights; ++k) {
+      of_part.residual.col(of_node.basis_functions[k] - of_part.basis_functions.begin).head<3>() -=
+          of_node.weights[k] * residual.row(i).transpose();
+    }
+  }
 }
 
 void CoarseCorrection::solve(WorkerTeam& team) {
@@ -456,7 +459,8 @@ void CoarseCorrection::solve(WorkerTeam& team) {
   factor_.solve(std::span(residuals).first(of_parts_.size()), solution_.data(), team);
 }
 
-void CoarseCorrection::prolongate(int part, NodeArrays<float>& correction) const {
+void CoarseCorrection::prolongate(int part, const std::vector<int>& held,
+                                  NodeArrays<float>& correction) const {
   const NodeRange nodes = parts_[part];
   const auto stride = correction.rows();
   if (num_basis_ == 0) {
@@ -465,6 +469,7 @@ void CoarseCorrection::prolongate(int part, NodeArrays<float>& correction) const
   }
   coarse_kernel().prolongate(weights_.data(), nodes.begin, nodes.end, solution_.data(),
                              correction.data(), stride);
+  for (const int i : in_range(held, nodes)) correction.row(i).setZero();
 }
 
 }  // namespace weft::fast

@@ -60,17 +60,17 @@ class CoarseCorrection {
   void set_bending(const EdgeSlots& slots, const std::function<double(std::size_t)>& stiffness);
   /// masses: of each node.
   void set_masses(const VectorX<float>& masses);
-  /// Assembles and factorizes P^T A P. linear and root_scale are those of NetworkView; holds are the contact states of the nodes.
-  void factorize(const unsigned short* linear, float root_scale,
-                 const std::vector<ContactState>& holds, std::span<const SlidingNode> sliding,
-                 float inertia_over_mass, WorkerTeam& team);
+  /// Assembles and factorizes P^T A P. linear and root_scale are those of NetworkView; is_held says of each node whether it
+  /// has no part: it does not move, or with a body.
+  void factorize(const unsigned short* linear, float root_scale, std::span<const char> is_held,
+                 std::span<const SlidingNode> sliding, float inertia_over_mass, WorkerTeam& team);
 
   /// Restriction: the residual of one node range. Calls for different ranges may run at the same time.
-  void restrict_residual(int part, const NodeArrays<float>& residual);
+  void restrict_residual(int part, const std::vector<int>& held, const NodeArrays<float>& residual);
   /// Solves for the coarse coefficients, after restrict_residual() of all ranges.
   void solve(WorkerTeam& team);
   /// Prolongation: the correction of one node range. Calls for different ranges may run at the same time.
-  void prolongate(int part, NodeArrays<float>& correction) const;
+  void prolongate(int part, const std::vector<int>& held, NodeArrays<float>& correction) const;
 
  private:
   /// The springs of a block of nodes.

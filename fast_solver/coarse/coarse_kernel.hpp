@@ -37,8 +37,7 @@ struct CoarseSprings {
   int num_springs;
   const CoarseTerm* terms;  ///< for all springs, one after the other
   const CoarseNode* nodes;
-  const unsigned char* states;  ///< for each node
-  unsigned char fixed;          ///< the state of nodes that do not move
+  const char* is_held;  ///< for each node
   const unsigned short* linear;
   float scale;    ///< of what is stored
   int first_sum;  ///< of those that are given

@@ -79,10 +79,10 @@ class NetworkForces {
   /// Tells a correction of the stiffness of bending; to be called whenever its basis or the network has changed.
   void note_bending(CoarseCorrection& correction) const;
   /// Makes a correction for the last linearization.
-  void factorize(CoarseCorrection& correction, const std::vector<ContactState>& holds,
+  void factorize(CoarseCorrection& correction, std::span<const char> is_held,
                  std::span<const SlidingNode> sliding, float inertia_over_mass,
                  WorkerTeam& team) const {
-    correction.factorize(linear_.data(), root_scale_, holds, sliding, inertia_over_mass, team);
+    correction.factorize(linear_.data(), root_scale_, is_held, sliding, inertia_over_mass, team);
   }
 
  private:

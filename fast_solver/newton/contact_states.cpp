@@ -122,13 +122,11 @@ void ImplicitSolver<Scalar>::list_constrained() {
 }
 
 template <class Scalar>
-void ImplicitSolver<Scalar>::list_sliding() {
-  sliding_.clear();
-  for (const int i : constrained_) {
-    if (contact_states_[at(i)] != ContactState::kOnPlane) continue;
+void ImplicitSolver<Scalar>::find_coarse_roles() {
+  coarse_roles_.set(constrained_, links_, contact_states_, [this](int i) {
     const auto stiffness = static_cast<float>(largest_stiffness(i)) + inertia_[i];
-    sliding_.push_back({i, normals_.col(i), kPlane * stiffness, static_cast<float>(drag_[i])});
-  }
+    return SlidingNode{i, normals_.col(i), kPlane * stiffness, static_cast<float>(drag_[i])};
+  });
 }
 
 // One contact's node: what it would do if it stuck decides.

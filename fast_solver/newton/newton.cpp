@@ -51,10 +51,10 @@ void ImplicitSolver<Scalar>::iterate_once(const StepProblem<Scalar>& problem,
   }
   if (!supports_.empty()) update_supports(problem, iteration);
   set_system_inertia();
+  find_coarse_roles();
   if (iteration.is_first || iteration.factorizes) {
     const Scalar squared_step = problem.inertia_step * problem.inertia_step;
-    list_sliding();
-    forces_.factorize(coarse_correction_, contact_states_, sliding_,
+    forces_.factorize(coarse_correction_, coarse_roles_.is_held(), coarse_roles_.sliding(),
                       static_cast<float>(1 / squared_step), *team_);
   }
   last_gain_ = solve_linear(problem, iteration);

@@ -41,7 +41,7 @@ struct Sheet {
     const int rows = rows_for(mesh.num_nodes());
     inertia.setConstant(rows, inertia_of_node);
     inertia.tail(rows - mesh.num_nodes()).setZero();
-    holds.assign(static_cast<std::size_t>(rows), ContactState::kFree);
+    is_held.assign(static_cast<std::size_t>(rows), 0);
   }
   [[nodiscard]] static std::vector<int> side() {
     std::vector<int> result(kSide);
@@ -65,17 +65,17 @@ struct Sheet {
   }
   void factorize() {
     correction.set_masses(inertia);
-    forces->factorize(correction, holds, sliding, 1, team);
+    forces->factorize(correction, is_held, sliding, 1, team);
   }
   [[nodiscard]] NodeArrays<float> corrected(const NodeArrays<float>& residual) {
     NodeArrays<float> zeros(residual.rows(), 3);
     NodeArrays<float> result(residual.rows(), 3);
     const NodePartition parts(mesh.num_nodes());
     for (int part = 0; part < parts.count(); ++part) {
-      correction.restrict_residual(part, residual);
+      correction.restrict_residual(part, fixed, residual);
     }
     correction.solve(team);
-    for (int part = 0; part < parts.count(); ++part) correction.prolongate(part, result);
+    for (int part = 0; part < parts.count(); ++part) correction.prolongate(part, fixed, result);
     project(result);
     return result;
   }
@@ -109,7 +109,7 @@ struct Sheet {
   ConnectivityGraph springs;
   CoarseCorrection correction;
   VectorX<float> inertia;
-  std::vector<ContactState> holds;
+  std::vector<char> is_held;
   std::vector<int> fixed;
   std::vector<SlidingNode> sliding;
   WorkerTeam team;
@@ -174,7 +174,7 @@ TEST(CoarseCorrection, FindsADisplacementFromItsForces) {
     if (is_held) {
       sheet.fixed = {40, 75, 76, 90, 150};
       for (const int i : sheet.fixed) {
-        sheet.holds[static_cast<std::size_t>(i)] = ContactState::kFixed;
+        sheet.is_held[static_cast<std::size_t>(i)] = 1;
       }
     }
     sheet.factorize();
@@ -258,9 +258,9 @@ TEST(CoarseCorrection, CorrectsNothingWhereAllIsPinned) {
   CoarseCorrection correction(ConnectivityGraph{{{0, 0, 0, 0}, {}, {}, {1, 1, 1}}, {}}, {});
   NodeArrays<float> values = NodeArrays<float>::Ones(rows_for(3), 3);
   WorkerTeam team;
-  correction.restrict_residual(0, values);
+  correction.restrict_residual(0, {}, values);
   correction.solve(team);
-  correction.prolongate(0, values);
+  correction.prolongate(0, {}, values);
   EXPECT_TRUE(values.topRows(3).isZero(0));
 }
 
