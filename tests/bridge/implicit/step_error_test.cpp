@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -67,10 +68,12 @@ constexpr int kNumSteps = 60;
 
 // The bound takes for granted that springs resist. Those of a sheet that crumples are compressed, and steps of which the budget
 // ended first are farther off, for more iterations may find another fold. A box that stands a millimeter higher makes the
-// crumpling another one, so that several starts count together: 0.79 to 0.94 of their steps are bounded, and of 180 steps chance makes 0.03
+// crumpling another one, so that several starts count together: 0.79 to 0.94 of their steps are bounded, and of 180 steps chance made 0.03
 // more or less.
 constexpr double kBoundedShare = 0.75;
-constexpr double kBoxHeights[] = {-0.35, -0.349, -0.348};  ///< [m]
+constexpr double kBoxHeights[] = {-0.35, -0.349, -0.348, -0.347, -0.346, -0.345};  ///< [m]
+/// Those that are tried: fewer where a step takes longer and rounding has no part.
+constexpr int kNumHeights = sizeof(btScalar) == 4 ? 6 : 3;
 constexpr double kMostTooLarge =
     50;  ///< times: an estimate that is farther off than that says nothing
 constexpr double kRoundedStiffness =
@@ -84,7 +87,7 @@ TEST(StepError, IsNoLessThanTheTrueOne) {
     int num_right = 0;
     int num_wrong_promises = 0;
     int num_useless = 0;
-    for (const double height : kBoxHeights) {
+    for (const double height : std::span(kBoxHeights).first(kNumHeights)) {
       Pair pair(hanging_cloth(), stiffness, {}, height);
       for (int step = 0; step < kNumSteps; ++step, ++num_steps) {
         pair.step();
