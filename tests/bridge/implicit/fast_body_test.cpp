@@ -197,10 +197,10 @@ TEST(FastBody, RestsOnABoxThatTheGroundHolds) {
   }
 }
 
-// A fine sheet that falls on a ball wraps round it about as fast as in short steps: its rim is drawn down faster than it would
-// fall, to -0.21 m by then in steps that converge. What iterations do not carry through the sheet holds it up: with a
-// correction that takes the sheet for as stiff across as along, at +0.07 m. Folds differ with a micrometre: so the mean of
-// some starts, -0.12 m with 0.04 from one to the next.
+// A fine sheet that falls on a ball wraps round it as fast as in short steps: its rim is drawn down faster than it would
+// fall, to -0.22 m by then in steps of 1/960 s. What iterations do not carry through the sheet holds it up: with a
+// correction that takes the sheet for as stiff across as along, at +0.07 m, with one that leaves out nodes that slide, at -0.12 m.
+// Folds differ with a micrometre: so the mean of some starts, with 0.04 from one to the next.
 TEST(FastBody, WrapsAFineSheetRoundASphere) {
   constexpr int kStarts = 6;
   double sum = 0;
@@ -215,7 +215,7 @@ TEST(FastBody, WrapsAFineSheetRoundASphere) {
     scene.step(18);
     sum += scene.positions().row(1).minCoeff();
   }
-  EXPECT_LT(sum / kStarts, -0.05);
+  EXPECT_NEAR(sum / kStarts, -0.22, 0.05);
 }
 
 // A channel whose floor and walls are one shape holds cloth as one of three shapes does.
