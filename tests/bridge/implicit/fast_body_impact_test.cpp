@@ -39,24 +39,30 @@ TEST(FastBodyImpact, ABallLiesStillOnATrampoline) {
   EXPECT_LT(ball.getAngularVelocity().length(), 1e-2);
 }
 
-// Friction that is wrong on one side turns it: a constant force at nodes that slide did, at 2.5 rad/s, and at 6 in heavily damped
-// cloth. In steps of 1/240 s it begins to turn at 0.02 rad/s.
-TEST(FastBodyImpact, ABoxThatFallsFlatOnATrampolineDoesNotTurn) {
-  for (const double damping : {20.0, 400.0}) {
-    for (const double offset : {0.0, 2e-4, 1e-3}) {
-      Scene scene(trampoline(), {kGravity, law("tension", "stiffness", 200),
-                                 law("velocity_damping", "rate", damping)});
-      const btVector3 half(btScalar(0.1), btScalar(0.1), btScalar(0.1));
-      btRigidBody& box =
-          scene.add(std::make_shared<btBoxShape>(half), 1.0, at(offset, 0.15, 0.3 * offset));
-      double fastest = 0;  // [rad/s]
-      for (int step = 0; step < 12; ++step) {
-        scene.step();
-        fastest = std::max(fastest, static_cast<double>(box.getAngularVelocity().length()));
-      }
-      EXPECT_GT(scene.solver().num_contacts(scene.body()), 10);
-      EXPECT_LT(fastest, damping > 100 ? 2 : 0.4) << damping << ' ' << offset;
+// As fast as in steps of 1/960 s, 0.2 s after it was let go. Friction that is wrong on one side turned it by 2.5 rad/s where it
+// fell into the middle, and by 6 in heavily damped cloth. Steps that end by their budget leave up to 0.35, which differs with
+// the compiler.
+TEST(FastBodyImpact, ABoxThatFallsOnATrampolineTurnsByItsPlace) {
+  struct Case {
+    double damping;  // [1/s]
+    double offset;   // from the center [m]
+    double turn;     // [rad/s]
+  };
+  for (const auto& [damping, offset, turn] :
+       {Case{20, 0, 0}, Case{20, 2e-4, 0.05}, Case{20, 1e-3, 0.21}, Case{20, 0.01, 1.36},
+        Case{400, 0, 0}, Case{400, 2e-4, 0.01}, Case{400, 1e-3, 0.03}}) {
+    Scene scene(trampoline(), {kGravity, law("tension", "stiffness", 200),
+                               law("velocity_damping", "rate", damping)});
+    const btVector3 half(btScalar(0.1), btScalar(0.1), btScalar(0.1));
+    btRigidBody& box =
+        scene.add(std::make_shared<btBoxShape>(half), 1.0, at(offset, 0.15, 0.3 * offset));
+    double fastest = 0;  // [rad/s]
+    for (int step = 0; step < 12; ++step) {
+      scene.step();
+      fastest = std::max(fastest, static_cast<double>(box.getAngularVelocity().length()));
     }
+    EXPECT_GT(scene.solver().num_contacts(scene.body()), 10);
+    EXPECT_NEAR(fastest, turn, 0.6) << damping << ' ' << offset;
   }
 }
 
