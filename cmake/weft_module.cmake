@@ -146,9 +146,10 @@ function(weft_precompile_test target)
   endif()
 endfunction()
 
-# weft_add_test(<name> SOURCES ... LIBRARIES ... [LABELS ...] [TIMEOUT s]): one GoogleTest executable.
+# weft_add_test(<name> SOURCES ... LIBRARIES ... [LABELS ...] [TIMEOUT s] [NOT_SANITIZED <patterns of tests>]): one GoogleTest
+# executable. NOT_SANITIZED are tests that judge a long motion, minutes under a sanitizer, through code that others go through too.
 function(weft_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS;DEFINITIONS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS;DEFINITIONS;NOT_SANITIZED")
   add_executable(${name} ${arg_SOURCES})
   weft_target_flags(${name})
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")  # for "tests/support/..."
@@ -164,6 +165,10 @@ function(weft_add_test name)
   endif()
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
+  if(arg_NOT_SANITIZED AND CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+    string(JOIN ":" left_out ${arg_NOT_SANITIZED})
+    set_tests_properties(${name} PROPERTIES ENVIRONMENT "GTEST_FILTER=-${left_out}")
+  endif()
 endfunction()
 
 # weft_add_slow_test(<name> <program> <variable=value>): a test program again, with an environment that asks for more of it.
