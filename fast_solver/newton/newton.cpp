@@ -14,9 +14,11 @@ namespace {
 
 /// The coarse matrix is factorized again after so many iterations.
 constexpr int kIterationsPerFactor = 4;
-/// How often contact states are decided in a step: in its first iterations, which find most of them, and at solutions.
+/// How often contact states are decided in a step: in its first iterations, which find most of them, and close to solutions.
 constexpr int kFirstDecisions = 2;
 constexpr int kMostDecisions = 8;
+/// Close enough to a solution to decide: an iteration gains this share of what the one that decided last gained [-].
+constexpr double kCloseToSolution = 0.01;
 /// Which nodes a body presses says how much each of them bears: they are decided together with its motion.
 constexpr int kFirstDecisionsWithSupports = kMostDecisions;
 /// Least transverse over axial stiffness of a spring after an iteration that increased the energy, and its growth if that was not
@@ -86,6 +88,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
   bool decides = true;
   report_ = {.is_converged = false};
   anderson_.forget();
+  double gain_of_decision = 0;
   for (int iteration = 0; iteration < solver_settings.newton_iterations && !report_.is_converged;
        ++iteration) {
     report_.newton_iterations = iteration + 1;
@@ -104,16 +107,24 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     }
     const bool are_contact_states_new = decides && (iteration == 0 || have_contact_states_changed_);
     const double now = energy(problem, positions_, &Body::motion);
+    const bool is_rounding = !last_gain_.is_broken && last_gain_.total <= stop.most_of_rounding();
+    const double rounding = is_rounding ? stop.most_of_rounding() : stop.rounding();
     if (!are_contact_states_new &&
-        !(now <= energy_before_ * (1 + kEnergyRounding) + asked + stop.rounding())) {
+        !(now <= energy_before_ * (1 + kEnergyRounding) + asked + rounding)) {
       if (transverse == 1) {
         // With this linearization every spring gains. What is left is rounding, if that is all that the step could have gained.
         restore_positions();
-        const double least = std::max({StopCriterion::kRoundings * stop.rounding(), asked,
-                                       kEnergyRounding * std::abs(energy_before_)});
-        const bool is_decided = !has_contacts || num_decisions >= kMostDecisions;
-        report_.is_converged = is_decided && !last_gain_.is_broken && last_gain_.total <= least;
-        break;
+        const double least =
+            std::max({stop.most_of_rounding(), asked, kEnergyRounding * std::abs(energy_before_)});
+        if (last_gain_.is_broken || last_gain_.total > least) break;
+        report_.is_converged = are_states_right || num_decisions >= kMostDecisions;
+        if (report_.is_converged) break;
+        transverse = 0;
+        forces_.set_least_transverse_stiffness(0);
+        anderson_.forget();
+        stop.forget_stalls();
+        decides = true;
+        continue;
       }
       transverse = std::min(1.0, std::max(kFirstTransverse, kTransverseGrowth * transverse));
       forces_.set_least_transverse_stiffness(static_cast<Scalar>(transverse));
@@ -136,7 +147,9 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
         is_solved && (!has_contacts || (decides && !are_contact_states_new) || !can_decide);
     is_within = stop.is_within(asked) && (are_states_right || !can_decide);
     if (is_over && !report_.is_converged && !can_decide) break;
-    decides = can_decide && (iteration < first_decisions || is_over);
+    if (decides) gain_of_decision = last_gain_.total;
+    const bool is_close = !decides && last_gain_.total <= kCloseToSolution * gain_of_decision;
+    decides = can_decide && (iteration < first_decisions || is_over || is_close);
     if (decides) stop.forget_stalls();
     if (are_contact_states_new) {
       anderson_.forget();

@@ -14,12 +14,11 @@ namespace weft::fast {
 /// the one before. All energies are twice those of the quadratic model, as in LinearGain.
 class StopCriterion {
  public:
-  /// There is no more to be gained than so many times what positions gain by their rounding alone [-].
-  static constexpr double kRoundings = 4;
-
   /// rounding: what positions gain by their rounding alone [J].
   void set_rounding(double rounding) { rounding_ = rounding; }
   [[nodiscard]] double rounding() const { return rounding_; }
+  /// An iteration that gains no more may only have gained rounding [J].
+  [[nodiscard]] double most_of_rounding() const { return kRoundings * rounding_; }
 
   /// An iteration that counts. lowered: by which the energy is lower after it, 0 where contact states may have changed it [J].
   void add(const LinearGain& gain, double lowered, bool are_contact_states_new) {
@@ -49,6 +48,8 @@ class StopCriterion {
   }
 
  private:
+  /// There is no more to be gained than so many times what positions gain by their rounding alone [-].
+  static constexpr double kRoundings = 4;
   /// The ratio of an iteration's gain to that of the one before: assumed for the first, and the upper bound.
   static constexpr double kFirstShrink = 0.1;
   static constexpr double kSlowest = 0.9;
@@ -68,7 +69,7 @@ class StopCriterion {
   }
   /// Stiff springs keep gaining by rounding while soft ones may still be far from their solution.
   [[nodiscard]] bool is_rounding() const {
-    return !gain_.is_broken && gain_.total <= kRoundings * rounding_ && !(shrinks_ < kStalled);
+    return !gain_.is_broken && gain_.total <= most_of_rounding() && !(shrinks_ < kStalled);
   }
 
   double rounding_ = 0;
