@@ -193,10 +193,10 @@ class ImplicitSolver : TeamLoops {
   void enforce_descent(const StepProblem<Scalar>& problem, int iterations);
   void restore_start();
   /// Only part of the last step, if it went too far; evaluate() is due then. num_constrained: of the linear system, not of clamp().
-  bool shorten_step(double work_before, std::size_t num_constrained);
+  bool shorten_step(double work_before);
   void move_bodies(Scalar share);
   /// The work of the residual forces with the step, at nodes with a hold [J].
-  [[nodiscard]] double work_of_constrained(std::size_t num_constrained) const;
+  [[nodiscard]] double work_of_constrained() const;
   void find_constraint_forces();
   [[nodiscard]] double residual_norm();
   /// A shift of all nodes [m]; bodies are shifted already.
@@ -256,7 +256,7 @@ class ImplicitSolver : TeamLoops {
   LinearGains gains_;            ///< of the last linear solve
   SolverReport report_;
   double residual_ = 0, step_energy_ = 0;
-  bool has_constraint_forces_ = false, was_clamped_ = false;
+  bool has_constraint_forces_ = false, was_clamped_ = false, has_met_planes_ = false;
   bool have_contact_states_changed_ = false;  ///< in the last iteration
 };
 

@@ -315,7 +315,6 @@ void ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
     positions_.row(i) -= gap * contact.normal.transpose();
     was_clamped_ = true;
     if (contact_states_[at(i)] != ContactState::kFree) continue;
-    step_.row(i) -= (gap * contact.normal).transpose().template cast<float>();
     contact_states_[at(i)] = ContactState::kOnPlane;
     contact_of_[at(i)] = static_cast<int>(c);
     normals_.col(i) = contact.normal.template cast<float>();
@@ -327,12 +326,10 @@ void ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
 }
 
 template <class Scalar>
-double ImplicitSolver<Scalar>::work_of_constrained(std::size_t num_constrained) const {
+double ImplicitSolver<Scalar>::work_of_constrained() const {
   double work = 0;
-  for (std::size_t k = 0; k < num_constrained; ++k) {
-    work += static_cast<double>(
-        at_node(residual_forces_, constrained_[k]).dot(step_of(constrained_[k])));
-  }
+  for (const int i : constrained_)
+    work += static_cast<double>(at_node(residual_forces_, i).dot(step_of(i)));
   return work;
 }
 

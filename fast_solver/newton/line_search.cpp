@@ -25,17 +25,11 @@ constexpr double kFarUp = 10;
 // energy at the end of the step. If it opposes the step by more than half of what drove it, the step is cut back to the zero
 // of the secant.
 template <class Scalar>
-bool ImplicitSolver<Scalar>::shorten_step(double work_before, std::size_t num_constrained) {
-  const double work_after = work_left_ - work_of_constrained(num_constrained) + work_of_bodies();
+bool ImplicitSolver<Scalar>::shorten_step(double work_before) {
+  const double work_after = work_left_ - work_of_constrained() + work_of_bodies();
   if (!(work_before > 0 && work_after < -0.5 * work_before)) return false;
   const double share = std::max(kSmallestShare, work_before / (work_before - work_after));
   const auto excess = static_cast<Scalar>(1.0 - share);
-  // A node that met a plane in the full step may not reach it in the shortened one.
-  for (std::size_t k = num_constrained; k < constrained_.size(); ++k) {
-    contact_states_[at(constrained_[k])] = ContactState::kFree;
-    contact_of_[at(constrained_[k])] = -1;
-  }
-  constrained_.resize(num_constrained);
   for (const int i : constrained_) step_.row(i).setZero();
   add_carried(links_, bodies_, &Body::step, step_);
   move_bodies(-excess);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <weft/fast_solver/implicit_solver.hpp>
+#include <weft/fast_solver/newton/contact_decisions.hpp>
 #include <weft/fast_solver/newton/node_stiffness.hpp>
 #include <weft/fast_solver/newton/stop_criterion.hpp>
 
@@ -14,13 +15,6 @@ namespace {
 
 /// The coarse matrix is factorized again after so many iterations.
 constexpr int kIterationsPerFactor = 4;
-/// How often contact states are decided in a step: in its first iterations, which find most of them, and close to solutions.
-constexpr int kFirstDecisions = 2;
-constexpr int kMostDecisions = 8;
-/// Close enough to a solution to decide: an iteration gains this share of what the one that decided last gained [-].
-constexpr double kCloseToSolution = 0.01;
-/// Which nodes a body presses says how much each of them bears: they are decided together with its motion.
-constexpr int kFirstDecisionsWithSupports = kMostDecisions;
 /// Least transverse over axial stiffness of a spring after an iteration that increased the energy, and its growth if that was not
 /// enough: with 1 no iteration gains any.
 constexpr double kFirstTransverse = 0.02;
@@ -30,11 +24,6 @@ constexpr double kEnergyRounding = 2e-7;
 /// The share of an energy that a step without motion is held against [-].
 constexpr double kAtRest = 0.01;
 constexpr double kAtRestInContact = 0.3;
-
-int num_first_decisions(bool has_supports, bool continues) {
-  if (has_supports) return kFirstDecisionsWithSupports;
-  return continues ? 0 : kFirstDecisions;
-}
 
 }  // namespace
 
@@ -63,12 +52,13 @@ void ImplicitSolver<Scalar>::iterate_once(const StepProblem<Scalar>& problem,
   const double of_bodies = work_of_bodies();
   move();
   const std::size_t num_constrained = constrained_.size();
-  const double of_others = of_bodies - work_of_constrained(num_constrained);
-  clamp(problem);
+  const double of_others = of_bodies - work_of_constrained();
   evaluate(iteration.linearizes);
-  if (!shorten_step(work_done_ + of_others, num_constrained)) return;
+  // The linear model knows nothing of planes that it has not met: it is judged before nodes are put in front of them.
+  const bool is_shorter = shorten_step(work_done_ + of_others);
   clamp(problem);
-  evaluate(iteration.linearizes);
+  has_met_planes_ = constrained_.size() > num_constrained;
+  if (is_shorter || was_clamped_) evaluate(iteration.linearizes);
 }
 
 // Newton's method until what is left to gain is below the tolerance or is rounding.
@@ -76,61 +66,54 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
                                      const SolverSettings& solver_settings) {
   const bool has_contacts = !problem.contacts.empty();
-  const int first_decisions = num_first_decisions(!supports_.empty(), problem.continues);
   const double squared_tolerance = solver_settings.tolerance * solver_settings.tolerance;
   const double asked = squared_tolerance * 2 * step_energy_;
   double wanted = squared_tolerance * motion_that_counts(has_contacts);
   StopCriterion stop;
+  ContactDecisions decisions(has_contacts, !supports_.empty(), problem.continues);
   energy_before_ = 0;
   double transverse = 0;
-  int num_decisions = 0;
-  bool are_states_right = !has_contacts, is_within = false;
-  bool decides = true;
+  bool is_within = false;
   report_ = {.is_converged = false};
   anderson_.forget();
-  double gain_of_decision = 0;
   for (int iteration = 0; iteration < solver_settings.newton_iterations && !report_.is_converged;
        ++iteration) {
     report_.newton_iterations = iteration + 1;
     iterate_once(problem, {.iterations = solver_settings.linear_iterations,
                            .accuracy = accuracy_of(iteration, has_contacts, wanted),
                            .is_first = iteration == 0,
-                           .decides = decides,
+                           .decides = decisions.decides(),
                            .continues = problem.continues,
                            .factorizes = iteration % kIterationsPerFactor == 0});
-    if (decides) ++num_decisions;
-    if (decides && has_contacts) are_states_right = iteration > 0 && !have_contact_states_changed_;
     if (iteration == 0) {
       stop.set_rounding(sum_over_parts([this](NodeRange nodes) {
         return gain_of_rounding<Scalar>(nodes, forces_.diagonal_blocks(), inertia_, positions_);
       }));
     }
-    const bool are_contact_states_new = decides && (iteration == 0 || have_contact_states_changed_);
+    const bool are_contact_states_new =
+        has_met_planes_ ||
+        (decisions.decides() && (iteration == 0 || have_contact_states_changed_));
+    decisions.add(iteration == 0, are_contact_states_new);
     const double now = energy(problem, positions_, &Body::motion);
     const bool is_rounding = !last_gain_.is_broken && last_gain_.total <= stop.most_of_rounding();
-    const double rounding = is_rounding ? stop.most_of_rounding() : stop.rounding();
-    if (!are_contact_states_new &&
-        !(now <= energy_before_ * (1 + kEnergyRounding) + asked + rounding)) {
-      if (transverse == 1) {
+    const double noise = kEnergyRounding * energy_before_ +
+                         (is_rounding ? stop.most_of_rounding() : stop.rounding());
+    if (!are_contact_states_new && !(now <= energy_before_ + asked + noise)) {
+      restore_positions();
+      anderson_.forget();
+      const bool is_stiffest = transverse == 1;
+      transverse = std::min(1.0, std::max(kFirstTransverse, kTransverseGrowth * transverse));
+      if (is_stiffest) {
         // With this linearization every spring gains. What is left is rounding, if that is all that the step could have gained.
-        restore_positions();
         const double least =
             std::max({stop.most_of_rounding(), asked, kEnergyRounding * std::abs(energy_before_)});
         if (last_gain_.is_broken || last_gain_.total > least) break;
-        report_.is_converged = are_states_right || num_decisions >= kMostDecisions;
-        if (report_.is_converged) break;
+        report_.is_converged = decisions.are_settled();
         transverse = 0;
-        forces_.set_least_transverse_stiffness(0);
-        anderson_.forget();
         stop.forget_stalls();
-        decides = true;
-        continue;
       }
-      transverse = std::min(1.0, std::max(kFirstTransverse, kTransverseGrowth * transverse));
       forces_.set_least_transverse_stiffness(static_cast<Scalar>(transverse));
-      restore_positions();
-      anderson_.forget();
-      decides = false;
+      decisions.decide_next(is_stiffest);
       continue;
     }
     wanted = squared_tolerance * motion_that_counts(has_contacts);
@@ -141,16 +124,11 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     report_.energy_left = last_gain_.is_broken ? step_energy_ : stop.energy_left();
     const bool is_solved = stop.is_solved(wanted);
     const bool is_over = is_solved || (stop.is_stalled() && solver_settings.tolerance > 0);
-    // With these contacts. Whether they are the right ones is asked of a solution: on the way there forces say little.
-    const bool can_decide = has_contacts && num_decisions < kMostDecisions;
-    report_.is_converged =
-        is_solved && (!has_contacts || (decides && !are_contact_states_new) || !can_decide);
-    is_within = stop.is_within(asked) && (are_states_right || !can_decide);
-    if (is_over && !report_.is_converged && !can_decide) break;
-    if (decides) gain_of_decision = last_gain_.total;
-    const bool is_close = !decides && last_gain_.total <= kCloseToSolution * gain_of_decision;
-    decides = can_decide && (iteration < first_decisions || is_over || is_close);
-    if (decides) stop.forget_stalls();
+    report_.is_converged = is_solved && decisions.are_confirmed(are_contact_states_new);
+    is_within = stop.is_within(asked) && decisions.are_settled();
+    if (is_over && !report_.is_converged && !decisions.can_decide()) break;
+    decisions.plan(iteration, last_gain_.total, is_over);
+    if (decisions.decides()) stop.forget_stalls();
     if (are_contact_states_new) {
       anderson_.forget();
     } else if (!report_.is_converged && iteration + 1 < solver_settings.newton_iterations) {
