@@ -192,7 +192,7 @@ class ImplicitSolver : TeamLoops {
   void stay_at_start(const StepProblem<Scalar>& problem);
   void enforce_descent(const StepProblem<Scalar>& problem, int iterations);
   void restore_start();
-  /// Only part of the last step, if it went too far; evaluate() is due then. num_constrained: of the linear system, not of clamp().
+  /// Only part of the last step, if it went too far; evaluate() is due then.
   bool shorten_step(double work_before);
   void move_bodies(Scalar share);
   /// The work of the residual forces with the step, at nodes with a hold [J].

@@ -61,8 +61,8 @@ constexpr std::array kScenes = {"cloth",
                                 "tetra_bunny"};
 
 constexpr double kStep = 1.0 / 60;  // [s]
-constexpr double kFarAway =
-    1000;  // [m] sideways or up; down go bodies that slide off the ground's edge
+// [m] sideways or up; down go bodies that slide off the ground's edge.
+constexpr double kFarAway = 1000;
 constexpr double kThrough = 2;  // [m] below the top of the ground
 /// The ground of the demo: a box in the first scenes, then waves of 5 m on a mesh that has its middle at -12 m.
 constexpr std::size_t kFirstOnWaves = 20;

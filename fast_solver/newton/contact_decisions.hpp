@@ -2,6 +2,8 @@
 
 // Tested by tests/fast_solver/newton/contact_decisions_test.cpp.
 
+#include <algorithm>
+
 namespace weft::fast {
 
 /// In which iterations of a step contact states are decided: in the first ones, which find most of them, and then close to
@@ -33,17 +35,19 @@ class ContactDecisions {
     if (decides_) ++num_;
     if (has_contacts_ && (decides_ || have_changed)) are_right_ = !is_first && !have_changed;
   }
-  /// Whether the next one decides. gain: of this one [J]; is_over: it is a solution, or iterations get nowhere.
-  void plan(int iteration, double gain, bool is_over) {
-    const bool is_close = !decides_ && gain <= kClose * gain_of_decision_;
-    if (decides_) gain_of_decision_ = gain;
-    decides_ = can_decide() && (iteration < num_first_ || is_over || is_close);
+  /// Whether the next one decides. gain: of this one [J]; is_over: it is a solution, or iterations get nowhere; has_met_planes:
+  /// nodes have been put onto planes, which compresses stiff springs far beyond what the planes will bear: friction of such forces
+  /// would take the momentum of the whole.
+  void plan(int iteration, double gain, bool is_over, bool has_met_planes) {
+    const bool is_close = !decides_ && gain <= kClose * largest_gain_;
+    largest_gain_ = decides_ ? gain : std::max(largest_gain_, gain);
+    decides_ = can_decide() && !has_met_planes && (iteration < num_first_ || is_over || is_close);
   }
   void decide_next(bool decides) { decides_ = decides; }
 
  private:
   static constexpr int kFirst = 2;
-  /// Close to a solution an iteration gains this share of what the one gained that decided last [-].
+  /// Close to a solution an iteration gains this share of the most that one has gained since the last decision [-].
   static constexpr double kClose = 0.01;
 
   bool has_contacts_;
@@ -51,7 +55,7 @@ class ContactDecisions {
   bool are_right_;
   bool decides_ = true;
   int num_ = 0;
-  double gain_of_decision_ = 0;
+  double largest_gain_ = 0;  ///< from the last decision on [J]
 };
 
 }  // namespace weft::fast

@@ -127,7 +127,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     report_.is_converged = is_solved && decisions.are_confirmed(are_contact_states_new);
     is_within = stop.is_within(asked) && decisions.are_settled();
     if (is_over && !report_.is_converged && !decisions.can_decide()) break;
-    decisions.plan(iteration, last_gain_.total, is_over);
+    decisions.plan(iteration, last_gain_.total, is_over, has_met_planes_);
     if (decisions.decides()) stop.forget_stalls();
     if (are_contact_states_new) {
       anderson_.forget();

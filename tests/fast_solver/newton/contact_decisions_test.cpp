@@ -17,7 +17,7 @@ int run(ContactDecisions& decisions, int num_iterations, int num_changes) {
     decisions.add(k == 0, have_changed);
     const bool is_over = gain < 1e-6;
     if (is_over && decisions.are_confirmed(have_changed)) break;
-    decisions.plan(k, gain, is_over);
+    decisions.plan(k, gain, is_over, false);
     gain *= 0.1;
   }
   return num_decisions;
@@ -37,12 +37,24 @@ TEST(ContactDecisions, AreInTheFirstIterations) {
 TEST(ContactDecisions, FollowWhereGainsHaveShrunkToAHundredth) {
   ContactDecisions decisions(true, false, true);
   decisions.add(true, true);
-  decisions.plan(0, 1.0, false);
+  decisions.plan(0, 1.0, false, false);
   decisions.add(false, false);
-  decisions.plan(1, 0.02, false);
+  decisions.plan(1, 0.02, false, false);
   EXPECT_FALSE(decisions.decides());
   decisions.add(false, false);
-  decisions.plan(2, 0.009, false);
+  decisions.plan(2, 0.009, false, false);
+  EXPECT_TRUE(decisions.decides());
+}
+
+// What planes bear is only known once springs have given way.
+TEST(ContactDecisions, WaitWhereNodesHaveJustMetPlanes) {
+  ContactDecisions decisions(true, false, false);
+  decisions.add(true, true);
+  decisions.plan(0, 1.0, false, true);
+  EXPECT_FALSE(decisions.decides());
+  EXPECT_FALSE(decisions.are_settled());
+  decisions.add(false, false);
+  decisions.plan(1, 100.0, false, false);
   EXPECT_TRUE(decisions.decides());
 }
 
