@@ -93,6 +93,7 @@ bool SoftBodySolver::Attachment::collide(const btCollisionObjectWrapper& object,
                                          btScalar time_step) {
   const btCollisionObject& whole = *object.getCollisionObject();
   if (!fast && !(has_coulomb_contacts() && RigidResponse::knows(whole))) return false;
+  if (!moves_finitely(whole)) return true;
   const btCollisionShape* const concave = concave_shape_of(object);
   if (concave != nullptr) {
     if (std::find(concave_met.begin(), concave_met.end(), &whole) != concave_met.end()) return true;
@@ -144,18 +145,23 @@ void SoftBodySolver::Attachment::predict(btScalar time_step) {
 
 // Bullet adds wind, pressure and volume on its own, and divides by areas and volumes that may be none.
 void SoftBodySolver::Attachment::check_prediction() {
-  if (is_plain(*body)) return;
-  const auto is_fine = [&](int i) {
+  if (!is_plain(*body)) check_motion("velocity is not finite after forces of Bullet's own (m_cfg)");
+}
+
+void SoftBodySolver::Attachment::check_motion(const char* fault) {
+  const auto size_of = [&](int i) {
     const btSoftBody::Node& node = body->m_nodes[i];
-    return std::isfinite(node.m_x.length2()) && std::isfinite(node.m_v.length2());
+    return node.m_x.length2() + node.m_v.length2();
   };
+  btScalar sum = 0;
+  for (int i = 0; i < body->m_nodes.size(); ++i) sum += size_of(i);
+  if (std::isfinite(sum)) return;
   int first = 0;
-  while (first < body->m_nodes.size() && is_fine(first)) ++first;
-  if (first == body->m_nodes.size()) return;
-  blow_up = BodyBlowUp{first, "velocity is not finite after forces of Bullet's own (m_cfg)"};
+  while (first + 1 < body->m_nodes.size() && std::isfinite(size_of(first))) ++first;
+  blow_up = BodyBlowUp{first, fault};
   for (int i = 0; i < body->m_nodes.size(); ++i) {
     body->m_nodes[i].m_x = body->m_nodes[i].m_q;
-    body->m_nodes[i].m_v = to_bullet(velocities.col(i).eval());
+    body->m_nodes[i].m_v.setZero();
   }
 }
 
@@ -261,9 +267,11 @@ void SoftBodySolver::Attachment::solve_by_stages(btScalar time_step) {
 void SoftBodySolver::Attachment::finish_velocities(btScalar time_step) {
   apply_position_limits(limits, static_cast<double>(time_step), *body);
   damp_velocities(fast ? fast->velocity_step() : time_step);
+  check_motion("position or velocity is not finite after the step");
 }
 
 void SoftBodySolver::Attachment::end_fast_step(btScalar time_step) {
+  if (blow_up) return;
   if (limits.is_empty()) fast->end_step(*body, time_step);
   fast->note_velocities(*body);
 }

@@ -95,6 +95,8 @@ struct SoftBodySolver::Attachment {
   /// Forces, and what FastBody does with them.
   void predict(btScalar time_step);
   void check_prediction();
+  /// If a position or a velocity is not finite, nodes go back to where the step began, and blow_up says fault.
+  void check_motion(const char* fault);
   /// The solution and all that follows it in the step, for a fast body that shares nothing with others (FastBody::is_alone()):
   /// one body after the other, its data are in the cache once.
   void solve_alone(btScalar time_step);

@@ -1,6 +1,7 @@
 #include <weft/bridge/rigid/movable_object.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 #include <LinearMath/btTransformUtil.h>
 
@@ -42,6 +43,15 @@ RigidVelocity velocity_of(const btCollisionObject& object) {
     return velocity;
   }
   return {};
+}
+
+bool moves_finitely(const btCollisionObject& object) {
+  const RigidVelocity velocity = velocity_of(object);
+  const btTransform& pose = object.getWorldTransform();
+  const btMatrix3x3& turn = pose.getBasis();
+  return std::isfinite(velocity.linear.length2() + velocity.angular.length2() +
+                       pose.getOrigin().length2() + turn[0].length2() + turn[1].length2() +
+                       turn[2].length2());
 }
 
 // The rotation from its sine, not from the cosine of half of it, which says nothing of small ones in single precision.

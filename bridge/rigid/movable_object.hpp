@@ -33,6 +33,8 @@ struct RigidVelocity {
 
 /// The velocity of a rigid body or a link; zero for other objects.
 [[nodiscard]] RigidVelocity velocity_of(const btCollisionObject& object);
+/// Whether the pose and the velocity are numbers. A soft body of Bullet's own that blows up takes rigid bodies with it.
+[[nodiscard]] bool moves_finitely(const btCollisionObject& object);
 /// Where a kinematic rigid body, which Bullet has moved already, was time_left [s] before the end of the step; of other objects the
 /// present pose.
 [[nodiscard]] btTransform kinematic_pose(const btCollisionObject& object, btScalar time_left);

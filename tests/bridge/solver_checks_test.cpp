@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletSoftBody/btSoftBodyHelpers.h>
 
 #include <weft/bridge/cloth_body.hpp>
@@ -20,6 +21,8 @@
 #include <weft/core/error.hpp>
 #include <weft/custom_forces/laws/external/gravity.hpp>
 #include <weft/custom_forces/registry.hpp>
+
+#include "tests/bridge/rigid_objects.hpp"
 
 namespace weft::bridge {
 namespace {
@@ -261,6 +264,50 @@ TEST(SolverChecks, ABlowUpIsToldOnceToTheCallback) {
   EXPECT_EQ(told[1].first, &fast);
   EXPECT_THAT(told[1].second.reason, HasSubstr("speed"));
   EXPECT_FALSE(world.solver().blow_up(calm));
+}
+
+bool is_finite(const btSoftBody& body) {
+  btScalar sum = 0;
+  for (int i = 0; i < body.m_nodes.size(); ++i)
+    sum += body.m_nodes[i].m_x.length2() + body.m_nodes[i].m_v.length2();
+  return std::isfinite(sum);
+}
+
+// A body that Bullet steps itself and that blows up gives rigid bodies at its anchors such velocities.
+TEST(SolverChecks, ARigidBodyWhoseVelocityIsNoNumberIsNotMet) {
+  for (const bool is_fast : {false, true}) {
+    SoftWorld world({});
+    btSoftBody& body = world.add(make_cloth_body(world.info(), checked_cloth(), {}));
+    if (is_fast) {
+      ASSERT_FALSE(world.solver().attach_fast(body, checked_cloth(), {kSpring}));
+    } else {
+      world.solver().attach(body, checked_cloth(), {kGravity});
+    }
+    btRigidBody& ball =
+        add_rigid(world, std::make_shared<btSphereShape>(btScalar(0.5)), 1, at(0, 0, 0));
+    ball.setLinearVelocity(vector(std::numeric_limits<double>::quiet_NaN(), 0, 0));
+    for (int step = 0; step < 20; ++step) world.step(kTimeStep);
+    EXPECT_FALSE(world.solver().blow_up(body)) << is_fast;
+    EXPECT_TRUE(is_finite(body)) << is_fast;
+  }
+}
+
+TEST(SolverChecks, AnAnchorOnARigidBodyWhosePoseIsNoNumberIsReportedInThatStep) {
+  SoftWorld world({});
+  btSoftBody& body = world.add(make_cloth_body(world.info(), checked_cloth(), {}));
+  ASSERT_FALSE(world.solver().attach_fast(body, checked_cloth(), {kSpring}));
+  btRigidBody& ball =
+      add_rigid(world, std::make_shared<btSphereShape>(btScalar(0.1)), 1, at(0, 5, 0));
+  body.appendAnchor(0, &ball);
+  world.step(kTimeStep);
+  ASSERT_FALSE(world.solver().blow_up(body));
+  ball.setLinearVelocity(vector(std::numeric_limits<double>::quiet_NaN(), 0, 0));
+  world.step(kTimeStep);
+  ASSERT_TRUE(world.solver().blow_up(body));
+  EXPECT_THAT(world.solver().blow_up(body)->reason, HasSubstr("not finite"));
+  EXPECT_TRUE(is_finite(body));
+  for (int step = 0; step < 20; ++step) world.step(kTimeStep);
+  EXPECT_TRUE(is_finite(body));
 }
 
 /// A law with a fault in it, which shows once a node has fallen below a height.
