@@ -149,15 +149,8 @@ void SoftBodySolver::Attachment::check_prediction() {
 }
 
 void SoftBodySolver::Attachment::check_motion(const char* fault) {
-  const auto size_of = [&](int i) {
-    const btSoftBody::Node& node = body->m_nodes[i];
-    return node.m_x.length2() + node.m_v.length2();
-  };
-  btScalar sum = 0;
-  for (int i = 0; i < body->m_nodes.size(); ++i) sum += size_of(i);
-  if (std::isfinite(sum)) return;
-  int first = 0;
-  while (first + 1 < body->m_nodes.size() && std::isfinite(size_of(first))) ++first;
+  const int first = first_node_without_numbers(*body);
+  if (first < 0) return;
   blow_up = BodyBlowUp{first, fault};
   for (int i = 0; i < body->m_nodes.size(); ++i) {
     body->m_nodes[i].m_x = body->m_nodes[i].m_q;

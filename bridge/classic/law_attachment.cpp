@@ -123,6 +123,18 @@ int FollowedMasses::follow(const btSoftBody& body) {
   return first;
 }
 
+int first_node_without_numbers(const btSoftBody& body) {
+  const auto size_of = [&](int i) {
+    return body.m_nodes[i].m_x.length2() + body.m_nodes[i].m_v.length2();
+  };
+  btScalar sum = 0;
+  for (int i = 0; i < body.m_nodes.size(); ++i) sum += size_of(i);
+  if (std::isfinite(sum)) return -1;
+  int first = 0;
+  while (first < body.m_nodes.size() && std::isfinite(size_of(first))) ++first;
+  return first < body.m_nodes.size() ? first : -1;
+}
+
 std::optional<BodyBlowUp> predicted_blow_up(const btSoftBody& body,
                                             const Matrix3X<btScalar>& velocities,
                                             const Matrix3X<btScalar>& forces, btScalar time_step,

@@ -66,6 +66,9 @@ class FollowedMasses {
 [[nodiscard]] std::optional<BodyBlowUp> blow_up_by_pressure(const btSoftBody& body,
                                                             btScalar time_step, double max_speed);
 
+/// The first node whose position or velocity is not finite, or -1.
+[[nodiscard]] int first_node_without_numbers(const btSoftBody& body);
+
 /// The first of some nodes whose speed [m/s] after time_step [s] under forces [N] is not finite or over
 /// max_speed [m/s]; pinned nodes count with the velocity they have.
 [[nodiscard]] std::optional<BodyBlowUp> predicted_blow_up(const btSoftBody& body,
