@@ -149,7 +149,7 @@ void SoftBodySolver::Attachment::check_prediction() {
 }
 
 void SoftBodySolver::Attachment::check_motion(const char* fault) {
-  const int first = first_node_without_numbers(*body);
+  const int first = first_non_finite_node(*body);
   if (first < 0) return;
   blow_up = BodyBlowUp{first, fault};
   for (int i = 0; i < body->m_nodes.size(); ++i) {

@@ -123,7 +123,7 @@ int FollowedMasses::follow(const btSoftBody& body) {
   return first;
 }
 
-int first_node_without_numbers(const btSoftBody& body) {
+int first_non_finite_node(const btSoftBody& body) {
   const auto size_of = [&](int i) {
     return body.m_nodes[i].m_x.length2() + body.m_nodes[i].m_v.length2();
   };

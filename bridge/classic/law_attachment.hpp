@@ -67,7 +67,7 @@ class FollowedMasses {
                                                             btScalar time_step, double max_speed);
 
 /// The first node whose position or velocity is not finite, or -1.
-[[nodiscard]] int first_node_without_numbers(const btSoftBody& body);
+[[nodiscard]] int first_non_finite_node(const btSoftBody& body);
 
 /// The first of some nodes whose speed [m/s] after time_step [s] under forces [N] is not finite or over
 /// max_speed [m/s]; pinned nodes count with the velocity they have.

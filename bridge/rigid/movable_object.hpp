@@ -33,7 +33,7 @@ struct RigidVelocity {
 
 /// The velocity of a rigid body or a link; zero for other objects.
 [[nodiscard]] RigidVelocity velocity_of(const btCollisionObject& object);
-/// Whether the pose and the velocity are numbers. A soft body of Bullet's own that blows up takes rigid bodies with it.
+/// Whether the pose and the velocity are finite. A soft body of Bullet's own that blows up takes rigid bodies with it.
 [[nodiscard]] bool moves_finitely(const btCollisionObject& object);
 /// Where a kinematic rigid body, which Bullet has moved already, was time_left [s] before the end of the step; of other objects the
 /// present pose.

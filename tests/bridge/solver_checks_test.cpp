@@ -274,7 +274,7 @@ bool is_finite(const btSoftBody& body) {
 }
 
 // A body that Bullet steps itself and that blows up gives rigid bodies at its anchors such velocities.
-TEST(SolverChecks, ARigidBodyWhoseVelocityIsNoNumberIsNotMet) {
+TEST(SolverChecks, ARigidBodyWhoseVelocityIsNotFiniteIsNotMet) {
   for (const bool is_fast : {false, true}) {
     SoftWorld world({});
     btSoftBody& body = world.add(make_cloth_body(world.info(), checked_cloth(), {}));
@@ -292,7 +292,7 @@ TEST(SolverChecks, ARigidBodyWhoseVelocityIsNoNumberIsNotMet) {
   }
 }
 
-TEST(SolverChecks, AnAnchorOnARigidBodyWhosePoseIsNoNumberIsReportedInThatStep) {
+TEST(SolverChecks, AnAnchorOnARigidBodyThatIsNotFiniteIsReportedInThatStep) {
   SoftWorld world({});
   btSoftBody& body = world.add(make_cloth_body(world.info(), checked_cloth(), {}));
   ASSERT_FALSE(world.solver().attach_fast(body, checked_cloth(), {kSpring}));
