@@ -44,6 +44,8 @@ void bench_scenes_truth(const Settings& settings);
 void bench_detail(const Settings& settings);
 /// Time and size of a snapshot, and a rollback of eight steps.
 void bench_snapshot(const Settings& settings);
+/// The step in which sheets of a Bullet program are adopted, beside those that follow.
+void bench_setup(const Settings& settings);
 /// The recorder's cost, the sizes of recordings and pages, and pictures in a second.
 void bench_playback(const Settings& settings);
 #endif

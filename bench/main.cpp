@@ -33,6 +33,7 @@ int run(int argc, char** argv) {
   benches["explosions"] = bench_explosions;
   benches["detail"] = bench_detail;
   benches["snapshot"] = bench_snapshot;
+  benches["setup"] = bench_setup;
   benches["playback"] = bench_playback;
 #endif
   Settings settings{.folder = WEFT_SOURCE_DIR "/bench/results"};

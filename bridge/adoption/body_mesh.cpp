@@ -1,7 +1,8 @@
 #include <weft/bridge/adoption/body_mesh.hpp>
 
 #include <algorithm>
-#include <set>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
@@ -46,30 +47,61 @@ void read_faces(const btSoftBody& body, ClothMesh& mesh) {
   mesh.triangles = wound_alike(mesh.triangles);
 }
 
+using NodePair = std::pair<int, int>;
+
+/// The two nodes of a link, the lower one first, if it has a length.
+std::optional<NodePair> ends_of(const btSoftBody& body, const btSoftBody::Link& link) {
+  const NodePair nodes =
+      std::minmax({node_index(body, link.m_n[0]), node_index(body, link.m_n[1])});
+  const bool has_length = nodes.first != nodes.second && link.m_rl > 0 &&
+                          (link.m_n[0]->m_x - link.m_n[1]->m_x).length2() > 0;
+  return has_length ? std::optional(nodes) : std::nullopt;
+}
+
+/// Which of some pairs come for the first time.
+std::vector<char> are_first(const std::vector<NodePair>& pairs) {
+  std::vector<std::size_t> order(pairs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t one, std::size_t two) {
+    return std::pair(pairs[one], one) < std::pair(pairs[two], two);
+  });
+  std::vector<char> are(pairs.size(), 1);
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    if (pairs[order[k]] == pairs[order[k - 1]]) are[order[k]] = 0;
+  }
+  return are;
+}
+
 /// Appends the links of a material to the mesh as an edge set, if there are any.
 void read_links(const btSoftBody& body, int material, bool is_bending, BodyMesh& result) {
   LinkedEdges group;
   group.material = body.m_materials[material];
   group.is_bending = is_bending;
   group.name = "material " + std::to_string(material) + (is_bending ? " (bending)" : "");
-  std::set<std::pair<int, int>> known;
-  std::vector<std::pair<int, int>> pairs;
-  double sum = 0;
-  int num_movable = 0;
+  std::vector<const btSoftBody::Link*> links;
+  std::vector<NodePair> ends;
   for (int l = 0; l < body.m_links.size(); ++l) {
     const btSoftBody::Link& link = body.m_links[l];
     if (link.m_material != group.material || (link.m_bbending != 0) != is_bending) continue;
-    const std::pair<int, int> nodes =
-        std::minmax({node_index(body, link.m_n[0]), node_index(body, link.m_n[1])});
-    const bool has_length = nodes.first != nodes.second && link.m_rl > 0 &&
-                            (link.m_n[0]->m_x - link.m_n[1]->m_x).length2() > 0;
-    if (!has_length || !known.insert(nodes).second) {
+    if (const std::optional<NodePair> nodes = ends_of(body, link)) {
+      links.push_back(&link);
+      ends.push_back(*nodes);
+    } else {
+      ++group.num_left_out;
+    }
+  }
+  const std::vector<char> are_new = are_first(ends);
+  std::vector<NodePair> pairs;
+  double sum = 0;
+  int num_movable = 0;
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    if (are_new[k] == 0) {
       ++group.num_left_out;
       continue;
     }
-    pairs.push_back(nodes);
+    pairs.push_back(ends[k]);
     const double mobility =
-        static_cast<double>(link.m_n[0]->m_im) + static_cast<double>(link.m_n[1]->m_im);
+        static_cast<double>(links[k]->m_n[0]->m_im) + static_cast<double>(links[k]->m_n[1]->m_im);
     if (!(mobility > 0)) continue;
     sum += 1 / mobility;
     ++num_movable;
