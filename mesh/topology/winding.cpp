@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <ranges>
 #include <span>
 #include <utility>
 #include <vector>
@@ -33,7 +32,8 @@ class TrianglesAtEdges {
     std::vector<std::size_t> ends = starts_;
     for_edges([&](int low, const Entry& entry) { entries_[ends[at(low)]++] = entry; });
     for (std::size_t node = 0; node + 1 < starts_.size(); ++node) {
-      std::ranges::sort(of(static_cast<int>(node)));
+      const std::span<Entry> entries = of(static_cast<int>(node));
+      std::sort(entries.begin(), entries.end());
     }
   }
 
@@ -41,9 +41,9 @@ class TrianglesAtEdges {
   template <class Use>
   void visit(int one, int two, const Use& use) {
     const auto [low, high] = std::minmax({one, two});
-    for (const Entry& entry : std::ranges::equal_range(of(low), high, {}, &Entry::first)) {
-      use(entry.second);
-    }
+    const std::span<Entry> entries = of(low);
+    auto entry = std::lower_bound(entries.begin(), entries.end(), Entry{high, 0});
+    for (; entry != entries.end() && entry->first == high; ++entry) use(entry->second);
   }
 
  private:
