@@ -5,8 +5,8 @@
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/implicit/fast_body.hpp>
 #include <weft/bridge/implicit/node_anchors.hpp>
-#include <weft/bridge/implicit/substeps/mean_velocities.hpp>
 #include <weft/bridge/implicit/substeps/pin_pull.hpp>
+#include <weft/bridge/implicit/substeps/relative_motion.hpp>
 #include <weft/bridge/rigid/rigid_substeps.hpp>
 
 namespace weft::bridge {
@@ -29,19 +29,18 @@ int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
     const MovableObject object{collider.object};
     if (moves_freely(object)) substeps.include_nearby_body();
   }
-  const MeanVelocities of_nodes(contacts_, start_velocities_);
+  const RelativeMotion motion(contacts_, start_velocities_);
   const PinPull pull(pins_, positions_, starts_, contacts_);
   for (const RigidContact& contact : contacts_) {
     const MovableObject object{contact.object};
     if (!moves_freely(object)) continue;
     const Collider& collider = colliders_[static_cast<std::size_t>(contact.collider)];
     const btVector3 normal = collider.object_pose.getBasis() * contact.normal_by_object;
-    const btVector3 velocity = object.velocity().at(contact.met) - of_nodes.at(contact);
     substeps.include(
         {.size =
              std::max(smallest_half_extent(*collider.shape), body.getCollisionShape()->getMargin()),
          .approach = btDot(normal, body.m_nodes[contact.node].m_q - contact.met),
-         .closing = time_step * btDot(normal, velocity),
+         .closing = time_step * btDot(normal, motion.of(contact)),
          .pushed = pushed_.push_in(object, time_step),
          .fall = time_step * time_step * object.gravity().length(),
          .inverse_mass = object.inverse_mass(),
