@@ -63,4 +63,10 @@ double processor_time() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
+double processor_time(const std::function<void()>& call) {
+  const double start = processor_time();
+  call();
+  return processor_time() - start;
+}
+
 }  // namespace weft::bench

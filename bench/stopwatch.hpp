@@ -26,6 +26,8 @@ struct Timing {
 
 /// Processor time of this thread [ms]: what else runs on the machine, and a limit on real-time threads, do not count.
 [[nodiscard]] double processor_time();
+/// Likewise, of one call [ms].
+[[nodiscard]] double processor_time(const std::function<void()>& call);
 
 /// Median of values; they are reordered.
 [[nodiscard]] double median(std::vector<double>& values);

@@ -26,12 +26,6 @@ namespace {
 constexpr double kTimeStep = 1.0 / 60;  // [s]
 constexpr int kSteps = 30;
 
-double milliseconds(const std::function<void()>& call) {
-  const double start = processor_time();
-  call();
-  return processor_time() - start;
-}
-
 /// A program of Bullet's with the one line changed, in which sheets appear.
 struct Program {
   bridge::AdoptingSolver solver;
@@ -74,16 +68,16 @@ void measure(int n, int num_sheets, int num_rounds, ResultFile& file) {
   std::vector<double> ordinary_ms;
   for (int round = 0; round < num_rounds; ++round) {
     Program program;
-    make_ms.push_back(milliseconds([&] {
+    make_ms.push_back(processor_time([&] {
       for (int number = 0; number < num_sheets; ++number) program.make(n, number);
     }));
-    first_ms.push_back(milliseconds([&] {
+    first_ms.push_back(processor_time([&] {
       for (const auto& body : program.bodies) program.world.addSoftBody(body.get());
       program.step();
     }));
     std::vector<double> steps;
     for (int step = 0; step < kSteps; ++step) {
-      steps.push_back(milliseconds([&] { program.step(); }));
+      steps.push_back(processor_time([&] { program.step(); }));
     }
     ordinary_ms.push_back(median(steps));
   }

@@ -25,12 +25,6 @@ constexpr int kAfterTear = 15;       // frames
 constexpr int kStepsOfGrab = 6;
 constexpr int kRuns = 3;
 
-double milliseconds(const std::function<void()>& call) {
-  const double start = processor_time();
-  call();
-  return processor_time() - start;
-}
-
 /// A cloth that something tears.
 struct Torn {
   bridge::SoftWorld world{{{0, -9.81, 0}, 0.05}};
@@ -141,9 +135,9 @@ std::vector<Frame> run(Torn& torn) {
       bridge::set_pinned_velocities(torn.mesh, *torn.body);
     }
     torn.disturb(*torn.body, step);
-    const double of_step = milliseconds([&] { torn.world.step(kTimeStep); });
+    const double of_step = processor_time([&] { torn.world.step(kTimeStep); });
     Tear tear;
-    const double of_tear = milliseconds([&] {
+    const double of_tear = processor_time([&] {
       tear = bridge::tear(torn.world.solver(), *torn.body, torn.mesh, torn.cloth, torn.laws,
                           torn.rule);
     });

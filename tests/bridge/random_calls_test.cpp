@@ -130,7 +130,7 @@ class Player {
       ASSERT_TRUE(body.cloth.body() == nullptr || body.cloth.body() == body.soft.get());
       if (is_far || has_stopped) remove(b);
     }
-    // What a body of Bullet's own that has exploded has taken with it; Bullet would crash over it.
+    // A soft body that Bullet steps itself and that has exploded takes rigid bodies at its anchors with it. Bullet would crash over them.
     for (std::size_t r = rigids_.size(); r-- > 1;) {
       const btRigidBody& rigid = *rigids_[r];
       if (!(rigid.getCenterOfMassPosition().length() < kFar &&

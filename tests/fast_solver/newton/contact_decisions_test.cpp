@@ -46,7 +46,7 @@ TEST(ContactDecisions, FollowWhereGainsHaveShrunkToAHundredth) {
   EXPECT_TRUE(decisions.decides());
 }
 
-// What planes bear is only known once springs have given way.
+// Planes that have just been met bear less than springs that they have compressed would say.
 TEST(ContactDecisions, WaitWhereNodesHaveJustMetPlanes) {
   ContactDecisions decisions(true, false, false);
   decisions.add(true, true);
