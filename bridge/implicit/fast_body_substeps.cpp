@@ -40,7 +40,7 @@ int FastBody::num_substeps(const btSoftBody& body, btScalar time_step) const {
         {.size =
              std::max(smallest_half_extent(*collider.shape), body.getCollisionShape()->getMargin()),
          .approach = btDot(normal, body.m_nodes[contact.node].m_q - contact.met),
-         .closing = time_step * btDot(normal, motion.of(contact)),
+         .closing = time_step * btDot(normal, motion.at(contact)),
          .pushed = pushed_.push_in(object, time_step),
          .fall = time_step * time_step * object.gravity().length(),
          .inverse_mass = object.inverse_mass(),

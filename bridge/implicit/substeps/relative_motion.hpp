@@ -7,26 +7,23 @@
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/contact/rigid_contacts.hpp>
+#include <weft/bridge/rigid/movable_object.hpp>
 #include <weft/core/types.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// The mean velocity with which dynamic bodies move with respect to the nodes that they meet. Nodes that shake, or that turn with a
-/// body which they hang on, have speed, but the body does not come towards them.
+/// How dynamic bodies move with respect to the nodes that they meet: for each body, the rigid velocity field that fits the relative
+/// velocities best (least squares). Nodes that shake have speed, but neither they nor the body come any nearer.
 class RelativeMotion {
  public:
   /// contacts: of all nodes. velocities: of the nodes, 3 x n [m/s].
   RelativeMotion(std::span<const RigidContact> contacts, const Matrix3X<btScalar>& velocities);
-  /// [m/s], of the body of one of these contacts; zero for objects that no impulse moves.
-  [[nodiscard]] btVector3 of(const RigidContact& contact) const;
+  /// [m/s], where the body of one of these contacts meets its node; zero for objects that no impulse moves.
+  [[nodiscard]] btVector3 at(const RigidContact& contact) const;
 
  private:
-  struct Sum {
-    btVector3 velocities{0, 0, 0};
-    int count = 0;
-  };
-  std::vector<Sum> of_collider_;  ///< by RigidContact::collider
+  std::vector<RigidVelocity> of_collider_;  ///< by RigidContact::collider
 };
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -19,7 +19,7 @@ inline namespace WEFT_BULLET_PRECISION {
 struct RigidEncounter {
   btScalar size;          ///< smallest half extent of the body [m]
   btScalar approach;      ///< how far its surface has come behind the node in the step [m]
-  btScalar closing;       ///< how far it comes towards the nodes that it meets, as a whole [m]
+  btScalar closing;       ///< how far it comes towards the node in RelativeMotion [m]
   btScalar pushed;        ///< how far the cloth has moved it in the last step [m]
   btScalar fall;          ///< how far gravity moves it in a step, g h^2 [m]
   btScalar inverse_mass;  ///< of the body [1/kg]
