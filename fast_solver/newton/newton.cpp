@@ -163,12 +163,7 @@ double ImplicitSolver<Scalar>::extrapolate(const StepProblem<Scalar>& problem, d
       extrapolation_length(last_gain_.total, lowered, kLeastFall * std::abs(reached));
   if (!is_whole_step_ || last_gain_.is_broken || length == 1) return reached;
   const auto excess = static_cast<Scalar>(length - 1);
-  for_each_part([this, excess](NodeRange nodes) {
-    const int count = nodes.end - nodes.begin;
-    const auto now = positions_.middleRows(nodes.begin, count);
-    extrapolated_.middleRows(nodes.begin, count) =
-        now + excess * (now - last_positions_.middleRows(nodes.begin, count));
-  });
+  extrapolated_ = positions_ + excess * (positions_ - last_positions_);
   for (Body& body : bodies_) {
     body.extrapolated = body.motion + excess * (body.motion - body.last_motion);
   }
