@@ -182,8 +182,6 @@ class ImplicitSolver : TeamLoops {
   [[nodiscard]] double motion_that_counts(bool has_contacts);
   void save_positions();
   void restore_positions();
-  [[nodiscard]] double extrapolate(const StepProblem<Scalar>& problem, double reached,
-                                   double lowered);
   [[nodiscard]] double accelerate(const StepProblem<Scalar>& problem, double reached);
   /// The incremental potential [J].
   [[nodiscard]] double energy(const StepProblem<Scalar>& problem, const Nodes& positions,
@@ -236,7 +234,6 @@ class ImplicitSolver : TeamLoops {
   Nodes compensation_, unmoved_;
   Nodes last_positions_;  ///< positions at the start of the iteration
   Nodes last_results_;    ///< result of the last iteration
-  Nodes extrapolated_;    ///< beyond it
   AndersonHistory<Scalar> anderson_;
   Matrix3X<Scalar> step_force_positions_;  ///< positions as StepForces takes them
   Matrix3X<Scalar> step_forces_;
@@ -260,7 +257,6 @@ class ImplicitSolver : TeamLoops {
   SolverReport report_;
   double residual_ = 0, step_energy_ = 0;
   bool has_constraint_forces_ = false, was_clamped_ = false, has_met_planes_ = false;
-  bool is_whole_step_ = false;  ///< of the last iteration: not shortened, and no planes met
   bool have_contact_states_changed_ = false;  ///< in the last iteration
 };
 

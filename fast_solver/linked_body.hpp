@@ -66,8 +66,7 @@ struct LinkedBody {
   Vector6 last_motion = Vector6::Zero();  ///< motion at the start of the iteration
   Vector6 last_result = Vector6::Zero();  ///< for the iteration before
   std::array<Vector6, AndersonHistory<Scalar>::kMemory> result_changes{};
-  Vector6 unmoved = Vector6::Zero();       ///< motion for which nothing has moved in the step
-  Vector6 extrapolated = Vector6::Zero();  ///< motion beyond the one of the last iteration
+  Vector6 unmoved = Vector6::Zero();  ///< motion for which nothing has moved in the step
   Vector6 motion_alone = Vector6::Zero();
   Matrix6 inertia = Matrix6::Zero();  ///< over h^2
   Eigen::LLT<Matrix6> stiffness;      ///< with what is linked to it

@@ -49,9 +49,9 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
   for (auto* holds : {&contact_states_, &contact_states_before_}) {
     holds->assign(static_cast<std::size_t>(num_rows), ContactState::kFree);
   }
-  for (Nodes* vectors : {&inertial_positions_, &start_positions_, &positions_, &residual_forces_,
-                         &constraint_forces_, &unmoved_, &last_positions_, &last_results_,
-                         &extrapolated_, &compensation_}) {
+  for (Nodes* vectors :
+       {&inertial_positions_, &start_positions_, &positions_, &residual_forces_,
+        &constraint_forces_, &unmoved_, &last_positions_, &last_results_, &compensation_}) {
     vectors->setZero(num_rows, 3);
   }
   for (Matrix3X<Scalar>* vectors : {&step_force_positions_, &step_forces_}) vectors->setZero(3, n);

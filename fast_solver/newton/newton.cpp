@@ -5,10 +5,8 @@
 
 #include <weft/fast_solver/implicit_solver.hpp>
 #include <weft/fast_solver/newton/contact_decisions.hpp>
-#include <weft/fast_solver/newton/extrapolation.hpp>
 #include <weft/fast_solver/newton/node_stiffness.hpp>
 #include <weft/fast_solver/newton/stop_criterion.hpp>
-#include <weft/fast_solver/newton/transverse_share.hpp>
 
 #include <weft/core/index.hpp>
 
@@ -17,10 +15,12 @@ namespace {
 
 /// The coarse matrix is factorized again after so many iterations.
 constexpr int kIterationsPerFactor = 4;
+/// Least transverse over axial stiffness of a spring after an iteration that increased the energy, and its growth if that was not
+/// enough: with 1 no iteration gains any.
+constexpr double kFirstTransverse = 0.02;
+constexpr double kTransverseGrowth = 7;
 /// The share of an energy that is rounding [-].
 constexpr double kEnergyRounding = 2e-7;
-/// A smaller share of an energy says nothing of curvature [-].
-constexpr double kLeastFall = 10 * kEnergyRounding;
 /// The share of an energy that a step without motion is held against [-].
 constexpr double kAtRest = 0.01;
 constexpr double kAtRestInContact = 0.3;
@@ -58,7 +58,6 @@ void ImplicitSolver<Scalar>::iterate_once(const StepProblem<Scalar>& problem,
   const bool is_shorter = shorten_step(work_done_ + of_others);
   clamp(problem);
   has_met_planes_ = constrained_.size() > num_constrained;
-  is_whole_step_ = !is_shorter && !has_met_planes_;
   if (is_shorter || was_clamped_) evaluate(iteration.linearizes);
 }
 
@@ -73,7 +72,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
   StopCriterion stop;
   ContactDecisions decisions(has_contacts, !supports_.empty(), problem.continues);
   energy_before_ = 0;
-  TransverseShare transverse;
+  double transverse = 0;
   bool is_within = false;
   report_ = {.is_converged = false};
   anderson_.forget();
@@ -102,27 +101,26 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     if (!are_contact_states_new && !(now <= energy_before_ + asked + noise)) {
       restore_positions();
       anderson_.forget();
-      const bool is_stiffest = transverse.is_largest();
-      transverse.grow();
+      const bool is_stiffest = transverse == 1;
+      transverse = std::min(1.0, std::max(kFirstTransverse, kTransverseGrowth * transverse));
       if (is_stiffest) {
         // With this linearization every spring gains. What is left is rounding, if that is all that the step could have gained.
         const double least =
             std::max({stop.most_of_rounding(), asked, kEnergyRounding * std::abs(energy_before_)});
         if (last_gain_.is_broken || last_gain_.total > least) break;
         report_.is_converged = decisions.are_settled();
-        transverse.forget();
+        transverse = 0;
         stop.forget_stalls();
       }
-      forces_.set_least_transverse_stiffness(static_cast<Scalar>(transverse.value()));
+      forces_.set_least_transverse_stiffness(static_cast<Scalar>(transverse));
       decisions.decide_next(is_stiffest);
       continue;
     }
     wanted = squared_tolerance * motion_that_counts(has_contacts);
-    const double lowered = energy_before_ - now;
-    stop.add(last_gain_, has_contacts ? 0 : lowered, are_contact_states_new);
+    stop.add(last_gain_, has_contacts ? 0 : energy_before_ - now, are_contact_states_new);
     energy_before_ = now;
-    transverse.shrink();
-    forces_.set_least_transverse_stiffness(static_cast<Scalar>(transverse.value()));
+    transverse = transverse > kFirstTransverse ? transverse / kTransverseGrowth : 0.0;
+    forces_.set_least_transverse_stiffness(static_cast<Scalar>(transverse));
     report_.energy_left = last_gain_.is_broken ? step_energy_ : stop.energy_left();
     const bool is_solved = stop.is_solved(wanted);
     const bool is_over = is_solved || (stop.is_stalled() && solver_settings.tolerance > 0);
@@ -134,7 +132,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     if (are_contact_states_new) {
       anderson_.forget();
     } else if (!report_.is_converged && iteration + 1 < solver_settings.newton_iterations) {
-      energy_before_ = accelerate(problem, extrapolate(problem, now, lowered));
+      energy_before_ = accelerate(problem, now);
     }
   }
   report_.is_converged = report_.is_converged || is_within;
@@ -153,26 +151,6 @@ double ImplicitSolver<Scalar>::motion_that_counts(bool has_contacts) {
   });
   const double least = has_contacts ? kAtRestInContact : kAtRest;
   return std::clamp(squares, least * 2 * step_energy_, 2 * step_energy_);
-}
-
-// Goes on along an iteration that gained more than its linearization said. Returns the energy of the positions that are kept.
-template <class Scalar>
-double ImplicitSolver<Scalar>::extrapolate(const StepProblem<Scalar>& problem, double reached,
-                                           double lowered) {
-  const double length =
-      extrapolation_length(last_gain_.total, lowered, kLeastFall * std::abs(reached));
-  if (!is_whole_step_ || last_gain_.is_broken || length == 1) return reached;
-  const auto excess = static_cast<Scalar>(length - 1);
-  extrapolated_ = positions_ + excess * (positions_ - last_positions_);
-  for (Body& body : bodies_) {
-    body.extrapolated = body.motion + excess * (body.motion - body.last_motion);
-  }
-  const double further = energy(problem, extrapolated_, &Body::extrapolated);
-  if (!(further < reached)) return reached;
-  positions_.swap(extrapolated_);
-  for (Body& body : bodies_) body.motion = body.extrapolated;
-  evaluate();
-  return further;
 }
 
 // Continues from the Anderson combination of the last iterations if it has less energy than the last result. Returns the
