@@ -13,7 +13,7 @@
 namespace weft::fast {
 namespace {
 
-/// A node sticks once this share of its friction would take back its slip [-].
+/// A node sticks once the slip that is left would take this share of its friction to stop [-].
 constexpr double kStopped = 0.01;
 /// Over what resists the motion of a node: a drag. With less, a node that begins to slide is too fast, by mu g h over this. With
 /// much more, conjugate gradients would see nothing else.
@@ -165,10 +165,7 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const bool was_at_rest = is_first && !(inertia * slipped > most);
   const Scalar doubt = was_at_rest || did_stick ? Scalar(0) : friction * rounding_of_force(i);
   // One that has slid would be drawn back to where the step began, and let go by the next decision: its drag stops it first.
-  // Where a body presses, nodes slip together, and springs between them resist nothing.
-  const bool is_pressed = contact.body >= 0 || contact.squeeze > 0;
-  const Scalar resistance = is_pressed ? inertia : inertia + largest_stiffness(i);
-  const bool has_stopped = resistance * slipped <= kStopped * most;
+  const bool has_stopped = inertia * slipped <= kStopped * most;
   // A light node that a body presses could be stopped alone, but not all that have slid with it.
   const bool slides_on =
       is_first && !supports_.empty() && contact_states_before_[at(i)] == ContactState::kOnPlane;
@@ -190,12 +187,12 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   friction_bounds_[i] = most;
   // Alone, a node has its springs and inertia against it. A drag for that slip would hold nodes that slide together too much:
   // they have their inertia, and slip no farther than so far or, if springs hardly pull at them, than without springs.
-  const auto slip_against = [&](Scalar stiffness) {
-    return (size - most) / std::max(stiffness, Scalar(kLeastInertia));
+  const auto slip_against = [&](Scalar resistance) {
+    return (size - most) / std::max(resistance, Scalar(kLeastInertia));
   };
   const Scalar alone = slip_against(inertia + largest_stiffness(i));
   Scalar farthest = slipped;
-  if (!is_pressed) {
+  if (contact.body < 0 && !(contact.squeeze > 0)) {
     const Vector3<Scalar> free_slip =
         slip_of(contact, at_node(inertial_positions_, i), &Body::motion);
     const bool is_pulled = (tendency - inertia * free_slip).norm() > Scalar(kSlack) * most;
