@@ -53,7 +53,7 @@ const std::vector<Cape> kCapes = {{"on two shoulders, against a ball", 24, 0.001
 
 class CapeRun {
  public:
-  explicit CapeRun(const Cape& cape) : cape_(cape) {
+  explicit CapeRun(const Cape& cape) {
     ClothGrid grid;
     grid.nodes = {cape.n, cape.n};
     grid.size = {1.2, 1.2};
@@ -107,7 +107,6 @@ class CapeRun {
   }
 
  private:
-  Cape cape_;
   bridge::SoftWorld world_{{{0, -9.81, 0}, 0.05}};
   btSoftBody* body_ = nullptr;
   std::vector<int> led_;
