@@ -13,7 +13,7 @@
 namespace weft::fast {
 namespace {
 
-/// A node sticks once the slip that is left would take this share of its friction to stop [-].
+/// A node that a body presses sticks once the slip that is left would take this share of its friction to stop [-].
 constexpr double kStopped = 0.01;
 /// Over what resists the motion of a node: a drag. With less, a node that begins to slide is too fast, by mu g h over this. With
 /// much more, conjugate gradients would see nothing else.
@@ -161,11 +161,16 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   // A node that slides, or that a plane has only now been found for, would be drawn back to where the step began: not by what
   // may be rounding.
   const bool did_stick = contact_states_before_[at(i)] == ContactState::kFixed;
-  const Scalar slipped = (slip - normal.dot(slip) * normal).norm();
+  const Vector3<Scalar> along = slip - normal.dot(slip) * normal;
+  const Scalar slipped = along.norm();
   const bool was_at_rest = is_first && !(inertia * slipped > most);
   const Scalar doubt = was_at_rest || did_stick ? Scalar(0) : friction * rounding_of_force(i);
-  // One that has slid would be drawn back to where the step began, and let go by the next decision: its drag stops it first.
-  const bool has_stopped = inertia * slipped <= kStopped * most;
+  // One that has slid would be drawn back to where the step began, against its springs: friction must bear that too, or the next
+  // decision would let it go again (the trial force of Alart and Curnier 1991). Springs of a node that a body presses would be
+  // drawn along with it.
+  const bool is_pressed = contact.body >= 0 || contact.squeeze > 0;
+  const bool has_stopped = is_pressed ? inertia * slipped <= kStopped * most
+                                      : (tendency + largest_stiffness(i) * along).norm() <= most;
   // A light node that a body presses could be stopped alone, but not all that have slid with it.
   const bool slides_on =
       is_first && !supports_.empty() && contact_states_before_[at(i)] == ContactState::kOnPlane;

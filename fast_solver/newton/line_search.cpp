@@ -27,6 +27,7 @@ constexpr double kFarUp = 10;
 template <class Scalar>
 bool ImplicitSolver<Scalar>::shorten_step(double work_before) {
   const double work_after = work_left_ - work_of_constrained() + work_of_bodies();
+  last_gain_.slope_left = work_before > 0 ? work_after / work_before : 0;
   if (!(work_before > 0 && work_after < -0.5 * work_before)) return false;
   const double share = std::max(kSmallestShare, work_before / (work_before - work_after));
   const auto excess = static_cast<Scalar>(1.0 - share);

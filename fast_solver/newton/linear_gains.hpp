@@ -14,6 +14,8 @@ namespace weft::fast {
 struct LinearGain {
   double total = 0;
   double left = 0;
+  double slope_left =
+      0;  ///< that of the energy along the step at its end, over that at its start [-]
   bool is_broken = false;  ///< by rounding, before anything was found out
 };
 
@@ -53,9 +55,10 @@ class LinearGains {
     const std::size_t share =
         static_cast<std::size_t>(accuracy.delay * static_cast<double>(gains_.size()));
     const std::size_t count = std::min(gains_.size(), std::max(kFewest, share));
-    return {.total = total_,
-            .left = std::accumulate(gains_.end() - static_cast<std::ptrdiff_t>(count), gains_.end(),
-                                    0.0)};
+    const double last =
+        std::accumulate(gains_.end() - static_cast<std::ptrdiff_t>(count), gains_.end(), 0.0);
+    // Nobody has looked for gains smaller than those that end the solve.
+    return {.total = total_, .left = last > 0 ? std::max(last, accuracy.least_gain) : last};
   }
   [[nodiscard]] bool are_enough(const LinearAccuracy& accuracy) const {
     const double left = sum(accuracy).left;

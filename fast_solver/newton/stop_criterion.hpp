@@ -36,7 +36,8 @@ class StopCriterion {
   [[nodiscard]] bool is_solved(double wanted) const { return is_within(wanted) || is_rounding(); }
   /// Whether no more than this is left to gain [J].
   [[nodiscard]] bool is_within(double asked) const {
-    return !gain_.is_broken && gain_.left + rest_of(gain_.total, shrinks_) <= asked;
+    return !gain_.is_broken &&
+           gain_.left + std::max(rest_of(gain_.total, shrinks_), ahead()) <= asked;
   }
   /// Iterations do not get anywhere any more.
   [[nodiscard]] bool is_stalled() const { return num_stalled_ >= kMostStalled; }
@@ -44,7 +45,7 @@ class StopCriterion {
   /// then, with some way to go: that is known here, but too late to stop by.
   [[nodiscard]] double energy_left() const {
     const double slowest = *std::max_element(last_shrinks_.begin(), last_shrinks_.end());
-    return (gain_.left + rest_of(gain_.total, slowest)) / 2;
+    return (gain_.left + std::max(rest_of(gain_.total, slowest), ahead())) / 2;
   }
 
  private:
@@ -66,6 +67,12 @@ class StopCriterion {
   [[nodiscard]] static double rest_of(double gain, double shrinks) {
     const double limited = std::min(kSlowest, shrinks);
     return gain * limited / (1 - limited);
+  }
+  /// What the rest of the way along the last step gains as a step [J]. Where compressed springs take away the stiffness that the
+  /// linear system has, each iteration goes only the same part of the way that is left, in the same direction.
+  [[nodiscard]] double ahead() const {
+    const double left = std::clamp(gain_.slope_left, 0.0, kSlowest);
+    return gain_.total * left * left / ((1 - left) * (1 - left));
   }
   /// Stiff springs keep gaining by rounding while soft ones may still be far from their solution.
   [[nodiscard]] bool is_rounding() const {

@@ -36,14 +36,19 @@ class Pair {
   }
   void step() {
     place_body(exact_.positions(), exact_.velocities(), asked_.body());
+    Matrix3X<double> alone = kTimeStep * exact_.velocities();
+    alone.row(1).array() -= 9.81 * kTimeStep * kTimeStep;
+    motion_alone_ = root_mean_square(alone);
     exact_.step();
     asked_.step();
   }
   /// Root mean square over the mass [m].
   [[nodiscard]] double true_error() const {
-    const VectorX<double> squares =
-        (asked_.positions() - exact_.positions()).colwise().squaredNorm().transpose();
-    return std::sqrt(masses_.dot(squares) / masses_.sum());
+    return root_mean_square(asked_.positions() - exact_.positions());
+  }
+  /// What the default tolerance allows: a thousandth of the motion without springs (docs/implicit_step.md) [m].
+  [[nodiscard]] double promised_error() const {
+    return fast::SolverSettings{}.tolerance * motion_alone_;
   }
   [[nodiscard]] StepError reported() { return asked_.solver().step_error(asked_.body()); }
 
@@ -51,9 +56,14 @@ class Pair {
   static std::vector<forces::LawSpecification> laws(double stiffness) {
     return {kGravity, law("tension", "stiffness", stiffness)};
   }
+  [[nodiscard]] double root_mean_square(const Matrix3X<double>& distances) const {
+    const VectorX<double> squares = distances.colwise().squaredNorm().transpose();
+    return std::sqrt(masses_.dot(squares) / masses_.sum());
+  }
   Scene exact_;
   Scene asked_;
   VectorX<double> masses_;
+  double motion_alone_ = 0;  ///< root mean square over the mass [m]
 };
 
 ClothMesh hanging_cloth() {
@@ -68,41 +78,48 @@ constexpr int kNumSteps = 60;
 
 // The bound takes for granted that springs resist. Those of a sheet that crumples are compressed, and steps of which the budget
 // ended first are farther off, for more iterations may find another fold. A box that stands a millimeter higher makes the
-// crumpling another one, so that several starts count together: 0.79 to 0.94 of their steps are bounded, and of 180 steps chance made 0.03
+// crumpling another one, so that several starts count together: 0.89 to 1.00 of their steps are bounded, and of 180 steps chance made 0.03
 // more or less.
-constexpr double kBoundedShare = 0.75;
+constexpr double kBoundedShare = 0.8;
 constexpr double kBoxHeights[] = {-0.35, -0.349, -0.348, -0.347, -0.346, -0.345};  ///< [m]
 /// Those that are tried: fewer where a step takes longer and rounding has no part.
 constexpr int kNumHeights = sizeof(btScalar) == 4 ? 6 : 3;
 constexpr double kMostTooLarge =
     50;  ///< times: an estimate that is farther off than that says nothing
-constexpr double kRoundedStiffness =
-    1e5;  ///< [N/m] from which on single precision leaves errors of its own
-constexpr double kRightShare =
-    0.92;  ///< of the steps that are said to be within tolerance; 0.94 to 1.00 over stiffness, precision and processors
+/// [N/m] from which on single precision leaves errors of its own. Rounding of positions half a meter from the origin, 3e-8 m, is
+/// 3e-4 N in such a spring, which would move a node alone, of 2 N/m, by 150 um. Both solutions have it, often to the bit.
+constexpr double kRoundedStiffness = 1e4;
+constexpr double kKeptShare =
+    0.93;  ///< of the steps that are said to be within tolerance; 0.947 to 1.00 over stiffness and precision
+
+constexpr double kPromisedShare =
+    0.55;  ///< of all steps that are said to be within tolerance; 0.63 to 0.93
 
 TEST(StepError, IsNoLessThanTheTrueOne) {
   for (const double stiffness : {1e2, 1e4, 1e6}) {
     int num_steps = 0;
     int num_right = 0;
-    int num_wrong_promises = 0;
+    int num_promises = 0;
+    int num_kept = 0;
     int num_useless = 0;
     for (const double height : std::span(kBoxHeights).first(kNumHeights)) {
       Pair pair(hanging_cloth(), stiffness, {}, height);
       for (int step = 0; step < kNumSteps; ++step, ++num_steps) {
         pair.step();
         const StepError reported = pair.reported();
-        const bool is_right = pair.true_error() <= 2 * reported.distance + kRounding;
-        if (is_right) ++num_right;
+        if (pair.true_error() <= 2 * reported.distance + kRounding) ++num_right;
         if (reported.distance > kMostTooLarge * pair.true_error() + kRounding) ++num_useless;
-        if (!is_right && reported.is_within_tolerance) ++num_wrong_promises;
+        if (!reported.is_within_tolerance) continue;
+        ++num_promises;
+        if (pair.true_error() <= pair.promised_error() + kRounding) ++num_kept;
       }
     }
     EXPECT_GE(num_right, kBoundedShare * num_steps) << stiffness;
-    if (stiffness < kRoundedStiffness) {
+    if (sizeof(btScalar) > 4 || stiffness < kRoundedStiffness) {
       EXPECT_LE(num_useless, num_steps / 2) << stiffness;
     }
-    EXPECT_LE(num_wrong_promises, (1 - kRightShare) * num_steps) << stiffness;
+    EXPECT_GE(num_kept, kKeptShare * num_promises) << stiffness;
+    EXPECT_GE(num_promises, kPromisedShare * num_steps) << stiffness;
   }
 }
 

@@ -56,5 +56,16 @@ TEST(LinearGains, SumIsThatOfAllAndOfTheLastOnes) {
   EXPECT_EQ(gains.sum({}).total, 0);
 }
 
+// Solves that end because little is left to gain have not seen how much: they may only claim what they ended by.
+TEST(LinearGains, WhatIsLeftIsNoLessThanWhatNobodyLookedFor) {
+  LinearGains gains;
+  gains.add(1e-6);
+  gains.add(1e-9);
+  EXPECT_EQ(gains.sum({.least_gain = 1e-3}).left, 1e-3);
+  EXPECT_EQ(gains.sum({.least_gain = 1e-9}).left, 1e-6 + 1e-9);
+  gains.clear();
+  EXPECT_EQ(gains.sum({.least_gain = 1e-3}).left, 0);
+}
+
 }  // namespace
 }  // namespace weft::fast
