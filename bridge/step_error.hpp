@@ -14,7 +14,7 @@ namespace weft::bridge {
 /// of taking steps at all.
 struct StepError {
   /// The distance of the nodes from the solution, root mean square over the mass [m]. It is a bound from the estimated gain of
-  /// more iterations (fast::SolverReport). Sheets that crumple are farther off in one step of five.
+  /// more iterations (fast::SolverReport). Sheets that crumple are more than twice as far off in one step of ten.
   double distance = 0.0;
   int newton_iterations =
       0;  ///< linearisations of the last solution; 0 for a body that sleeps, or has blown up

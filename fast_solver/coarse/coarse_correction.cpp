@@ -457,6 +457,16 @@ void CoarseCorrection::solve(WorkerTeam& team) {
     residuals[p] = {part.residual.data(), part.basis_functions.begin, part.basis_functions.end};
   }
   factor_.solve(std::span(residuals).first(of_parts_.size()), solution_.data(), team);
+  if (translation_inertia_ > 0) add_translation();
+}
+
+// Basis functions add up to one, and so do restricted residuals to that of all nodes.
+void CoarseCorrection::add_translation() {
+  Eigen::Vector4f sum = Eigen::Vector4f::Zero();
+  for (const Part& part : of_parts_) sum += part.residual.rowwise().sum();
+  Vector3<float> translation = sum.head<3>() / translation_inertia_;
+  translation -= translation_normal_.dot(translation) * translation_normal_;
+  solution_.topRows<3>().colwise() += translation;
 }
 
 void CoarseCorrection::prolongate(int part, const std::vector<int>& held,

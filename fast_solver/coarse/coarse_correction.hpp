@@ -65,6 +65,13 @@ class CoarseCorrection {
   void factorize(const unsigned short* linear, float root_scale, std::span<const char> is_held,
                  std::span<const SlidingNode> sliding, float inertia_over_mass, WorkerTeam& team);
 
+  /// What factorize() was given moves across this normal as a whole without any strain, with this inertia [N/m]; 0: it does not.
+  /// Where springs are stiff single precision loses the inertia of that motion in the coarse matrix. It is solved for apart then.
+  void set_translation(float inertia, const Vector3<float>& normal) {
+    translation_inertia_ = inertia;
+    translation_normal_ = normal;
+  }
+
   /// Restriction: the residual of one node range. Calls for different ranges may run at the same time.
   void restrict_residual(int part, const std::vector<int>& held, const NodeArrays<float>& residual);
   /// Solves for the coarse coefficients, after restrict_residual() of all ranges.
@@ -110,6 +117,7 @@ class CoarseCorrection {
   [[nodiscard]] bool is_in_sample(int node, int slot) const;
   void find_ranges(int part);
   void fill_gaps(NodeRange nodes);
+  void add_translation();
 
   int num_nodes_ = 0;
   int num_basis_ = 0;
@@ -126,11 +134,13 @@ class CoarseCorrection {
   SharedValue<std::vector<CoarseNode>> alone_;  ///< for each node
   DissectedCholesky factor_;
   std::vector<Part> of_parts_;
-  AlignedVector<float> sums_;     ///< blocks, of all parts
-  std::vector<float> bending_;    ///< for blocks, the same in all directions; empty: none
-  AlignedVector<float> masses_;   ///< for coarse basis functions
-  AlignedVector<float> inertia_;  ///< for coarse basis functions [N/m]
-  Fours solution_;                ///< for coarse basis functions
+  AlignedVector<float> sums_;      ///< blocks, of all parts
+  std::vector<float> bending_;     ///< for blocks, the same in all directions; empty: none
+  AlignedVector<float> masses_;    ///< for coarse basis functions
+  AlignedVector<float> inertia_;   ///< for coarse basis functions [N/m]
+  Fours solution_;                 ///< for coarse basis functions
+  float translation_inertia_ = 0;  ///< [N/m]
+  Vector3<float> translation_normal_{0, 0, 0};
 };
 
 }  // namespace weft::fast

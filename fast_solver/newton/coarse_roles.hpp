@@ -2,6 +2,7 @@
 
 // Tested by tests/fast_solver/newton/coarse_roles_test.cpp.
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -35,6 +36,15 @@ class CoarseRoles {
     }
   }
 
+  /// Whether some nodes slide on parallel planes and nothing holds the others: along these planes the whole moves without strain.
+  [[nodiscard]] bool slide_as_a_whole() const {
+    constexpr float kParallel = 1e-4F;
+    if (sliding_.empty() || !held_.empty()) return false;
+    const Vector3<float>& first = sliding_.front().normal;
+    return std::all_of(sliding_.begin(), sliding_.end(), [&first](const SlidingNode& one) {
+      return (one.normal - first).norm() <= kParallel;
+    });
+  }
   /// Nodes that slide, ascending.
   [[nodiscard]] const std::vector<SlidingNode>& sliding() const { return sliding_; }
   /// Nodes that have no part, ascending; and whether each node is one of them.

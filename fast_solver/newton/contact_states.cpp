@@ -127,6 +127,11 @@ void ImplicitSolver<Scalar>::find_coarse_roles() {
     const auto stiffness = static_cast<float>(largest_stiffness(i)) + inertia_[i];
     return SlidingNode{i, normals_.col(i), kPlane * stiffness, static_cast<float>(drag_[i])};
   });
+  const bool is_whole =
+      coarse_roles_.slide_as_a_whole() && pinned_.empty() && links_.empty() && supports_.empty();
+  coarse_correction_.set_translation(
+      is_whole ? system_inertia_.sum() : 0,
+      is_whole ? coarse_roles_.sliding().front().normal : Vector3<float>::Zero());
 }
 
 // One contact's node: what it would do if it stuck decides.
@@ -147,16 +152,14 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const bool was_held = !is_first && contact_states_before_[at(i)] != ContactState::kFree;
   const Scalar pressure = -normal.dot(at_node(residual_forces_, i)) +
                           inertia * std::max(Scalar(0), -gap) + contact.squeeze;
-  Scalar least_gap = gap;
-  if (is_first) least_gap += std::min(Scalar(0), first_push(i, normal));
-  const bool is_near = least_gap < 0;
+  const Scalar push = is_first ? std::min(Scalar(0), first_push(i, normal)) : Scalar(0);
+  const bool is_near = gap + push < 0;
   if (!(contact.squeeze > 0 || (was_held ? pressure > 0 : is_near))) return;
   const Vector3<Scalar> slip =
       at_node(positions_, i) - at_node(start_positions_, i) - contact.motion - with_body;
   Vector3<Scalar> tendency = at_node(residual_forces_, i) + inertia * slip;
   tendency -= normal.dot(tendency) * normal;
-  const Scalar friction = contact.friction;
-  const Scalar most = friction * std::max(Scalar(0), pressure);
+  const Scalar most = contact.friction * std::max(Scalar(0), pressure);
   const Scalar size = tendency.norm();
   // A node that slides, or that a plane has only now been found for, would be drawn back to where the step began: not by what
   // may be rounding.
@@ -164,7 +167,8 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const Vector3<Scalar> along = slip - normal.dot(slip) * normal;
   const Scalar slipped = along.norm();
   const bool was_at_rest = is_first && !(inertia * slipped > most);
-  const Scalar doubt = was_at_rest || did_stick ? Scalar(0) : friction * rounding_of_force(i);
+  const Scalar doubt =
+      was_at_rest || did_stick ? Scalar(0) : contact.friction * rounding_of_force(i);
   // One that has slid would be drawn back to where the step began, against its springs: friction must bear that too, or the next
   // decision would let it go again (the trial force of Alart and Curnier 1991). Springs of a node that a body presses would be
   // drawn along with it.
@@ -197,7 +201,7 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   };
   const Scalar alone = slip_against(inertia + largest_stiffness(i));
   Scalar farthest = slipped;
-  if (contact.body < 0 && !(contact.squeeze > 0)) {
+  if (!is_pressed) {
     const Vector3<Scalar> free_slip =
         slip_of(contact, at_node(inertial_positions_, i), &Body::motion);
     const bool is_pulled = (tendency - inertia * free_slip).norm() > Scalar(kSlack) * most;

@@ -48,5 +48,29 @@ TEST(CoarseRoles, ForgetTheIterationBefore) {
   EXPECT_EQ(roles.is_held(), (std::vector<char>{0, 0, 0, 1}));
 }
 
+// On parallel planes, with nothing held; on a ball it would be stretched.
+TEST(CoarseRoles, SlideAsAWholeOnParallelPlanesOnly) {
+  std::vector<ContactState> states(4, ContactState::kFree);
+  states[1] = states[2] = ContactState::kOnPlane;
+  Vector3<float> other(0, 1, 0);
+  const auto on_planes = [&other](int node) {
+    SlidingNode one = sliding(node);
+    one.normal = node == 1 ? Vector3<float>(0, 1, 0) : other;
+    return one;
+  };
+  CoarseRoles roles;
+  roles.set({}, {}, states, on_planes);
+  EXPECT_FALSE(roles.slide_as_a_whole());
+  roles.set({1, 2}, {}, states, on_planes);
+  EXPECT_TRUE(roles.slide_as_a_whole());
+  other = Vector3<float>(0.01F, 1, 0).normalized();
+  roles.set({1, 2}, {}, states, on_planes);
+  EXPECT_FALSE(roles.slide_as_a_whole());
+  other = {0, 1, 0};
+  states[2] = ContactState::kFixed;
+  roles.set({1, 2}, {}, states, on_planes);
+  EXPECT_FALSE(roles.slide_as_a_whole());
+}
+
 }  // namespace
 }  // namespace weft::fast

@@ -29,6 +29,17 @@ TEST(StopCriterion, CountsWhatTheLinearSolveHasLeft) {
   EXPECT_TRUE(stop.is_within(0.62));
 }
 
+// Springs that are softer than the linear system takes them to be: each iteration goes a fifth of the way that is left.
+TEST(StopCriterion, CountsTheWayThatIsLeftAlongTheLastStep) {
+  StopCriterion stop;
+  stop.add({.total = 1, .slope_left = 0.8}, 1, false);
+  const double way_left = 0.8 / (1 - 0.8);  // over the step
+  EXPECT_FALSE(stop.is_within(0.99 * way_left * way_left));
+  EXPECT_TRUE(stop.is_within(1.01 * way_left * way_left));
+  stop.add({.total = 1, .slope_left = -0.3}, 1, false);
+  EXPECT_TRUE(stop.is_within(10));
+}
+
 TEST(StopCriterion, AnIterationThatBrokeDownSolvesNothing) {
   StopCriterion stop;
   stop.set_rounding(1);
