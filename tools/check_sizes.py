@@ -28,7 +28,7 @@ LARGE_CLASSES = {
     "fast_solver ImplicitSolver": (1513, 70, "Newton, line search, contact states and rigid coupling share the state of a step"),
     "bridge FastBody": (1060, 57, "all stages of an implicit step of one body"),
     "bridge SoftBodySolver": (867, 54, "everything that a program may call, and Bullet's nine hooks"),
-    "fast_solver CoarseCorrection": (512, 25, "set-up, changes and use of one coarse space"),
+    "fast_solver CoarseCorrection": (538, 26, "set-up, changes and use of one coarse space"),
     "fast_solver NetworkForces": (422, 22, "forces and matrices of one network, in two layouts"),
 }
 

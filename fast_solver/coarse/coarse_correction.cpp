@@ -72,6 +72,7 @@ void CoarseCorrection::make_factor() {
   }
   factor_ = DissectedCholesky(num_basis_, pairs_);
   solution_.setZero(4, num_basis_);
+  translation_residual_.setZero(4, num_basis_);
   sums_.assign(at(factor_.num_blocks()) * kBlockNumbers, 0.0F);
   for (auto* numbers : {&masses_, &inertia_}) numbers->assign(at(num_basis_), 0.0F);
   for (int node = 0; node < num_nodes_; ++node) note_alone(node);
@@ -451,22 +452,36 @@ void CoarseCorrection::restrict_residual(int part, const std::vector<int>& held,
 
 void CoarseCorrection::solve(WorkerTeam& team) {
   if (num_basis_ == 0) return;
-  std::array<DissectedCholesky::Summand, WorkerTeam::kMostParts> residuals;
-  for (std::size_t p = 0; p < of_parts_.size(); ++p) {
-    const Part& part = of_parts_[p];
-    residuals[p] = {part.residual.data(), part.basis_functions.begin, part.basis_functions.end};
+  std::array<DissectedCholesky::Summand, WorkerTeam::kMostParts + 1> residuals;
+  std::size_t count = 0;
+  for (const Part& part : of_parts_) {
+    residuals[count++] = {part.residual.data(), part.basis_functions.begin,
+                          part.basis_functions.end};
   }
-  factor_.solve(std::span(residuals).first(of_parts_.size()), solution_.data(), team);
-  if (translation_inertia_ > 0) add_translation();
+  if (translation_inertia_ > 0) {
+    split_translation();
+    residuals[count++] = {translation_residual_.data(), 0, num_basis_};
+  }
+  factor_.solve(std::span(residuals).first(count), solution_.data(), team);
+  if (translation_inertia_ > 0) join_translation();
 }
 
-// Basis functions add up to one, and so do restricted residuals to that of all nodes.
-void CoarseCorrection::add_translation() {
+// Basis functions add up to one: restricted residuals add up to that of all nodes. Their part that moves all alike is taken out.
+void CoarseCorrection::split_translation() {
   Eigen::Vector4f sum = Eigen::Vector4f::Zero();
   for (const Part& part : of_parts_) sum += part.residual.rowwise().sum();
-  Vector3<float> translation = sum.head<3>() / translation_inertia_;
-  translation -= translation_normal_.dot(translation) * translation_normal_;
-  solution_.topRows<3>().colwise() += translation;
+  Vector3<float> along = sum.head<3>();
+  along -= translation_normal_.dot(along) * translation_normal_;
+  translation_ = along / translation_inertia_;
+  const Eigen::Map<const Eigen::RowVectorXf> inertia(inertia_.data(), num_basis_);
+  translation_residual_.topRows<3>().noalias() = -along * (inertia / inertia.sum());
+}
+
+void CoarseCorrection::join_translation() {
+  const Eigen::Map<const VectorX<float>> inertia(inertia_.data(), num_basis_);
+  Vector3<float> mean = solution_.topRows<3>() * inertia / inertia.sum();
+  mean -= translation_normal_.dot(mean) * translation_normal_;
+  solution_.topRows<3>().colwise() += translation_ - mean;
 }
 
 void CoarseCorrection::prolongate(int part, const std::vector<int>& held,

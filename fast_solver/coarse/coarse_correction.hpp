@@ -117,7 +117,8 @@ class CoarseCorrection {
   [[nodiscard]] bool is_in_sample(int node, int slot) const;
   void find_ranges(int part);
   void fill_gaps(NodeRange nodes);
-  void add_translation();
+  void split_translation();
+  void join_translation();
 
   int num_nodes_ = 0;
   int num_basis_ = 0;
@@ -141,6 +142,8 @@ class CoarseCorrection {
   Fours solution_;                 ///< for coarse basis functions
   float translation_inertia_ = 0;  ///< [N/m]
   Vector3<float> translation_normal_{0, 0, 0};
+  Vector3<float> translation_{0, 0, 0};  ///< [m]
+  Fours translation_residual_;           ///< for coarse basis functions: minus that of it
 };
 
 }  // namespace weft::fast
