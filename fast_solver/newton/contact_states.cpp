@@ -18,7 +18,7 @@ constexpr double kStopped = 0.01;
 /// Over what resists the motion of a node: a drag. With less, a node that begins to slide is too fast, by mu g h over this. With
 /// much more, conjugate gradients would see nothing else.
 constexpr double kStiffestDrag = 300;
-/// Springs that pull at a node by less than this share of its friction leave its slip as it is without them [-].
+/// Springs that pull at a node by less than this share of its friction, beside rounding, leave its slip as it is without them [-].
 constexpr double kSlack = 0.1;
 /// The stiffness of a plane for the coarse correction, over that of the node's springs.
 constexpr float kPlane = 2;
@@ -167,8 +167,8 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const Vector3<Scalar> along = slip - normal.dot(slip) * normal;
   const Scalar slipped = along.norm();
   const bool was_at_rest = is_first && !(inertia * slipped > most);
-  const Scalar doubt =
-      was_at_rest || did_stick ? Scalar(0) : contact.friction * rounding_of_force(i);
+  const Scalar rounding = rounding_of_force(i);
+  const Scalar doubt = was_at_rest || did_stick ? Scalar(0) : contact.friction * rounding;
   // One that has slid would be drawn back to where the step began, against its springs: friction must bear that too, or the next
   // decision would let it go again (the trial force of Alart and Curnier 1991). Springs of a node that a body presses would be
   // drawn along with it.
@@ -204,13 +204,13 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   if (!is_pressed) {
     const Vector3<Scalar> free_slip =
         slip_of(contact, at_node(inertial_positions_, i), &Body::motion);
-    const bool is_pulled = (tendency - inertia * free_slip).norm() > Scalar(kSlack) * most;
+    const Scalar pull = (tendency - inertia * free_slip).norm();
+    const bool is_pulled = pull > Scalar(kSlack) * most + rounding;
     if (!is_pulled) farthest = std::max(farthest, free_slip.norm());
   }
   // Rounding of stiff springs' forces is larger than friction, and says nothing of all nodes together.
-  const Scalar together =
-      std::min(farthest, slip_against(inertia) +
-                             rounding_of_force(i) / std::max(inertia, Scalar(kLeastInertia)));
+  const Scalar together = std::min(
+      farthest, slip_against(inertia) + rounding / std::max(inertia, Scalar(kLeastInertia)));
   const bool is_foretold = is_first || did_stick || !(slipped > 0);
   const Scalar expected = is_foretold ? std::max(alone, together) : slipped;
   set_friction(contact, expected);

@@ -123,6 +123,22 @@ TEST(SlidingFriction, BrakesSheetsOfAnyStiffness) {
   }
 }
 
+// From rest: what rounding makes of stiff springs' forces is more than friction, and must not be taken for springs that hold the
+// nodes back. Such sheets stood still for the first steps.
+TEST(SlidingFriction, LetsStiffSheetsSlideFromTheFirstStepOn) {
+  constexpr double kFriction = 0.2;
+  constexpr double kTimeStep = 1.0 / 30;
+  const double along = kWeight * std::sin(0.45), down = kWeight * std::cos(0.45);
+  for (const double stiffness : {1e5, 2.5e5}) {
+    SlidingSheet<float> sheet(15, 0.5, 0.0625, stiffness, kFriction);
+    for (int i = 1; i <= 12; ++i) {
+      EXPECT_TRUE(sheet.step(kTimeStep, along, down));
+      const double exact = (along - kFriction * down) * kTimeStep * i;
+      EXPECT_NEAR(sheet.velocity_along(), exact, 2e-2) << stiffness << " N/m, step " << i;
+    }
+  }
+}
+
 // Stiff springs and long steps: the inertia of the whole is less than the rounding of the coarse matrix. Such sheets lost a tenth of
 // their friction in some steps and all of it in others, and turned, in steps that counted as solved.
 TEST(SlidingFriction, BrakesSheetsWhoseInertiaRoundingHides) {
