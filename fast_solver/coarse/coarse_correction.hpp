@@ -65,8 +65,9 @@ class CoarseCorrection {
   void factorize(const unsigned short* linear, float root_scale, std::span<const char> is_held,
                  std::span<const SlidingNode> sliding, float inertia_over_mass, WorkerTeam& team);
 
-  /// What factorize() was given moves across this normal as a whole without any strain, with this inertia [N/m]; 0: it does not.
-  /// Where springs are stiff single precision loses the inertia of that motion in the coarse matrix. It is solved for apart then.
+  /// Declares that all nodes can translate together across `normal` without strain, and their total `inertia` [N/m]; an inertia of
+  /// 0 declares that they cannot. The translation is solved for apart from the coarse matrix, because single precision loses its
+  /// inertia there beside stiff springs.
   void set_translation(float inertia, const Vector3<float>& normal) {
     translation_inertia_ = inertia;
     translation_normal_ = normal;

@@ -68,8 +68,8 @@ class StopCriterion {
     const double limited = std::min(kSlowest, shrinks);
     return gain * limited / (1 - limited);
   }
-  /// What the rest of the way along the last step gains as a step [J]. Where compressed springs take away the stiffness that the
-  /// linear system has, each iteration goes only the same part of the way that is left, in the same direction.
+  /// The energy that a step over the rest of the way along the last one would gain [J]. Compressed springs are softer than the
+  /// linear system, so that each iteration covers only the same fraction of the way that is left, in the same direction.
   [[nodiscard]] double ahead() const {
     const double left = std::clamp(gain_.slope_left, 0.0, kSlowest);
     return gain_.total * left * left / ((1 - left) * (1 - left));

@@ -46,7 +46,7 @@ class Pair {
   [[nodiscard]] double true_error() const {
     return root_mean_square(asked_.positions() - exact_.positions());
   }
-  /// What the default tolerance allows: a thousandth of the motion without springs (docs/implicit_step.md) [m].
+  /// The error that the default tolerance allows is a thousandth of the motion without springs (docs/implicit_step.md) [m].
   [[nodiscard]] double promised_error() const {
     return fast::SolverSettings{}.tolerance * motion_alone_;
   }
