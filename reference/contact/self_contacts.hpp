@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <weft/mesh/distance/continuous_distance.hpp>
 #include <weft/reference/contact/contact_points.hpp>
-#include <weft/reference/contact/distance/continuous_distance.hpp>
 #include <weft/reference/contact/search_budget.hpp>
 #include <weft/reference/contact/touches.hpp>
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <weft/mesh/distance/continuous_distance.hpp>
 #include <weft/reference/balance.hpp>
-#include <weft/reference/contact/distance/continuous_distance.hpp>
 #include <weft/validation/metrics/distance/self_intersection.hpp>
 
 #include "tests/reference/layer_runs.hpp"

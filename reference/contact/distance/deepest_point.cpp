@@ -1,6 +1,6 @@
 #include <weft/reference/contact/distance/deepest_point.hpp>
 
-#include <weft/reference/contact/distance/primitive_distance.hpp>
+#include <weft/mesh/distance/primitive_distance.hpp>
 
 namespace weft::reference {
 

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include <weft/core/error.hpp>
-#include <weft/reference/contact/distance/primitive_distance.hpp>
+#include <weft/mesh/distance/primitive_distance.hpp>
 
 namespace weft::reference {
 namespace {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 
-#include <weft/reference/contact/distance/primitive_distance.hpp>
+#include <weft/mesh/distance/primitive_distance.hpp>
 
-namespace weft::reference {
+namespace weft {
 
 enum class PairKind { kPointTriangle, kEdges };
 
@@ -22,4 +22,4 @@ enum class PairKind { kPointTriangle, kEdges };
                                                    const FourPoints& motion, double distance,
                                                    std::int64_t* num_distances = nullptr);
 
-}  // namespace weft::reference
+}  // namespace weft

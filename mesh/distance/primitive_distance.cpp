@@ -1,10 +1,10 @@
-#include <weft/reference/contact/distance/primitive_distance.hpp>
+#include <weft/mesh/distance/primitive_distance.hpp>
 
 #include <algorithm>
 
 #include <Eigen/Geometry>
 
-namespace weft::reference {
+namespace weft {
 namespace {
 
 /// Part of the way from a to b at which the line is nearest to a point, 0 to 1.
@@ -83,4 +83,4 @@ Nearest nearest_edges(const FourPoints& points) {
   return best;
 }
 
-}  // namespace weft::reference
+}  // namespace weft

@@ -1,9 +1,9 @@
-#include <weft/reference/contact/distance/continuous_distance.hpp>
+#include <weft/mesh/distance/continuous_distance.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-namespace weft::reference {
+namespace weft {
 
 Nearest nearest(PairKind kind, const FourPoints& points) {
   return kind == PairKind::kPointTriangle ? nearest_point_triangle(points) : nearest_edges(points);
@@ -34,4 +34,4 @@ std::optional<double> first_approach(PairKind kind, const FourPoints& start,
   return part;
 }
 
-}  // namespace weft::reference
+}  // namespace weft

@@ -6,7 +6,7 @@
 
 #include <weft/core/types.hpp>
 
-namespace weft::reference {
+namespace weft {
 
 /// Where two primitives of a cloth are nearest to each other. Points are four columns: a point and a
 /// triangle, or two edges. The separation is the weighted sum of the four points.
@@ -28,4 +28,4 @@ using FourPoints = Eigen::Matrix<double, 3, 4>;
 /// The edge of columns 0 and 1 against that of columns 2 and 3.
 [[nodiscard]] Nearest nearest_edges(const FourPoints& points);
 
-}  // namespace weft::reference
+}  // namespace weft
