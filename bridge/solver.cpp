@@ -301,7 +301,7 @@ void SoftBodySolver::set_cloth_contact(btSoftBody& body, const ClothContactSetti
   check_solver("soft body solver", body, *this);
   ClothContact contact(body, settings);
   auto entry = std::make_unique<ContactEntry>(
-      ContactEntry{&body, follow_life(body), std::move(contact), false, false, {}});
+      ContactEntry{&body, follow_life(body), std::move(contact), false, false, false, false, {}});
   entry->life->solver = this;
   auto& list = attachments_->contacts;
   std::erase_if(list, [&](const auto& known) { return known->is_of(body); });
@@ -417,7 +417,7 @@ ContactEntry& SoftBodySolver::contact_by_flag(btSoftBody& body) {
   ContactEntry* entry = find_contact_entry(body);
   if (!entry) {
     attachments_->contacts.push_back(std::make_unique<ContactEntry>(
-        ContactEntry{&body, follow_life(body), ClothContact(body, settings), true, true, {}}));
+        ContactEntry{&body, follow_life(body), ClothContact(body, settings), true, false, false, true, {}}));
     return *attachments_->contacts.back();
   }
   if (!entry->contact.settings().with_others) {

@@ -118,11 +118,17 @@ struct ContactEntry {
   std::shared_ptr<BodyLife> life;
   ClothContact contact;
   bool was_in_world = false;
+  bool is_in_contact = false;     ///< with itself or with other cloth, in this step
+  bool was_in_contact = false;    ///< in the last one
   bool is_by_flag = false;        ///< with others only where Bullet's VF_SS asks a fast body for it
   std::vector<btVector3> solved;  ///< [m] positions of the nodes when the body itself was solved
 
   [[nodiscard]] bool is_of(const btSoftBody& other) const {
     return body == &other && life->is_alive;
+  }
+  void begin_step() {
+    contact.begin_step();
+    was_in_contact = std::exchange(is_in_contact, false);
   }
   void remember_solution();
   /// What moved nodes afterwards, the contacts of other bodies, becomes part of their velocities.

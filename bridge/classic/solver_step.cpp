@@ -3,6 +3,7 @@
 #include <weft/bridge/solver.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -25,7 +26,7 @@ void SoftBodySolver::predictMotion(btScalar time_step) {
   time_step_ = time_step;
   attachments_->note_order();
   attachments_->hulls.begin_step();
-  for (const auto& entry : attachments_->contacts) entry->contact.begin_step();
+  for (const auto& entry : attachments_->contacts) entry->begin_step();
   attachments_->pairs.clear();
   for (const auto& attachment : attachments_->list) {
     attachment->concave_met.clear();
@@ -109,14 +110,19 @@ void SoftBodySolver::solve_fast_bodies() {
   solve_alone(time_step_, m_softBodySet, attachments_->contacts, bodies, attachments_->asked);
   Attachment* const single = bodies.size() == 1 ? bodies[0] : nullptr;
   std::optional<fast::WorkerTeam::Scope> threads;
-  if (single) single->fast->hold_threads(threads);  // to call for them takes longer than most loops
+  // To call for them takes longer than most loops; but cloth on cloth has threads of its own.
+  const bool may_meet = may_meet_cloth();
+  if (single && !may_meet) single->fast->hold_threads(threads);
   in_parallel(bodies, [](Attachment& one) { one.fast->prepare(*one.body); });
+  for (const Attachment* one : bodies) {
+    ClothContact* const contact = find_contact(*one->body);
+    if (contact && contact->settings().with_itself)
+      attachments_->pairs.add_self(*one->body, *contact);
+  }
   detect_contacts(time_step_);
   solve_in_substeps();
   if (bodies.empty()) return;
   solve_listed_bodies(time_step_);
-  const bool may_meet = may_meet_cloth();
-  if (may_meet) threads.reset();  // cloth on cloth takes long, and one thread
   attachments_->share_cloth_impulses(time_step_);
   apply_listed_solutions(time_step_, may_meet);
   const bool is_final = single && !may_meet && single->limits.is_empty() &&
@@ -134,13 +140,29 @@ void SoftBodySolver::detect_contacts(btScalar time_step) {
   });
 }
 
-// Bodies that touch or hang on the same dynamic bodies have the same substeps. A body with substeps leaves the list.
+// Layers that lie on each other give way only after springs are solved for, and what falls by g h^2 in between stretches springs. That
+// energy grows with h^4: sheets on each other throw each other about in steps of 1/60 s, and lie in those of 1/240 s.
+int SoftBodySolver::num_layer_substeps(const Attachment& one) const {
+  constexpr btScalar kLongest = btScalar(1.0 / 240);  // [s]
+  constexpr btScalar kRounding = btScalar(1e-3);
+  const ContactEntry* const entry = find_contact_entry(*one.body);
+  if (entry == nullptr || !entry->was_in_contact) return 1;
+  return std::max(1, static_cast<int>(std::ceil(time_step_ / kLongest - kRounding)));
+}
+
+// Bodies that touch or hang on the same dynamic bodies, or that may meet each other, have the same substeps. A body with substeps
+// leaves the list.
 void SoftBodySolver::solve_in_substeps() {
   std::vector<Attachment*>& bodies = attachments_->stepped;
-  if (may_meet_cloth()) return;
-  const auto wants_substeps = [this](const Attachment* one) {
-    return one->fast->num_substeps(*one->body, time_step_) > 1;
+  // Contacts with bodies of other solvers are those of the whole step.
+  const bool meets_others = std::any_of(bodies.begin(), bodies.end(), [](const Attachment* one) {
+    return one->body->m_scontacts.size() > 0;
+  });
+  if (meets_others) return;
+  const auto count = [this](const Attachment* one) {
+    return std::max(one->fast->num_substeps(*one->body, time_step_), num_layer_substeps(*one));
   };
+  const auto wants_substeps = [&](const Attachment* one) { return count(one) > 1; };
   while (true) {
     const auto first = std::find_if(bodies.begin(), bodies.end(), wants_substeps);
     if (first == bodies.end()) return;
@@ -148,8 +170,7 @@ void SoftBodySolver::solve_in_substeps() {
     std::vector<MovableObject> reached;
     int num_substeps = 1;
     for (std::size_t g = 0; g < group.size(); ++g) {
-      num_substeps =
-          std::max(num_substeps, group[g]->fast->num_substeps(*group[g]->body, time_step_));
+      num_substeps = std::max(num_substeps, count(group[g]));
       group[g]->fast->list_dynamic(*group[g]->body, reached);
       for (Attachment* other : bodies) {
         if (std::find(group.begin(), group.end(), other) != group.end()) continue;
@@ -158,7 +179,8 @@ void SoftBodySolver::solve_in_substeps() {
         const bool shares = std::any_of(of_other.begin(), of_other.end(), [&](const auto& one) {
           return std::find(reached.begin(), reached.end(), one) != reached.end();
         });
-        if (shares) group.push_back(other);
+        if (shares || attachments_->pairs.are_pair(*group[g]->body, *other->body))
+          group.push_back(other);
       }
     }
     std::vector<Attachment*> rest;
@@ -177,7 +199,12 @@ void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_
     num_explicit = std::max(num_explicit, one->fast->num_explicit_substeps(time_step_));
     last_num_implicit = std::max(last_num_implicit, one->fast->last_num_substeps());
   }
-  const SubstepPlan plan = plan_substeps(num_implicit, last_num_implicit, num_explicit);
+  const bool has_layers = std::any_of(group.begin(), group.end(), [this](const Attachment* one) {
+    return find_contact_entry(*one->body) != nullptr;
+  });
+  const SubstepPlan plan = has_layers
+                               ? SubstepPlan{num_implicit, false, num_implicit}
+                               : plan_substeps(num_implicit, last_num_implicit, num_explicit);
   const int num_substeps = plan.count;
   const TraceScope trace("step in parts");
   const btScalar substep_time = time_step_ / static_cast<btScalar>(num_substeps);
@@ -192,6 +219,11 @@ void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_
   }
   std::vector<Attachment*>& bodies = attachments_->stepped;
   bodies = group;
+  const auto is_in_group = [&](const btSoftBody& body) {
+    return std::any_of(group.begin(), group.end(),
+                       [&](const Attachment* one) { return one->body == &body; });
+  };
+  ClothPairs other_pairs = attachments_->pairs.take_apart(is_in_group);
   in_parallel(bodies, [&](Attachment& one) { one.fast->begin_substeps(*one.body, time_step_); });
   for (int substep = 0; substep < num_substeps && !bodies.empty(); ++substep) {
     in_parallel(bodies, [&](Attachment& one) {
@@ -199,11 +231,14 @@ void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_
     });
     rigid.begin_substep();
     detect_contacts(substep_time);
+    for (Attachment* one : bodies) one->body->m_scontacts.resizeNoInitialize(0);
     solve_listed_bodies(substep_time);
-    apply_listed_solutions(substep_time, false);
+    attachments_->share_cloth_impulses(substep_time);
+    apply_listed_solutions(substep_time, has_layers);
     rigid.end_substep();
   }
   rigid.finish();
+  attachments_->pairs.take_back(std::move(other_pairs));
   in_parallel(bodies, [&](Attachment& one) { one.fast->end_substeps(*one.body, time_step_); });
 }
 
@@ -250,17 +285,19 @@ void SoftBodySolver::apply_listed_solutions(btScalar time_step, bool may_meet) {
           [&](Attachment& one) { one.fast->apply_solution(*one.body, time_step, may_meet); });
   // Where springs have led the nodes, not where they would fly without them: in steps of 1/100 s layers that were found there
   // threw each other about.
-  in_parallel(bodies, [&](Attachment& one) {
-    if (ClothContact* contact = find_contact(*one.body)) {
-      contact->add_self_contacts(*one.body, time_step);
-    }
-  });
   attachments_->pairs.add_contacts(time_step);
   const bool meet = std::any_of(bodies.begin(), bodies.end(), [](const Attachment* one) {
     return one->body->m_scontacts.size() > 0;
   });
   for (int sweep = 0; meet && sweep < FastBody::kClothContactSweeps; ++sweep) {
     in_turn(bodies, [](Attachment& one) { one.fast->project_cloth_contacts(*one.body); });
+  }
+  for (const Attachment* one : bodies) {
+    if (ContactEntry* const entry = find_contact_entry(*one->body))
+      entry->is_in_contact = entry->is_in_contact || one->body->m_scontacts.size() > 0;
+  }
+  if (may_meet && !attachments_->pairs.empty() && !attachments_->pairs.keep_apart()) {
+    for (const Attachment* one : bodies) one->fast->note_unsolved();
   }
   in_parallel(bodies, [&](Attachment& one) { one.fast->end_solve(*one.body, time_step); });
 }

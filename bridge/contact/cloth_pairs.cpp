@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <weft/core/parallel/parallel_for.hpp>
+
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
@@ -22,6 +24,34 @@ void ClothPairs::add(btSoftBody& body, ClothContact& contact, btSoftBody& other,
                      ClothContact& other_contact) {
   const std::size_t first = member(body, contact);
   pairs_.emplace_back(first, member(other, other_contact));
+}
+
+bool ClothPairs::are_pair(const btSoftBody& one, const btSoftBody& other) const {
+  return std::any_of(pairs_.begin(), pairs_.end(), [&](const auto& pair) {
+    const btSoftBody* const first = members_[pair.first].body;
+    const btSoftBody* const second = members_[pair.second].body;
+    return (first == &one && second == &other) || (first == &other && second == &one);
+  });
+}
+
+ClothPairs ClothPairs::take_apart(const std::function<bool(const btSoftBody&)>& is_in) {
+  ClothPairs inside;
+  ClothPairs outside;
+  for (const auto& [first, second] : pairs_) {
+    const Member& a = members_[first];
+    const Member& b = members_[second];
+    ClothPairs& part = is_in(*a.body) && is_in(*b.body) ? inside : outside;
+    part.add(*a.body, *a.contact, *b.body, *b.contact);
+  }
+  // The surfaces that it knows stay here.
+  members_ = std::move(inside.members_);
+  pairs_ = std::move(inside.pairs_);
+  return outside;
+}
+
+void ClothPairs::take_back(ClothPairs&& pairs) {
+  members_ = std::move(pairs.members_);
+  pairs_ = std::move(pairs.pairs_);
 }
 
 void ClothPairs::drop_stopped(const std::function<bool(const btSoftBody&)>& has_stopped) {
@@ -55,12 +85,28 @@ bool ClothPairs::find_contacts(btScalar time_step) {
 
 void ClothPairs::add_contacts(btScalar time_step) {
   for (const Member& one : members_) one.contact->begin_step();  // nodes have moved
+  parallel_for(pairs_.size(), [&](std::size_t p) {
+    const Member& one = members_[pairs_[p].first];
+    if (pairs_[p].first == pairs_[p].second) one.contact->add_self_contacts(*one.body, time_step);
+  });
   for (const auto& [first, second] : pairs_) {
+    if (first == second) continue;
     const Member& a = members_[first];
     const Member& b = members_[second];
     a.contact->add_contacts(*a.body, *b.body, *b.contact, time_step);
     b.contact->add_contacts(*b.body, *a.body, *a.contact, time_step);
   }
+}
+
+bool ClothPairs::keep_apart() {
+  impacts_.clear();
+  for (const Member& one : members_) {
+    const ClothContactSettings& settings = one.contact->settings();
+    impacts_.add({one.body, static_cast<btScalar>(settings.self_thickness),
+                  static_cast<btScalar>(settings.margin)});
+  }
+  for (const auto& [first, second] : pairs_) impacts_.add_pair(first, second);
+  return impacts_.resolve().is_clear;
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -8,19 +8,27 @@
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/contact/cloth_contact.hpp>
+#include <weft/bridge/contact/layer_impacts.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// Fast bodies that are near each other in a step. Their contacts are found where springs have led the nodes: where they would
-/// fly without springs, stiff bodies that lie on each other have other neighbors than they end the step with.
+/// Fast bodies that may meet each other or themselves in a step. Their contacts are found where springs have led the nodes: where
+/// they would fly without springs, stiff bodies that lie on each other have other neighbors than they end the step with.
 class ClothPairs {
  public:
   /// In each step anew.
   void clear();
   /// Body and contact must live until the end of the step, and are in no pair but by these.
   void add(btSoftBody& body, ClothContact& contact, btSoftBody& other, ClothContact& other_contact);
+  /// One that meets itself.
+  void add_self(btSoftBody& body, ClothContact& contact) { add(body, contact, body, contact); }
   [[nodiscard]] bool empty() const { return pairs_.empty(); }
+  [[nodiscard]] bool are_pair(const btSoftBody& one, const btSoftBody& other) const;
+  /// Keeps pairs of which both bodies are in, and returns the others.
+  [[nodiscard]] ClothPairs take_apart(const std::function<bool(const btSoftBody&)>& is_in);
+  /// Has these pairs from now on.
+  void take_back(ClothPairs&& pairs);
   /// Forgets pairs of which a body has stopped in this step.
   void drop_stopped(const std::function<bool(const btSoftBody&)>& has_stopped);
 
@@ -31,6 +39,9 @@ class ClothPairs {
   bool find_contacts(btScalar time_step);
   /// The same, beside what is there.
   void add_contacts(btScalar time_step);
+  /// Keeps layers from passing through each other between m_q and m_x, the last thing that moves nodes. False if that did not
+  /// succeed.
+  bool keep_apart();
 
  private:
   struct Member {
@@ -41,7 +52,8 @@ class ClothPairs {
   [[nodiscard]] std::size_t member(btSoftBody& body, ClothContact& contact);
 
   std::vector<Member> members_;
-  std::vector<std::pair<std::size_t, std::size_t>> pairs_;
+  std::vector<std::pair<std::size_t, std::size_t>> pairs_;  ///< one and itself: it meets itself
+  LayerImpacts impacts_;
 };
 
 }  // namespace WEFT_BULLET_PRECISION

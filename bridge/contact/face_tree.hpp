@@ -83,6 +83,11 @@ class FaceTree {
     return (static_cast<int>(of_b >= least) & static_cast<int>(of_c >= least) &
             static_cast<int>(1 - of_b - of_c >= least)) != 0;
   }
+  /// Faces in groups of neighbors.
+  [[nodiscard]] std::size_t num_leaves() const { return leaves_.size(); }
+  [[nodiscard]] std::span<const int> faces_of_leaf(std::size_t leaf) const {
+    return std::span(leaves_[leaf].faces).first(leaves_[leaf].size);
+  }
   /// The face of a slot, which is an index into the tree.
   [[nodiscard]] int face(int slot) const {
     const auto index = static_cast<std::size_t>(slot);

@@ -18,7 +18,7 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-constexpr int kVersion = 3;
+constexpr int kVersion = 4;
 
 /// FNV-1a, to tell whether a body has the laws that it had.
 class Fingerprint {
@@ -212,6 +212,7 @@ void WorldState::serialize_contact(StateArchive& archive, btSoftBody& body) {
   if (!entry && !is_by_flag) archive.refuse("the body had contact with cloth, expected none");
   if (!entry) entry = &solver_->contact_by_flag(body);
   archive.value(entry->was_in_world);
+  archive.value(entry->is_in_contact);
   entry->contact.serialize(archive, body);
 }
 
