@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include <weft/bridge/contact/surface/outward_faces.hpp>
 #include <weft/core/error.hpp>
@@ -165,6 +166,9 @@ ClothContact::ClothContact(const btSoftBody& body, const ClothContactSettings& s
 void ClothContact::note_near(const btSoftBody& body) {
   const auto thickness = static_cast<btScalar>(settings_.self_thickness);
   refit(body);
+  note_leaves(body);
+  flat_.find_neighbors(body, tree_, thickness);
+  flat_.refit(body, tree_);
   near_at_rest_.assign(static_cast<std::size_t>(body.m_nodes.size()), {});
   num_near_faces_ = body.m_faces.size();
   for_candidates(body, thickness, *this, [&](int i, std::span<const int> slots) {
@@ -175,6 +179,21 @@ void ClothContact::note_near(const btSoftBody& body) {
       near_at_rest_[static_cast<std::size_t>(i)].push_back(slot);
     }
   });
+}
+
+void ClothContact::note_leaves(const btSoftBody& body) {
+  nodes_of_leaf_.assign(tree_.num_leaves(), {});
+  std::vector<char> is_known(static_cast<std::size_t>(body.m_nodes.size()), 0);
+  for (std::size_t leaf = 0; leaf < nodes_of_leaf_.size(); ++leaf) {
+    for (const int f : tree_.faces_of_leaf(leaf)) {
+      for (const Node* const node : body.m_faces[f].m_n) {
+        const auto number = static_cast<std::size_t>(node - &body.m_nodes[0]);
+        if (std::exchange(is_known[number], 1) == 0)
+          nodes_of_leaf_[leaf].push_back(static_cast<int>(number));
+      }
+    }
+    std::sort(nodes_of_leaf_[leaf].begin(), nodes_of_leaf_[leaf].end());
+  }
 }
 
 /// use(node, slots of faces that it may meet) for all nodes, in the order of their groups.
@@ -195,17 +214,36 @@ void ClothContact::for_candidates(const btSoftBody& body, btScalar reach, const 
   }
 }
 
+void ClothContact::refit_if_moved(const btSoftBody& body) {
+  bool is_seen =
+      is_tree_of_this_step_ && seen_.size() == static_cast<std::size_t>(body.m_nodes.size());
+  for (int i = 0; is_seen && i < body.m_nodes.size(); ++i) {
+    const auto& [start, end] = seen_[static_cast<std::size_t>(i)];
+    is_seen = body.m_nodes[i].m_x == end && body.m_nodes[i].m_q == start;
+  }
+  if (!is_seen) refit(body);
+}
+
 void ClothContact::refit(const btSoftBody& body) {
   const auto num_faces = static_cast<std::size_t>(body.m_faces.size());
   if (!outward_.empty() && outward_.size() != num_faces) outward_ = outward_faces(body);
   motion_ = mean_motion(body);
   tree_.refit(body, motion_);
+  flat_.refit(body, tree_);
+  seen_.resize(static_cast<std::size_t>(body.m_nodes.size()));
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    const Node& node = body.m_nodes[static_cast<int>(i)];
+    seen_[i] = {node.m_q, node.m_x};
+  }
+  is_known_apart_ = false;
   is_tree_of_this_step_ = true;
 }
 
 // What was near the whole node at rest is near both of its halves.
 void ClothContact::add_copies(const btSoftBody& body, const std::vector<int>& origins) {
   outward_ = outward_faces(body);
+  flat_.forget();
+  nodes_of_leaf_.clear();
   if (!settings_.with_itself) return;
   for (const int origin : origins) {
     near_at_rest_.push_back(std::vector<int>(near_at_rest_.at(static_cast<std::size_t>(origin))));
@@ -221,17 +259,42 @@ void ClothContact::add_self_contacts(btSoftBody& body, btScalar time_step) {
   const bool is_another = near_at_rest_.size() != static_cast<std::size_t>(body.m_nodes.size()) ||
                           num_near_faces_ != body.m_faces.size();
   if (is_another) note_near(body);
-  refit(body);
-  for_candidates(body, kReach * rules.thickness, *this, [&](int i, std::span<const int> slots) {
-    const std::vector<int>& near = near_at_rest_[static_cast<std::size_t>(i)];
-    auto next = near.begin();  // both lists ascend
-    for (const int slot : slots) {
-      while (next != near.end() && *next < slot) ++next;
-      if (next != near.end() && *next == slot) continue;
-      if (!tree_.may_be_over(slot, body.m_nodes[i].m_x, kOverlap)) continue;
-      try_contact(body, body.m_nodes[i], body.m_faces[tree_.face(slot)], rules);
-    }
-  });
+  refit_if_moved(body);
+  if (is_known_apart_) return;
+  const int num_before = body.m_scontacts.size();
+  if (nodes_of_leaf_.size() != tree_.num_leaves()) note_leaves(body);  // it has torn
+  const auto box_of = [&](int i) {
+    return MotionBox::of(body.m_nodes[i], motion_).grown(kReach * rules.thickness);
+  };
+  is_flat_.assign(tree_.num_leaves(), 0);
+  for (std::size_t leaf = 0; leaf < tree_.num_leaves(); ++leaf) {
+    MotionBox all = MotionBox::nowhere();
+    for (const int i : nodes_of_leaf_[leaf]) all.include(box_of(i));
+    flat_.mark(leaf, is_flat_);
+    tree_.find(all, nearby_, is_flat_);
+    flat_.unmark(leaf, is_flat_);
+    if (nearby_.leaves.empty()) continue;
+    for (const int i : nodes_of_leaf_[leaf])
+      add_self_contacts(body, i, tree_.collect(box_of(i), nearby_), rules);
+  }
+  is_known_apart_ = body.m_scontacts.size() == num_before;
+}
+
+void ClothContact::add_self_contacts(btSoftBody& body, int node, std::span<const int> slots,
+                                     const ContactRules& rules) const {
+  const std::vector<int>& near = near_at_rest_[static_cast<std::size_t>(node)];
+  auto next = near.begin();  // both lists ascend
+  for (const int slot : slots) {
+    while (next != near.end() && *next < slot) ++next;
+    if (next != near.end() && *next == slot) continue;
+    if (!tree_.may_be_over(slot, body.m_nodes[node].m_x, kOverlap)) continue;
+    try_contact(body, body.m_nodes[node], body.m_faces[tree_.face(slot)], rules);
+  }
+}
+
+ClothContact::Faces ClothContact::faces(const btSoftBody& body) {
+  refit_if_moved(body);
+  return {tree_, flat_, motion_};
 }
 
 // The height of a point over the plane of a face of the body [m], negative on the inside.
@@ -291,7 +354,7 @@ void ClothContact::add_contacts(btSoftBody& body, btSoftBody& other, ClothContac
   const ContactRules rules{static_cast<btScalar>(settings_.margin + theirs.margin),
                            static_cast<btScalar>(settings_.friction * theirs.friction), time_step,
                            body.m_cfg.piterations};
-  if (!other_contact.is_tree_of_this_step_) other_contact.refit(other);
+  other_contact.refit_if_moved(other);
   for_candidates(
       body, kReach * rules.thickness, other_contact, [&](int i, std::span<const int> slots) {
         if (!other_contact.outward_.empty()) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -8,6 +9,7 @@
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/contact/face_tree.hpp>
+#include <weft/bridge/contact/flat_patches.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -63,13 +65,25 @@ class ClothContact {
   void add_contacts(btSoftBody& body, btSoftBody& other, ClothContact& other_contact,
                     btScalar time_step);
 
+  /// The faces, where the step from m_q to m_x leads them.
+  struct Faces {
+    const FaceTree& tree;
+    const FlatPatches& flat;  ///< none of a body that does not meet itself
+    btVector3 motion;         ///< [m] mean of the nodes', which the tree's boxes are without
+  };
+  [[nodiscard]] Faces faces(const btSoftBody& body);
+
   /// How nodes and faces are sorted, for snapshots.
   void serialize(StateArchive& archive, const btSoftBody& body);
 
  private:
   void refit(const btSoftBody& body);
+  void refit_if_moved(const btSoftBody& body);
   /// Which faces are closer to a node than the thickness, and its own: they are never in contact with it.
   void note_near(const btSoftBody& body);
+  void note_leaves(const btSoftBody& body);
+  void add_self_contacts(btSoftBody& body, int node, std::span<const int> slots,
+                         const ContactRules& rules) const;
   template <class Use>
   void for_candidates(const btSoftBody& body, btScalar reach, const ClothContact& faces,
                       const Use& use);
@@ -85,8 +99,13 @@ class ClothContact {
   ClothContactSettings settings_;
   std::vector<signed char> outward_;  ///< outward_faces() of the body
   FaceTree tree_;
+  FlatPatches flat_;
+  std::vector<std::vector<int>> nodes_of_leaf_;  ///< each node once
+  std::vector<char> is_flat_;                    ///< leaves, of those that are not looked at
   btVector3 motion_;  ///< [m] mean of the body's nodes, of the step that the tree is of
   bool is_tree_of_this_step_ = false;
+  std::vector<std::array<btVector3, 2>> seen_;  ///< m_q and m_x of the nodes that the tree is of
+  bool is_known_apart_ = false;                 ///< it meets itself nowhere, there
   NodeGroups groups_;
   FaceTree::Nearby nearby_;
   std::vector<std::vector<int>> near_at_rest_;  ///< per node: slots of the tree, ascending

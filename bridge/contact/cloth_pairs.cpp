@@ -84,7 +84,6 @@ bool ClothPairs::find_contacts(btScalar time_step) {
 }
 
 void ClothPairs::add_contacts(btScalar time_step) {
-  for (const Member& one : members_) one.contact->begin_step();  // nodes have moved
   parallel_for(pairs_.size(), [&](std::size_t p) {
     const Member& one = members_[pairs_[p].first];
     if (pairs_[p].first == pairs_[p].second) one.contact->add_self_contacts(*one.body, time_step);
@@ -100,11 +99,7 @@ void ClothPairs::add_contacts(btScalar time_step) {
 
 bool ClothPairs::keep_apart() {
   impacts_.clear();
-  for (const Member& one : members_) {
-    const ClothContactSettings& settings = one.contact->settings();
-    impacts_.add({one.body, static_cast<btScalar>(settings.self_thickness),
-                  static_cast<btScalar>(settings.margin)});
-  }
+  for (const Member& one : members_) impacts_.add({one.body, one.contact});
   for (const auto& [first, second] : pairs_) impacts_.add_pair(first, second);
   return impacts_.resolve().is_clear;
 }

@@ -199,7 +199,8 @@ FaceTree::Weights FaceTree::weights_of(const btSoftBody::Face& face) {
   return {a, btCross(ac, normal) * scale, btCross(normal, ab) * scale};
 }
 
-void FaceTree::find(const MotionBox& box, Nearby& nearby) const {
+void FaceTree::find(const MotionBox& box, Nearby& nearby,
+                    const std::vector<char>& is_left_out) const {
   nearby.leaves.clear();
   for (auto* side : {&nearby.low, &nearby.high}) {
     for (std::vector<btScalar>& numbers : *side) numbers.clear();
@@ -215,6 +216,7 @@ void FaceTree::find(const MotionBox& box, Nearby& nearby) const {
       open[num_open++] = 2 * b;
       continue;
     }
+    if (!is_left_out.empty() && is_left_out[b - leaves_.size()] != 0) continue;
     nearby.leaves.push_back(static_cast<int>(b - leaves_.size()));
     for (std::size_t k = 0; k < 3; ++k) nearby.low[k].push_back(boxes_[b].low[k]);
     for (std::size_t k = 0; k < 3; ++k) nearby.high[k].push_back(boxes_[b].high[k]);

@@ -68,8 +68,8 @@ class FaceTree {
   /// Boxes from m_q + shift to m_x, shift [m] being what the observer moves in the step. Allocates
   /// memory only if the number of faces is another.
   void refit(const btSoftBody& body, const btVector3& shift);
-  /// The leaves whose boxes meet the box.
-  void find(const MotionBox& box, Nearby& nearby) const;
+  /// The leaves whose boxes meet the box, but for those that are left out; empty: none is.
+  void find(const MotionBox& box, Nearby& nearby, const std::vector<char>& is_left_out = {}) const;
   /// Slots, ascending, of the faces in the leaves found whose boxes meet the box.
   [[nodiscard]] std::span<const int> collect(const MotionBox& box, Nearby& nearby) const;
   /// False: the point lies beside the face of a slot by more than this share of it [-]. Where a cloth lies smooth, that holds of

@@ -32,12 +32,6 @@ std::array<int, 2> sorted(int a, int b) {
   return a < b ? std::array<int, 2>{a, b} : std::array<int, 2>{b, a};
 }
 
-btVector3 mean_way(const btSoftBody& body) {
-  btVector3 sum(0, 0, 0);
-  for (int i = 0; i < body.m_nodes.size(); ++i) sum += body.m_nodes[i].m_x - body.m_nodes[i].m_q;
-  return sum / static_cast<btScalar>(std::max(1, body.m_nodes.size()));
-}
-
 template <std::size_t kCount>
 MotionBox around(const std::array<int, kCount>& nodes, const std::vector<MotionBox>& boxes) {
   MotionBox all = boxes[static_cast<std::size_t>(nodes[0])];
@@ -160,14 +154,12 @@ LayerImpacts::Outcome LayerImpacts::resolve() {
   return outcome;
 }
 
-void LayerImpacts::refit(std::size_t layer) {
+void LayerImpacts::find_boxes(std::size_t layer) {
   const btSoftBody& body = *layers_[layer].body;
   Surface& surface = surfaces_[layer];
-  surface.motion = mean_way(body);
-  surface.tree.refit(body, surface.motion);
   surface.boxes.resize(static_cast<std::size_t>(body.m_nodes.size()));
   for (std::size_t i = 0; i < surface.boxes.size(); ++i)
-    surface.boxes[i] = MotionBox::of(body.m_nodes[static_cast<int>(i)], surface.motion);
+    surface.boxes[i] = MotionBox::of(body.m_nodes[static_cast<int>(i)], faces_[layer].motion);
   surface.is_changed.resize(surface.faces.size());
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
     const auto& face = surface.faces[f];
@@ -180,7 +172,7 @@ void LayerImpacts::refit(std::size_t layer) {
 void LayerImpacts::list_searches() {
   searches_.clear();
   for (const auto& [one, other] : pairs_) {
-    const std::size_t count = surfaces_[one].tree.num_leaves();
+    const std::size_t count = faces_[one].tree.num_leaves();
     for (std::size_t leaf = 0; leaf < count; leaf += kLeavesTogether)
       searches_.push_back({one, other, leaf, std::min(count, leaf + kLeavesTogether)});
   }
@@ -188,7 +180,9 @@ void LayerImpacts::list_searches() {
 }
 
 bool LayerImpacts::find_impacts() {
-  parallel_for(layers_.size(), [&](std::size_t l) { refit(l); });
+  faces_.clear();
+  for (const Layer& layer : layers_) faces_.push_back(layer.contact->faces(*layer.body));
+  parallel_for(layers_.size(), [&](std::size_t l) { find_boxes(l); });
   list_searches();
   parallel_for(searches_.size(), [&](std::size_t s) {
     found_[s].impacts.clear();
@@ -218,9 +212,9 @@ class LayerImpacts::FacePair {
         their_first_(impacts.first_nodes_[search.other]),
         is_self_(search.one == search.other),
         found_(found) {
-    const Layer& one = impacts.layers_[search.one];
-    const Layer& other = impacts.layers_[search.other];
-    thickness_ = static_cast<double>(is_self_ ? one.self_thickness : one.margin + other.margin);
+    const ClothContactSettings& one = impacts.layers_[search.one].contact->settings();
+    const ClothContactSettings& other = impacts.layers_[search.other].contact->settings();
+    thickness_ = is_self_ ? one.self_thickness : one.margin + other.margin;
     reach_ = static_cast<btScalar>(kNearestPart * thickness_);
   }
   [[nodiscard]] btScalar reach() const { return reach_; }
@@ -276,34 +270,39 @@ class LayerImpacts::FacePair {
 void LayerImpacts::search(const Search& what, Found& found) const {
   const Surface& mine = surfaces_[what.one];
   const Surface& theirs = surfaces_[what.other];
+  const FaceTree& my_tree = faces_[what.one].tree;
+  const FaceTree& their_tree = faces_[what.other].tree;
   const FacePair pair(*this, what, found);
   const bool is_self = what.one == what.other;
   // The other's motion is taken away from both.
   const btSoftBody& body = *layers_[what.one].body;
   found.boxes.resize(mine.boxes.size());
+  found.is_flat.assign(is_self ? my_tree.num_leaves() : 0, 0);
   std::int64_t num_near = 0;
   std::int64_t num_faces = FaceTree::kWidth;
   found.num_distances = 0;
   for (std::size_t leaf = what.first_leaf; leaf < what.last_leaf; ++leaf) {
     MotionBox all = MotionBox::nowhere();
-    for (const int f : mine.tree.faces_of_leaf(leaf)) {
+    for (const int f : my_tree.faces_of_leaf(leaf)) {
       for (const int node : mine.faces[static_cast<std::size_t>(f)]) {
         MotionBox& box = found.boxes[static_cast<std::size_t>(node)];
         box = is_self ? mine.boxes[static_cast<std::size_t>(node)]
-                      : MotionBox::of(body.m_nodes[node], theirs.motion);
+                      : MotionBox::of(body.m_nodes[node], faces_[what.other].motion);
         all.include(box);
       }
     }
-    theirs.tree.find(all.grown(pair.reach()), found.nearby);
+    if (is_self) faces_[what.one].flat.mark(leaf, found.is_flat);
+    their_tree.find(all.grown(pair.reach()), found.nearby, found.is_flat);
+    if (is_self) faces_[what.one].flat.unmark(leaf, found.is_flat);
     if (found.nearby.leaves.empty()) continue;
-    for (const int f : mine.tree.faces_of_leaf(leaf)) {
+    for (const int f : my_tree.faces_of_leaf(leaf)) {
       const auto& face = mine.faces[static_cast<std::size_t>(f)];
       const bool is_changed = mine.is_changed[static_cast<std::size_t>(f)] != 0;
       const MotionBox box = around(face, found.boxes).grown(pair.reach());
-      const std::span<const int> slots = theirs.tree.collect(box, found.nearby);
+      const std::span<const int> slots = their_tree.collect(box, found.nearby);
       num_near += std::ssize(slots);
       for (const int slot : slots) {
-        const int g = theirs.tree.face(slot);
+        const int g = their_tree.face(slot);
         const bool is_known = !is_changed && theirs.is_changed[static_cast<std::size_t>(g)] == 0;
         if (!is_known && !(is_self && f == g)) pair.look(f, g);
       }

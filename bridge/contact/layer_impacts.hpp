@@ -11,6 +11,7 @@
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/bullet/precision.hpp>
+#include <weft/bridge/contact/cloth_contact.hpp>
 #include <weft/bridge/contact/face_tree.hpp>
 #include <weft/core/types.hpp>
 #include <weft/mesh/distance/continuous_distance.hpp>
@@ -28,11 +29,10 @@ inline namespace WEFT_BULLET_PRECISION {
 /// pass each other no more, in either direction. Kinetic energy never grows.
 class LayerImpacts {
  public:
-  /// A body, which must live until clear().
+  /// A body and its contact, which knows its faces and the distances that it keeps; both must live until clear().
   struct Layer {
     btSoftBody* body;
-    btScalar self_thickness;  ///< [m] distance that it keeps from itself
-    btScalar margin;          ///< [m] its share of the distance from others
+    ClothContact* contact;
   };
   /// What a call of resolve() has done.
   struct Outcome {
@@ -50,21 +50,19 @@ class LayerImpacts {
   Outcome resolve();
 
  private:
-  /// What a body's faces are made of, and their tree. Each node and each edge is of one face, so that among faces that are near each
+  /// What a body's faces are made of. Each node and each edge is of one face, so that among faces that are near each
   /// other each pair of these is found once.
   struct Surface {
     std::vector<std::array<int, 3>> faces;
     std::vector<std::array<int, 2>> edges;
     std::vector<std::vector<int>> nodes_of_face, edges_of_face;
-    FaceTree tree;
-    btVector3 motion{0, 0, 0};     ///< [m] mean of its nodes' in the step
-    std::vector<MotionBox> boxes;  ///< of its nodes, without that motion
+    std::vector<MotionBox> boxes;  ///< of its nodes, without their mean motion
     std::vector<char> is_changed;  ///< faces with such nodes
   };
   /// Some faces of a layer, and those of another one, or its own, that are near them.
   struct Search {
     std::size_t one, other;
-    std::size_t first_leaf, last_leaf;  ///< of the one's tree
+    std::size_t first_leaf, last_leaf;  ///< of the one's tree of faces
   };
   /// Parts that would come too near: four nodes of all layers together, whose weighted sum is what parts them.
   struct Impact {
@@ -78,6 +76,7 @@ class LayerImpacts {
   struct Found {
     FaceTree::Nearby nearby;
     std::vector<MotionBox> boxes;  ///< of nodes of the one, in the other's motion
+    std::vector<char> is_flat;     ///< leaves, of those that are not looked at
     std::vector<Impact> impacts;
     std::int64_t num_distances = 0;
     bool is_too_much = false;
@@ -87,7 +86,7 @@ class LayerImpacts {
   void find_surface(std::size_t layer);
   [[nodiscard]] bool read_nodes();
   void write_nodes();
-  void refit(std::size_t layer);
+  void find_boxes(std::size_t layer);
   void list_searches();
   /// False: there are too many parts near each other to look at all.
   [[nodiscard]] bool find_impacts();
@@ -101,6 +100,7 @@ class LayerImpacts {
   [[nodiscard]] int zone_of(int node) const;
 
   std::vector<Layer> layers_;
+  std::vector<ClothContact::Faces> faces_;  ///< of layers_, at the present look
   std::vector<std::pair<std::size_t, std::size_t>> pairs_;
   std::vector<Surface> surfaces_;   ///< of layers_, and of those before
   std::vector<int> first_nodes_;    ///< of each layer

@@ -20,8 +20,8 @@
 namespace weft::bridge {
 namespace {
 
-constexpr double kSpacing = 0.02;  // [m] of nodes
-constexpr btScalar kThickness = btScalar(0.01);
+constexpr double kSpacing = 0.02;    // [m] of nodes
+constexpr double kThickness = 0.01;  // [m]
 
 ClothMesh sheet(int nodes, const Vector3<double>& center, double turn = 0) {
   ClothGrid grid;
@@ -43,6 +43,11 @@ class Sheets {
     btSoftBody& body = world_.add(make_cloth_body(world_.info(), mesh, {}));
     for (int i = 0; i < body.m_nodes.size(); ++i) body.m_nodes[i].m_q = body.m_nodes[i].m_x;
     bodies_.push_back(&body);
+    contacts_.push_back(
+        std::make_unique<ClothContact>(body, ClothContactSettings{.with_itself = true,
+                                                                  .with_others = true,
+                                                                  .self_thickness = kThickness,
+                                                                  .margin = kThickness / 2}));
     return body;
   }
   /// way(start) [m] for every node.
@@ -55,7 +60,7 @@ class Sheets {
   LayerImpacts::Outcome resolve() {
     LayerImpacts impacts;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
-      impacts.add({bodies_[b], kThickness, kThickness / 2});
+      impacts.add({bodies_[b], contacts_[b].get()});
       for (std::size_t other = 0; other <= b; ++other) impacts.add_pair(b, other);
     }
     return impacts.resolve();
@@ -101,6 +106,7 @@ class Sheets {
   SoftWorld world_{{.gravity = {0, 0, 0}}};
   std::vector<ClothMesh> meshes_;
   std::vector<btSoftBody*> bodies_;
+  std::vector<std::unique_ptr<ClothContact>> contacts_;
 };
 
 constexpr auto kStay = [](const btVector3&) { return btVector3(0, 0, 0); };
