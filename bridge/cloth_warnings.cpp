@@ -94,6 +94,7 @@ std::vector<forces::SetUpWarning> Cloth::warnings(const btCollisionWorld& world,
        .speed = fastest(*body_),
        .layer_distance = meets_itself ? entry->contact.settings().self_thickness : 0,
        .meets_cloth = entry != nullptr && entry->contact.settings().with_others,
+       .keeps_layers_apart = solver_->is_fast(*body_),
        .world_gravity = from_bullet(body_->m_worldInfo->m_gravity),
        .colliders = colliders_of(world)});
 }

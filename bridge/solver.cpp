@@ -312,10 +312,7 @@ void SoftBodySolver::set_cloth_contact(btSoftBody& body, const ClothContactSetti
 }
 
 ContactEntry* SoftBodySolver::find_contact_entry(const btSoftBody& body) const {
-  for (const auto& entry : attachments_->contacts) {
-    if (entry->is_of(body)) return entry.get();
-  }
-  return nullptr;
+  return attachments_->contact_of(body);
 }
 
 ClothContact* SoftBodySolver::find_contact(const btSoftBody& body) const {
@@ -416,8 +413,8 @@ ContactEntry& SoftBodySolver::contact_by_flag(btSoftBody& body) {
   const ClothContactSettings settings{.with_others = true, .margin = margin, .friction = friction};
   ContactEntry* entry = find_contact_entry(body);
   if (!entry) {
-    attachments_->contacts.push_back(std::make_unique<ContactEntry>(
-        ContactEntry{&body, follow_life(body), ClothContact(body, settings), true, false, false, true, {}}));
+    attachments_->contacts.push_back(std::make_unique<ContactEntry>(ContactEntry{
+        &body, follow_life(body), ClothContact(body, settings), true, false, false, true, {}}));
     return *attachments_->contacts.back();
   }
   if (!entry->contact.settings().with_others) {

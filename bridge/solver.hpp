@@ -222,7 +222,6 @@ class SoftBodySolver : public btDefaultSoftBodySolver {
   void for_bodies(const std::function<void(btSoftBody&, Attachment*)>& work);
   void solve_fast_bodies();
   void detect_contacts(btScalar time_step);
-  [[nodiscard]] int num_layer_substeps(const Attachment& one) const;
   void solve_in_substeps();
   void solve_group(const std::vector<Attachment*>& group, int num_implicit);
   void solve_listed_bodies(btScalar time_step);

@@ -148,6 +148,7 @@ class Warnings {
   }
 
   void look_at_cloth_contact() {
+    if (set_up_.keeps_layers_apart) return;
     const bool meets_itself = set_up_.layer_distance > 0;
     const double longest = set_up_.meets_cloth ? kLongestStepWithLayers : kLongestStepWithItself;
     // Steps of 1/150 s, rounded to single precision, are not longer.

@@ -39,6 +39,8 @@ struct ClothSetUp {
   double speed = 0;           ///< [m/s] of its fastest node at the start
   double layer_distance = 0;  ///< [m] that layers of the cloth keep; 0: it does not meet itself
   bool meets_cloth = false;   ///< contact with other cloths
+  /// Nothing passes between nodes, and steps are divided while layers touch.
+  bool keeps_layers_apart = false;
   /// [m/s^2] of the world, where a gravity law would act beside it.
   Vector3<double> world_gravity = Vector3<double>::Zero();
   std::vector<SetUpCollider> colliders = {};

@@ -126,6 +126,7 @@ class ClothWarnings {
       set_up_.most_stiffness = is_single_precision_ ? kMostStiffness : kMostStiffnessOfDoubles;
     }
     set_up_.is_single_precision = is_single_precision_ && kind.uses_bullet;
+    set_up_.keeps_layers_apart = kind.name == kBulletWeft.name;
     set_up_.is_swept = !kind.has_links && !kind.is_deformable;
     if (!set_up_.is_always_stable && !set_up_.stable_time_step) {
       set_up_.stable_time_step = forces::critical_time_step(set_up_.mesh, set_up_.laws);

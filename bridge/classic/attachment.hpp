@@ -18,6 +18,7 @@
 #include <weft/bridge/contact/cloth_pairs.hpp>
 #include <weft/bridge/contact/rigid_response.hpp>
 #include <weft/bridge/implicit/fast_body.hpp>
+#include <weft/bridge/implicit/substeps/substep_count.hpp>
 #include <weft/bridge/solver.hpp>
 #include <weft/custom_forces/deferred_forces.hpp>
 
@@ -119,7 +120,7 @@ struct ContactEntry {
   ClothContact contact;
   bool was_in_world = false;
   bool is_in_contact = false;     ///< with itself or with other cloth, in this step
-  bool was_in_contact = false;    ///< in the last one
+  bool was_in_contact = false;    ///< in the last one, or will be in this one
   bool is_by_flag = false;        ///< with others only where Bullet's VF_SS asks a fast body for it
   std::vector<btVector3> solved;  ///< [m] positions of the nodes when the body itself was solved
 
@@ -157,6 +158,29 @@ struct SoftBodySolver::Attachments {
   /// Has two bodies solved together in this step. False if one of them has no implicit springs, or is not stepped.
   bool add_pair(const Attachment* one, ClothContact& contact, const Attachment* other,
                 ClothContact& other_contact);
+  /// The same of bodies with themselves.
+  void add_self_pairs();
+  [[nodiscard]] ContactEntry* contact_of(const btSoftBody& body) const;
+  /// Bodies that meet themselves are pairs, too; and which bodies will touch cloth in this step.
+  void foresee_contacts(btScalar time_step);
+  /// Into how many substeps a step is divided because the body touched cloth in the last one, or will do so.
+  [[nodiscard]] int num_layer_substeps(const btSoftBody& body, btScalar time_step) const;
+  /// The last thing that moves nodes: none passes through cloth.
+  void keep_layers_apart();
+  /// Contacts with bodies of other solvers are those of the whole step.
+  [[nodiscard]] bool meet_other_solvers() const;
+  /// Pairs of bodies that are not stepped leave, and are returned.
+  [[nodiscard]] ClothPairs take_other_pairs();
+  /// Those that need the same substeps as this one, and how many.
+  struct Group {
+    std::vector<Attachment*> members;
+    int num_substeps = 1;
+  };
+  /// How the step of the stepped ones is divided.
+  [[nodiscard]] SubstepPlan plan_of_stepped(int num_implicit, bool has_layers,
+                                            btScalar time_step) const;
+  [[nodiscard]] Group group_of(Attachment& first,
+                               const std::function<int(const Attachment*)>& count) const;
   /// Solves the pairs again, with the impulses that they give each other.
   void share_cloth_impulses(btScalar time_step);
 };

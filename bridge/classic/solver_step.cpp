@@ -3,7 +3,6 @@
 #include <weft/bridge/solver.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -110,15 +109,10 @@ void SoftBodySolver::solve_fast_bodies() {
   solve_alone(time_step_, m_softBodySet, attachments_->contacts, bodies, attachments_->asked);
   Attachment* const single = bodies.size() == 1 ? bodies[0] : nullptr;
   std::optional<fast::WorkerTeam::Scope> threads;
-  // To call for them takes longer than most loops; but cloth on cloth has threads of its own.
-  const bool may_meet = may_meet_cloth();
-  if (single && !may_meet) single->fast->hold_threads(threads);
+  const bool may_meet = may_meet_cloth();                        // which has threads of its own
+  if (single && !may_meet) single->fast->hold_threads(threads);  // to call for them takes long
   in_parallel(bodies, [](Attachment& one) { one.fast->prepare(*one.body); });
-  for (const Attachment* one : bodies) {
-    ClothContact* const contact = find_contact(*one->body);
-    if (contact && contact->settings().with_itself)
-      attachments_->pairs.add_self(*one->body, *contact);
-  }
+  attachments_->foresee_contacts(time_step_);
   detect_contacts(time_step_);
   solve_in_substeps();
   if (bodies.empty()) return;
@@ -140,92 +134,47 @@ void SoftBodySolver::detect_contacts(btScalar time_step) {
   });
 }
 
-// Layers that lie on each other give way only after springs are solved for, and what falls by g h^2 in between stretches springs. That
-// energy grows with h^4: sheets on each other throw each other about in steps of 1/60 s, and lie in those of 1/240 s.
-int SoftBodySolver::num_layer_substeps(const Attachment& one) const {
-  constexpr btScalar kLongest = btScalar(1.0 / 240);  // [s]
-  constexpr btScalar kRounding = btScalar(1e-3);
-  const ContactEntry* const entry = find_contact_entry(*one.body);
-  if (entry == nullptr || !entry->was_in_contact) return 1;
-  return std::max(1, static_cast<int>(std::ceil(time_step_ / kLongest - kRounding)));
-}
-
-// Bodies that touch or hang on the same dynamic bodies, or that may meet each other, have the same substeps. A body with substeps
-// leaves the list.
+// Bodies with the same substeps are solved together, and leave the list.
 void SoftBodySolver::solve_in_substeps() {
   std::vector<Attachment*>& bodies = attachments_->stepped;
-  // Contacts with bodies of other solvers are those of the whole step.
-  const bool meets_others = std::any_of(bodies.begin(), bodies.end(), [](const Attachment* one) {
-    return one->body->m_scontacts.size() > 0;
-  });
-  if (meets_others) return;
+  if (attachments_->meet_other_solvers()) return;
   const auto count = [this](const Attachment* one) {
-    return std::max(one->fast->num_substeps(*one->body, time_step_), num_layer_substeps(*one));
+    return std::max(one->fast->num_substeps(*one->body, time_step_),
+                    attachments_->num_layer_substeps(*one->body, time_step_));
   };
-  const auto wants_substeps = [&](const Attachment* one) { return count(one) > 1; };
   while (true) {
-    const auto first = std::find_if(bodies.begin(), bodies.end(), wants_substeps);
+    const auto first = std::find_if(bodies.begin(), bodies.end(),
+                                    [&](const Attachment* one) { return count(one) > 1; });
     if (first == bodies.end()) return;
-    std::vector<Attachment*> group{*first};
-    std::vector<MovableObject> reached;
-    int num_substeps = 1;
-    for (std::size_t g = 0; g < group.size(); ++g) {
-      num_substeps = std::max(num_substeps, count(group[g]));
-      group[g]->fast->list_dynamic(*group[g]->body, reached);
-      for (Attachment* other : bodies) {
-        if (std::find(group.begin(), group.end(), other) != group.end()) continue;
-        std::vector<MovableObject> of_other;
-        other->fast->list_dynamic(*other->body, of_other);
-        const bool shares = std::any_of(of_other.begin(), of_other.end(), [&](const auto& one) {
-          return std::find(reached.begin(), reached.end(), one) != reached.end();
-        });
-        if (shares || attachments_->pairs.are_pair(*group[g]->body, *other->body))
-          group.push_back(other);
-      }
-    }
-    std::vector<Attachment*> rest;
-    for (Attachment* one : bodies) {
-      if (std::find(group.begin(), group.end(), one) == group.end()) rest.push_back(one);
-    }
+    const auto [group, num_substeps] = attachments_->group_of(**first, count);
+    std::vector<Attachment*> rest = bodies;
+    std::erase_if(rest, [&, &members = group](const Attachment* one) {
+      return std::find(members.begin(), members.end(), one) != members.end();
+    });
     solve_group(group, num_substeps);
     bodies = rest;
   }
 }
 
 void SoftBodySolver::solve_group(const std::vector<Attachment*>& group, int num_implicit) {
-  btScalar num_explicit = 1;
-  int last_num_implicit = 1;
-  for (const Attachment* one : group) {
-    num_explicit = std::max(num_explicit, one->fast->num_explicit_substeps(time_step_));
-    last_num_implicit = std::max(last_num_implicit, one->fast->last_num_substeps());
-  }
-  const bool has_layers = std::any_of(group.begin(), group.end(), [this](const Attachment* one) {
-    return find_contact_entry(*one->body) != nullptr;
-  });
-  const SubstepPlan plan = has_layers
-                               ? SubstepPlan{num_implicit, false, num_implicit}
-                               : plan_substeps(num_implicit, last_num_implicit, num_explicit);
-  const int num_substeps = plan.count;
+  std::vector<Attachment*>& bodies = attachments_->stepped;
+  bodies = group;
+  const bool has_layers = may_meet_cloth();
+  const SubstepPlan plan = attachments_->plan_of_stepped(num_implicit, has_layers, time_step_);
   const TraceScope trace("step in parts");
-  const btScalar substep_time = time_step_ / static_cast<btScalar>(num_substeps);
+  const btScalar substep_time = time_step_ / static_cast<btScalar>(plan.count);
   std::vector<MovableObject> dynamic;
   for (const Attachment* one : group) one->fast->list_dynamic(*one->body, dynamic);
-  RigidSubsteps rigid(dynamic, time_step_, num_substeps);
+  RigidSubsteps rigid(dynamic, time_step_, plan.count);
   for (std::size_t b = 0; b < dynamic.size(); ++b) {
     const bool is_borne = std::any_of(group.begin(), group.end(), [&](const Attachment* one) {
       return one->fast->pushed().has_borne(dynamic[b], time_step_);
     });
     if (is_borne) rigid.share_out_gravity(b, group.front()->body->m_worldInfo->m_dispatcher);
   }
-  std::vector<Attachment*>& bodies = attachments_->stepped;
-  bodies = group;
-  const auto is_in_group = [&](const btSoftBody& body) {
-    return std::any_of(group.begin(), group.end(),
-                       [&](const Attachment* one) { return one->body == &body; });
-  };
-  ClothPairs other_pairs = attachments_->pairs.take_apart(is_in_group);
+  ClothPairs other_pairs = attachments_->take_other_pairs();
   in_parallel(bodies, [&](Attachment& one) { one.fast->begin_substeps(*one.body, time_step_); });
-  for (int substep = 0; substep < num_substeps && !bodies.empty(); ++substep) {
+  for (int substep = 0; substep < plan.count && !bodies.empty(); ++substep) {
     in_parallel(bodies, [&](Attachment& one) {
       one.fast->begin_substep(*one.body, rigid, substep, plan, substep_time);
     });
@@ -292,13 +241,7 @@ void SoftBodySolver::apply_listed_solutions(btScalar time_step, bool may_meet) {
   for (int sweep = 0; meet && sweep < FastBody::kClothContactSweeps; ++sweep) {
     in_turn(bodies, [](Attachment& one) { one.fast->project_cloth_contacts(*one.body); });
   }
-  for (const Attachment* one : bodies) {
-    if (ContactEntry* const entry = find_contact_entry(*one->body))
-      entry->is_in_contact = entry->is_in_contact || one->body->m_scontacts.size() > 0;
-  }
-  if (may_meet && !attachments_->pairs.empty() && !attachments_->pairs.keep_apart()) {
-    for (const Attachment* one : bodies) one->fast->note_unsolved();
-  }
+  attachments_->keep_layers_apart();
   in_parallel(bodies, [&](Attachment& one) { one.fast->end_solve(*one.body, time_step); });
 }
 

@@ -148,8 +148,7 @@ class FastBody : public NodeTeam {
   [[nodiscard]] const std::vector<RigidContact>& contacts() const { return contacts_; }
   /// The largest over the substeps of a step.
   [[nodiscard]] const StepError& step_error() const { return step_error_; }
-  /// The step is not what its equations and contacts ask for.
-  void note_unsolved() { step_error_.is_within_tolerance = false; }
+  void note_unsolved() { step_error_.is_within_tolerance = false; }  ///< contacts were too many
 
  private:
   friend class FastBodyState;

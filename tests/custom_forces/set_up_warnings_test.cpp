@@ -141,6 +141,9 @@ TEST(SetUpWarnings, LayersWantShortStepsAndAThicknessOfHalfAnEdge) {
   EXPECT_THAT(kinds_of(set_up), IsEmpty());
   set_up.layer_distance = kJustBelow * kEdge / 2;
   EXPECT_THAT(kinds_of(set_up), ElementsAre(Kind::kThinLayers));
+  set_up.time_step = 1.0 / 60;
+  set_up.keeps_layers_apart = true;
+  EXPECT_THAT(kinds_of(set_up), IsEmpty());
 }
 
 TEST(SetUpWarnings, RoundingFarFromTheOriginIsNamed) {

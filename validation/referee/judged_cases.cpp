@@ -55,8 +55,8 @@ const std::array kNotJudged = {
         "import are differences of positions",
         {"energy_ledger", "momentum", "swing", "impacts", "rest"}},
     NotJudged{"they compare several runs of one engine or of Weft's engines with each other",
-              {"engine_cantilever", "damped_hang", "materials", "explosion", "work_precision",
-               "third_opinion", "determinism"}},
+              {"engine_cantilever", "damped_hang", "materials", "explosion", "layers",
+               "work_precision", "third_opinion", "determinism"}},
 };
 
 std::string judged_names() {

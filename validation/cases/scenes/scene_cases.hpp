@@ -12,6 +12,10 @@ namespace weft::validation {
 void plan_scene(const CaseInfo&, const CaseOptions&, EngineRuns&);
 void evaluate_scene(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
+/// Scenes in which cloth lies on cloth in the steps of a game, by bullet_weft.
+void plan_layers(const CaseInfo&, const CaseOptions&, EngineRuns&);
+void evaluate_layers(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
+
 /// Explicit Euler on drape_sphere: must explode, and must be reported as data.
 void plan_explosion(const CaseInfo&, const CaseOptions&, EngineRuns&);
 void evaluate_explosion(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
