@@ -165,17 +165,17 @@ struct SoftBodySolver::Attachments {
   void foresee_contacts(btScalar time_step);
   /// Into how many substeps a step is divided because the body touched cloth in the last one, or will do so.
   [[nodiscard]] int num_layer_substeps(const btSoftBody& body, btScalar time_step) const;
-  /// The last thing that moves nodes: none passes through cloth.
+  [[nodiscard]] bool is_stepped(const btSoftBody& body) const;
+  /// Pairs of bodies that have stopped, or are not stepped.
+  void drop_stopped_pairs();
+  /// What is left of contacts is projected by then: nothing passes through cloth.
   void keep_layers_apart();
   /// Contacts with bodies of other solvers are those of the whole step.
   [[nodiscard]] bool meet_other_solvers() const;
   /// Pairs of bodies that are not stepped leave, and are returned.
   [[nodiscard]] ClothPairs take_other_pairs();
   /// Those that need the same substeps as this one, and how many.
-  struct Group {
-    std::vector<Attachment*> members;
-    int num_substeps = 1;
-  };
+  using Group = std::pair<std::vector<Attachment*>, int>;
   /// How the step of the stepped ones is divided.
   [[nodiscard]] SubstepPlan plan_of_stepped(int num_implicit, bool has_layers,
                                             btScalar time_step) const;

@@ -56,6 +56,7 @@ int SoftBodySolver::Attachments::num_layer_substeps(const btSoftBody& body,
 // Where nodes would fly without springs. The first contact would be the hardest one.
 void SoftBodySolver::Attachments::foresee_contacts(btScalar time_step) {
   add_self_pairs();
+  drop_stopped_pairs();
   if (pairs.empty() || meet_other_solvers() || most_layer_substeps(time_step) == 1) return;
   pairs.add_contacts(time_step);
   for (const Attachment* one : stepped) {
@@ -70,18 +71,21 @@ void SoftBodySolver::Attachments::keep_layers_apart() {
     if (ContactEntry* const entry = contact_of(*one->body))
       entry->is_in_contact = entry->is_in_contact || one->body->m_scontacts.size() > 0;
   }
-  if (pairs.empty() || pairs.keep_apart()) return;
-  for (const Attachment* one : stepped) one->fast->note_unsolved();
+  drop_stopped_pairs();
+  if (pairs.empty()) return;
+  pairs.keep_apart([this](const btSoftBody& body, const LayerImpacts::Outcome& outcome) {
+    if (outcome.num_impacts > 0) contact_of(body)->is_in_contact = true;
+    const auto one = std::find_if(stepped.begin(), stepped.end(),
+                                  [&](const Attachment* each) { return each->body == &body; });
+    if (!outcome.is_clear && one != stepped.end()) (*one)->fast->note_unsolved();
+  });
 }
 
 // A contact moves the nodes at it, and what springs make of that would come a step late: a body that lies on another is carried
 // by a few nodes, which it would sink over and draw out as spikes. So these impulses are part of the solution. Each round
 // gives what is still missing, and no more than that: projections that move nodes alone know none of the mass behind them.
 void SoftBodySolver::Attachments::share_cloth_impulses(btScalar time_step) {
-  pairs.drop_stopped([this](const btSoftBody& body) {
-    return std::none_of(stepped.begin(), stepped.end(),
-                        [&](const Attachment* one) { return one->body == &body; });
-  });
+  drop_stopped_pairs();
   if (pairs.empty()) return;
   pairs.set_others_aside();
   for (int round = 0; round < kRounds; ++round) {

@@ -10,27 +10,27 @@ inline namespace WEFT_BULLET_PRECISION {
 // They touch or hang on the same dynamic bodies, or may meet each other, or do so by way of others.
 SoftBodySolver::Attachments::Group SoftBodySolver::Attachments::group_of(
     Attachment& first, const std::function<int(const Attachment*)>& count) const {
-  Group group{{&first}, 1};
+  std::vector<Attachment*> members{&first};
+  int num_substeps = 1;
   std::vector<MovableObject> reached;
-  for (std::size_t g = 0; g < group.members.size(); ++g) {
-    const Attachment& member = *group.members[g];
-    group.num_substeps = std::max(group.num_substeps, count(&member));
+  for (std::size_t g = 0; g < members.size(); ++g) {
+    const Attachment& member = *members[g];
+    num_substeps = std::max(num_substeps, count(&member));
     member.fast->list_dynamic(*member.body, reached);
     for (Attachment* other : stepped) {
-      if (std::find(group.members.begin(), group.members.end(), other) != group.members.end())
-        continue;
+      if (std::find(members.begin(), members.end(), other) != members.end()) continue;
       std::vector<MovableObject> of_other;
       other->fast->list_dynamic(*other->body, of_other);
       const bool shares = std::any_of(of_other.begin(), of_other.end(), [&](const auto& one) {
         return std::find(reached.begin(), reached.end(), one) != reached.end();
       });
-      if (shares || pairs.are_pair(*member.body, *other->body)) group.members.push_back(other);
+      if (shares || pairs.are_pair(*member.body, *other->body)) members.push_back(other);
     }
   }
-  return group;
+  return {members, num_substeps};
 }
 
-// Layers that touch cloth ask for implicit substeps: impulses between them are given to the solver of springs.
+// Bodies that may meet cloth have implicit substeps: impulses between layers are given to the solver of springs.
 SubstepPlan SoftBodySolver::Attachments::plan_of_stepped(int num_implicit, bool has_layers,
                                                          btScalar time_step) const {
   if (has_layers) return {num_implicit, false, num_implicit};
@@ -48,11 +48,17 @@ bool SoftBodySolver::Attachments::meet_other_solvers() const {
                      [](const Attachment* one) { return one->body->m_scontacts.size() > 0; });
 }
 
+bool SoftBodySolver::Attachments::is_stepped(const btSoftBody& body) const {
+  return std::any_of(stepped.begin(), stepped.end(),
+                     [&](const Attachment* one) { return one->body == &body; });
+}
+
 ClothPairs SoftBodySolver::Attachments::take_other_pairs() {
-  return pairs.take_apart([this](const btSoftBody& body) {
-    return std::any_of(stepped.begin(), stepped.end(),
-                       [&](const Attachment* one) { return one->body == &body; });
-  });
+  return pairs.take_apart([this](const btSoftBody& body) { return is_stepped(body); });
+}
+
+void SoftBodySolver::Attachments::drop_stopped_pairs() {
+  pairs.drop_stopped([this](const btSoftBody& body) { return !is_stepped(body); });
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -25,6 +25,8 @@ constexpr btScalar kOverlap = btScalar(0.1);
 constexpr btScalar kReach = btScalar(1.1);
 /// How fast layers that are closer than their thickness part, while they are pressed together [1/s].
 constexpr btScalar kRecoveryRate = 5;
+/// A node that begins a step behind the outside of a face by more than this share of the thickness is inside [-].
+constexpr btScalar kBehind = btScalar(0.1);
 
 btVector3 weighted_sum(const btVector3& weights, const btVector3& a, const btVector3& b,
                        const btVector3& c) {
@@ -79,14 +81,15 @@ enum class FaceSide {
   kNegative
 };
 
-void try_contact(btSoftBody& body, Node& node, Face& face, const ContactRules& rules,
+/// Returns whether the node began the step well behind the side on which it belongs.
+bool try_contact(btSoftBody& body, Node& node, Face& face, const ContactRules& rules,
                  FaceSide side = FaceSide::kOfStart) {
   const Node &a = *face.m_n[0], &b = *face.m_n[1], &c = *face.m_n[2];
   const btVector3 normal = btCross(b.m_x - a.m_x, c.m_x - a.m_x);
   const btVector3 start_normal = btCross(b.m_q - a.m_q, c.m_q - a.m_q);
-  if (!(normal.length2() > 0) || !(start_normal.length2() > 0)) return;
+  if (!(normal.length2() > 0) || !(start_normal.length2() > 0)) return false;
   const std::optional<btVector3> weights = weights_below(face, node, normal);
-  if (!weights) return;
+  if (!weights) return false;
   const btVector3 point = weighted_sum(*weights, a.m_x, b.m_x, c.m_x);
   const btVector3 start_point = weighted_sum(*weights, a.m_q, b.m_q, c.m_q);
   // The side on which the step began: a node that would pass the face is held back.
@@ -95,23 +98,25 @@ void try_contact(btSoftBody& body, Node& node, Face& face, const ContactRules& r
       side == FaceSide::kOfStart ? start_height < 0 : side == FaceSide::kNegative;
   const btVector3 outward = normal.normalized() * (is_negative ? btScalar(-1) : btScalar(1));
   const btScalar start_gap = is_negative ? -start_height : start_height;
+  const bool is_behind = start_gap < -kBehind * rules.thickness;
   const btScalar gap = btDot(node.m_x - point, outward);
   const btScalar recovery = std::min(btScalar(1), kRecoveryRate * rules.time_step);
   const btScalar wanted =
       std::min(rules.thickness, start_gap + recovery * (rules.thickness - start_gap));
   const btScalar target = start_gap < rules.thickness ? wanted : rules.thickness;
-  if (gap >= target) return;
+  if (gap >= target) return is_behind;
   btSoftBody::SContact contact;
   contact.m_node = &node;
   contact.m_face = &face;
   contact.m_weights = *weights;
   contact.m_normal = outward;
   contact.m_margin = target;
-  if (!share_out(node, face, contact)) return;
+  if (!share_out(node, face, contact)) return is_behind;
   const btVector3 motion = (node.m_x - node.m_q) - (point - start_point);
   const btVector3 sliding = motion - outward * btDot(motion, outward);
   contact.m_friction = friction_share(sliding, target - gap, rules);
   body.m_scontacts.push_back(contact);
+  return is_behind;
 }
 
 btVector3 mean_motion(const btSoftBody& body) {
@@ -193,6 +198,10 @@ void ClothContact::note_leaves(const btSoftBody& body) {
       }
     }
     std::sort(nodes_of_leaf_[leaf].begin(), nodes_of_leaf_[leaf].end());
+  }
+  loose_nodes_.clear();
+  for (std::size_t i = 0; i < is_known.size(); ++i) {
+    if (is_known[i] == 0) loose_nodes_.push_back(static_cast<int>(i));
   }
 }
 
@@ -277,6 +286,10 @@ void ClothContact::add_self_contacts(btSoftBody& body, btScalar time_step) {
     for (const int i : nodes_of_leaf_[leaf])
       add_self_contacts(body, i, tree_.collect(box_of(i), nearby_), rules);
   }
+  for (const int i : loose_nodes_) {
+    tree_.find(box_of(i), nearby_);
+    add_self_contacts(body, i, tree_.collect(box_of(i), nearby_), rules);
+  }
   is_known_apart_ = body.m_scontacts.size() == num_before;
 }
 
@@ -288,7 +301,7 @@ void ClothContact::add_self_contacts(btSoftBody& body, int node, std::span<const
     while (next != near.end() && *next < slot) ++next;
     if (next != near.end() && *next == slot) continue;
     if (!tree_.may_be_over(slot, body.m_nodes[node].m_x, kOverlap)) continue;
-    try_contact(body, body.m_nodes[node], body.m_faces[tree_.face(slot)], rules);
+    (void)try_contact(body, body.m_nodes[node], body.m_faces[tree_.face(slot)], rules);
   }
 }
 
@@ -330,44 +343,51 @@ int ClothContact::nearest_face(const btVector3& point, const btSoftBody& body,
 
 // Faces that enclose a volume have an outside. A node that comes over an edge was behind the plane of the face that it comes to,
 // and one that has got in must come out again: where the step began says nothing of either.
-void ClothContact::add_contacts_outside(btSoftBody& body, Node& node, btSoftBody& other,
+bool ClothContact::add_contacts_outside(btSoftBody& body, Node& node, btSoftBody& other,
                                         std::span<const int> slots,
                                         const ContactRules& rules) const {
   const int nearest = nearest_face(node.m_x, other, slots);
-  if (nearest < 0) return;
+  if (nearest < 0) return false;
   const auto add = [&](int face) {
     const bool is_out = outward_[static_cast<std::size_t>(face)] > 0;
-    try_contact(body, node, other.m_faces[face], rules,
-                is_out ? FaceSide::kPositive : FaceSide::kNegative);
+    return try_contact(body, node, other.m_faces[face], rules,
+                       is_out ? FaceSide::kPositive : FaceSide::kNegative);
   };
   if (height_over(node.m_x, other, nearest) < 0) return add(nearest);
+  bool is_behind = false;
   for (const int slot : slots) {
     const int face = tree_.face(slot);
     if (!tree_.may_be_over(slot, node.m_x, kOverlap)) continue;
-    if (height_over(node.m_x, other, face) >= 0) add(face);
+    if (height_over(node.m_x, other, face) >= 0) is_behind = add(face) || is_behind;
   }
+  return is_behind;
 }
 
-void ClothContact::add_contacts(btSoftBody& body, btSoftBody& other, ClothContact& other_contact,
+bool ClothContact::add_contacts(btSoftBody& body, btSoftBody& other, ClothContact& other_contact,
                                 btScalar time_step) {
   const ClothContactSettings& theirs = other_contact.settings_;
   const ContactRules rules{static_cast<btScalar>(settings_.margin + theirs.margin),
                            static_cast<btScalar>(settings_.friction * theirs.friction), time_step,
                            body.m_cfg.piterations};
   other_contact.refit_if_moved(other);
+  bool is_inside = false;
   for_candidates(
       body, kReach * rules.thickness, other_contact, [&](int i, std::span<const int> slots) {
         if (!other_contact.outward_.empty()) {
-          return other_contact.add_contacts_outside(body, body.m_nodes[i], other, slots, rules);
+          const bool is_behind =
+              other_contact.add_contacts_outside(body, body.m_nodes[i], other, slots, rules);
+          is_inside = is_inside || is_behind;
+          return;
         }
         for (const int slot : slots) {
           if (!other_contact.tree_.may_be_over(slot, body.m_nodes[i].m_x, kOverlap)) {
             continue;
           }
           btSoftBody::Face& face = other.m_faces[other_contact.tree_.face(slot)];
-          try_contact(body, body.m_nodes[i], face, rules);
+          (void)try_contact(body, body.m_nodes[i], face, rules);
         }
       });
+  return is_inside;
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -39,8 +39,8 @@ struct ContactRules {
 /// the start of the step, or the outside of a body whose faces enclose a volume, a contact takes away the approach, and what is left of the thickness
 /// slowly, and SoftBodySolver derives all velocities once all are solved. It goes into
 /// btSoftBody::m_scontacts, so that Bullet's own iterations solve it together with its links.
-/// Edges against edges are not looked at: let the thickness be half the spacing of the nodes or
-/// more.
+/// Edges against edges are not looked at here: let the thickness be half the spacing of the nodes or
+/// more, if no LayerImpacts follow.
 class ClothContact {
  public:
   /// body in its rest shape: faces that are closer to a node than the thickness there, and its own,
@@ -62,7 +62,8 @@ class ClothContact {
   /// looked for. time_step [s].
   void add_self_contacts(btSoftBody& body, btScalar time_step);
   /// Contacts of the body's nodes with the faces of another one; add both ways. Likewise.
-  void add_contacts(btSoftBody& body, btSoftBody& other, ClothContact& other_contact,
+  /// Returns whether a node began the step inside of the other body, if its faces enclose a volume.
+  bool add_contacts(btSoftBody& body, btSoftBody& other, ClothContact& other_contact,
                     btScalar time_step);
 
   /// The faces, where the step from m_q to m_x leads them.
@@ -89,7 +90,7 @@ class ClothContact {
                       const Use& use);
 
   /// For faces that enclose a volume: the contacts of another body's node with them. slots: of those that it may meet.
-  void add_contacts_outside(btSoftBody& body, btSoftBody::Node& node, btSoftBody& other,
+  bool add_contacts_outside(btSoftBody& body, btSoftBody::Node& node, btSoftBody& other,
                             std::span<const int> slots, const ContactRules& rules) const;
   [[nodiscard]] int nearest_face(const btVector3& point, const btSoftBody& body,
                                  std::span<const int> slots) const;
@@ -101,6 +102,7 @@ class ClothContact {
   FaceTree tree_;
   FlatPatches flat_;
   std::vector<std::vector<int>> nodes_of_leaf_;  ///< each node once
+  std::vector<int> loose_nodes_;                 ///< of no face
   std::vector<char> is_flat_;                    ///< leaves, of those that are not looked at
   btVector3 motion_;  ///< [m] mean of the body's nodes, of the step that the tree is of
   bool is_tree_of_this_step_ = false;

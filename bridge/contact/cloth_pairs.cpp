@@ -10,6 +10,7 @@ inline namespace WEFT_BULLET_PRECISION {
 void ClothPairs::clear() {
   members_.clear();
   pairs_.clear();
+  is_inside_.clear();
 }
 
 std::size_t ClothPairs::member(btSoftBody& body, ClothContact& contact) {
@@ -24,6 +25,7 @@ void ClothPairs::add(btSoftBody& body, ClothContact& contact, btSoftBody& other,
                      ClothContact& other_contact) {
   const std::size_t first = member(body, contact);
   pairs_.emplace_back(first, member(other, other_contact));
+  is_inside_.push_back(0);
 }
 
 bool ClothPairs::are_pair(const btSoftBody& one, const btSoftBody& other) const {
@@ -46,18 +48,23 @@ ClothPairs ClothPairs::take_apart(const std::function<bool(const btSoftBody&)>& 
   // The surfaces that it knows stay here.
   members_ = std::move(inside.members_);
   pairs_ = std::move(inside.pairs_);
+  is_inside_.assign(pairs_.size(), 0);
   return outside;
 }
 
 void ClothPairs::take_back(ClothPairs&& pairs) {
   members_ = std::move(pairs.members_);
   pairs_ = std::move(pairs.pairs_);
+  is_inside_.assign(pairs_.size(), 0);
 }
 
 void ClothPairs::drop_stopped(const std::function<bool(const btSoftBody&)>& has_stopped) {
+  const auto num_before = pairs_.size();
   std::erase_if(pairs_, [&](const auto& pair) {
     return has_stopped(*members_[pair.first].body) || has_stopped(*members_[pair.second].body);
   });
+  // They are known by number.
+  if (pairs_.size() != num_before) is_inside_.assign(pairs_.size(), 0);
 }
 
 void ClothPairs::set_others_aside() {
@@ -88,20 +95,27 @@ void ClothPairs::add_contacts(btScalar time_step) {
     const Member& one = members_[pairs_[p].first];
     if (pairs_[p].first == pairs_[p].second) one.contact->add_self_contacts(*one.body, time_step);
   });
-  for (const auto& [first, second] : pairs_) {
+  is_inside_.assign(pairs_.size(), 0);
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const auto& [first, second] = pairs_[p];
     if (first == second) continue;
     const Member& a = members_[first];
     const Member& b = members_[second];
-    a.contact->add_contacts(*a.body, *b.body, *b.contact, time_step);
-    b.contact->add_contacts(*b.body, *a.body, *a.contact, time_step);
+    const bool is_one = a.contact->add_contacts(*a.body, *b.body, *b.contact, time_step);
+    const bool is_other = b.contact->add_contacts(*b.body, *a.body, *a.contact, time_step);
+    is_inside_[p] = static_cast<char>(is_one || is_other);
   }
 }
 
-bool ClothPairs::keep_apart() {
+void ClothPairs::keep_apart(
+    const std::function<void(const btSoftBody&, const LayerImpacts::Outcome&)>& use) {
   impacts_.clear();
   for (const Member& one : members_) impacts_.add({one.body, one.contact});
-  for (const auto& [first, second] : pairs_) impacts_.add_pair(first, second);
-  return impacts_.resolve().is_clear;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    if (is_inside_[p] == 0) impacts_.add_pair(pairs_[p].first, pairs_[p].second);
+  }
+  const std::vector<LayerImpacts::Outcome> outcomes = impacts_.resolve();
+  for (std::size_t m = 0; m < members_.size(); ++m) use(*members_[m].body, outcomes[m]);
 }
 
 }  // namespace WEFT_BULLET_PRECISION

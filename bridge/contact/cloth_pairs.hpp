@@ -39,9 +39,9 @@ class ClothPairs {
   bool find_contacts(btScalar time_step);
   /// The same, beside what is there.
   void add_contacts(btScalar time_step);
-  /// Keeps layers from passing through each other between m_q and m_x, the last thing that moves nodes. False if that did not
-  /// succeed.
-  bool keep_apart();
+  /// Keeps layers from passing through each other between m_q and m_x, but for pairs of which one is inside of the other, which
+  /// must come out. use(body, outcome) for each body that met something.
+  void keep_apart(const std::function<void(const btSoftBody&, const LayerImpacts::Outcome&)>& use);
 
  private:
   struct Member {
@@ -53,6 +53,7 @@ class ClothPairs {
 
   std::vector<Member> members_;
   std::vector<std::pair<std::size_t, std::size_t>> pairs_;  ///< one and itself: it meets itself
+  std::vector<char> is_inside_;                             ///< of pairs_, by add_contacts()
   LayerImpacts impacts_;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -23,6 +24,35 @@ int number_of(const btSoftBody::Node* node, const btSoftBody& body) {
   return static_cast<int>(node - &body.m_nodes[0]);
 }
 
+std::array<Edge, 3> edges_of(const btSoftBody& body, int f) {
+  std::array<Edge, 3> edges;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int a = number_of(body.m_faces[f].m_n[k], body);
+    const int b = number_of(body.m_faces[f].m_n[(k + 1) % 3], body);
+    edges[k] = {std::min(a, b), std::max(a, b)};
+  }
+  return edges;
+}
+
+/// Whether all of these faces are joined by what parts_of(face) has of each.
+template <class PartsOf>
+bool is_one_piece(std::span<const int> faces, const PartsOf& parts_of) {
+  std::vector<int> left(faces.begin(), faces.end());
+  std::set<typename decltype(parts_of(0))::value_type> reached;
+  while (!left.empty()) {
+    const auto next = std::find_if(left.begin(), left.end(), [&](int f) {
+      const auto parts = parts_of(f);
+      return left.size() == faces.size() ||
+             std::any_of(parts.begin(), parts.end(),
+                         [&](const auto& part) { return reached.contains(part); });
+    });
+    if (next == left.end()) return false;
+    for (const auto& part : parts_of(*next)) reached.insert(part);
+    left.erase(next);
+  }
+  return true;
+}
+
 /// The edges of one face only, each with that face's leaf.
 class Boundary {
  public:
@@ -30,11 +60,11 @@ class Boundary {
     std::map<Edge, int> faces_at;
     for (std::size_t leaf = 0; leaf < tree.num_leaves(); ++leaf)
       for (const int f : tree.faces_of_leaf(leaf))
-        for (const Edge& edge : edges_of(f)) ++faces_at[edge];
+        for (const Edge& edge : edges_of(body_, f)) ++faces_at[edge];
     edges_.resize(tree.num_leaves());
     for (std::size_t leaf = 0; leaf < tree.num_leaves(); ++leaf) {
       for (const int f : tree.faces_of_leaf(leaf)) {
-        for (const Edge& edge : edges_of(f)) {
+        for (const Edge& edge : edges_of(body_, f)) {
           if (faces_at[edge] == 1) edges_[leaf].push_back(edge);
         }
       }
@@ -61,15 +91,6 @@ class Boundary {
   }
 
  private:
-  [[nodiscard]] std::array<Edge, 3> edges_of(int f) const {
-    std::array<Edge, 3> edges;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int a = number_of(body_.m_faces[f].m_n[k], body_);
-      const int b = number_of(body_.m_faces[f].m_n[(k + 1) % 3], body_);
-      edges[k] = {std::min(a, b), std::max(a, b)};
-    }
-    return edges;
-  }
   [[nodiscard]] btVector3 middle(const Edge& edge) const {
     return (body_.m_nodes[edge[0]].m_x + body_.m_nodes[edge[1]].m_x) / 2;
   }
@@ -123,11 +144,34 @@ btScalar angle_between(const btVector3& a, const btVector3& b) {
 
 void FlatPatches::find_neighbors(const btSoftBody& body, const FaceTree& tree, btScalar distance) {
   const Boundary boundary(body, tree);
-  std::vector<std::set<int>> leaves_at(static_cast<std::size_t>(body.m_nodes.size()));
+  num_faces_ = body.m_faces.size();
+  neighbors_.assign(tree.num_leaves(), {});
+  std::vector<std::vector<int>> faces_at(static_cast<std::size_t>(body.m_nodes.size()));
+  for (int f = 0; f < num_faces_; ++f) {
+    for (const btSoftBody::Node* const node : body.m_faces[f].m_n)
+      faces_at[static_cast<std::size_t>(number_of(node, body))].push_back(f);
+  }
+  // Layers of one body may be in a leaf together, and joined at a node alone: nodes count whose faces are one piece.
+  std::vector<char> joins(faces_at.size());
+  for (std::size_t i = 0; i < joins.size(); ++i) {
+    joins[i] =
+        static_cast<char>(is_one_piece(faces_at[i], [&](int f) { return edges_of(body, f); }));
+  }
+  const auto joints_of = [&](int f) {
+    std::vector<int> nodes;
+    for (const btSoftBody::Node* const node : body.m_faces[f].m_n) {
+      const int number = number_of(node, body);
+      if (joins[static_cast<std::size_t>(number)] != 0) nodes.push_back(number);
+    }
+    return nodes;
+  };
+  std::vector<std::set<int>> leaves_at(faces_at.size());
   for (std::size_t leaf = 0; leaf < tree.num_leaves(); ++leaf) {
-    for (const int f : tree.faces_of_leaf(leaf)) {
-      for (const btSoftBody::Node* const node : body.m_faces[f].m_n)
-        leaves_at[static_cast<std::size_t>(number_of(node, body))].insert(static_cast<int>(leaf));
+    const std::span<const int> faces = tree.faces_of_leaf(leaf);
+    if (!is_one_piece(faces, joints_of) || boundary.comes_back(leaf, leaf, distance)) continue;
+    for (const int f : faces) {
+      for (const int node : joints_of(f))
+        leaves_at[static_cast<std::size_t>(node)].insert(static_cast<int>(leaf));
     }
   }
   std::vector<std::set<int>> near(tree.num_leaves());
@@ -135,19 +179,17 @@ void FlatPatches::find_neighbors(const btSoftBody& body, const FaceTree& tree, b
     for (const int leaf : leaves)
       near[static_cast<std::size_t>(leaf)].insert(leaves.begin(), leaves.end());
   }
-  neighbors_.assign(tree.num_leaves(), {});
   for (std::size_t leaf = 0; leaf < near.size(); ++leaf) {
     for (const int other : near[leaf]) {
-      const auto number = static_cast<std::size_t>(other);
-      const bool is_simple = !boundary.comes_back(leaf, leaf, distance) &&
-                             !boundary.comes_back(leaf, number, distance) &&
-                             !boundary.comes_back(number, number, distance);
-      if (is_simple) neighbors_[leaf].push_back(other);
+      if (!boundary.comes_back(leaf, static_cast<std::size_t>(other), distance))
+        neighbors_[leaf].push_back(other);
     }
   }
 }
 
 void FlatPatches::refit(const btSoftBody& body, const FaceTree& tree) {
+  // A program has removed or added faces.
+  if (num_faces_ != body.m_faces.size() || neighbors_.size() != tree.num_leaves()) forget();
   if (neighbors_.empty()) return;
   cones_.resize(neighbors_.size());
   std::array<std::array<btVector3, 3>, FaceTree::kWidth> normals;

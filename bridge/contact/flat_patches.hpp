@@ -14,7 +14,7 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
 /// Neighboring leaves of a tree of faces that are so flat together, all through a step, that they need not be searched for contacts
-/// with each other.
+/// with each other. Each is one piece, and so are the faces around a node that they share.
 ///
 /// A surface whose normals all are within a cone is the graph of a function over a plane: it meets itself only if its boundary does
 /// so there (Volino and Magnenat-Thalmann 1994). Normals in a step of straight ways are within the cone of three of them (Tang et
@@ -25,6 +25,7 @@ class FlatPatches {
   void find_neighbors(const btSoftBody& body, const FaceTree& tree, btScalar distance);
   /// The body's boundary is another: nothing is flat any more.
   void forget() { neighbors_.clear(); }
+  [[nodiscard]] bool is_forgotten() const { return neighbors_.empty(); }
   /// Normals of the step from m_q to m_x.
   void refit(const btSoftBody& body, const FaceTree& tree);
   /// Marks the leaves that are flat together with this one.
@@ -39,6 +40,7 @@ class FlatPatches {
   };
   std::vector<std::vector<int>> neighbors_;  ///< of each leaf, itself too
   std::vector<Cone> cones_;
+  int num_faces_ = 0;  ///< of the body then
 };
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -1,10 +1,13 @@
 #include <weft/bridge/contact/layer_impacts.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/core/parallel/parallel_for.hpp>
@@ -27,6 +30,12 @@ constexpr std::size_t kLeavesTogether = 16;
 /// crumpled cloth has. Cloth that explodes has all of it near all of it.
 constexpr std::int64_t kMostNear = 300;
 constexpr std::int64_t kMostDistances = 3000;
+/// Each face of the other layer may be near so many besides: it may be much finer.
+constexpr std::int64_t kMostNearOfOther = 8;
+/// An impulse that acts on nodes that are nearly all pinned would throw the others far away: the least share of what is free [-].
+constexpr double kLeastFree = 0.05;
+/// Rounding moves nodes by less than so many units in the last place of the farthest from the world's origin.
+constexpr double kRoundings = 8;
 
 std::array<int, 2> sorted(int a, int b) {
   return a < b ? std::array<int, 2>{a, b} : std::array<int, 2>{b, a};
@@ -60,12 +69,22 @@ bool are_apart(PairKind kind, const FourPoints& from, const FourPoints& way, dou
   return gap > 0 && gap * gap > distance * distance * axis.squaredNorm();
 }
 
-}  // namespace
-
-void LayerImpacts::clear() {
-  layers_.clear();
-  pairs_.clear();
+/// Numbers of layers by what they meet, directly or by way of others.
+std::vector<std::vector<std::size_t>> groups_of(
+    std::size_t count, const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {
+  std::vector<std::size_t> group_of(count);
+  std::iota(group_of.begin(), group_of.end(), 0);
+  for (const auto& [one, other] : pairs) {
+    const auto [low, high] = std::minmax({group_of[one], group_of[other]});
+    std::replace(group_of.begin(), group_of.end(), high, low);
+  }
+  std::vector<std::vector<std::size_t>> groups(count);
+  for (std::size_t l = 0; l < count; ++l) groups[group_of[l]].push_back(l);
+  std::erase_if(groups, [](const auto& group) { return group.empty(); });
+  return groups;
 }
+
+}  // namespace
 
 // It is found anew where a body has torn, or where that number was another body's.
 void LayerImpacts::find_surface(std::size_t layer) {
@@ -96,8 +115,7 @@ void LayerImpacts::find_surface(std::size_t layer) {
   }
 }
 
-// False where a node is nowhere: the body has exploded, and others will find that out.
-bool LayerImpacts::read_nodes() {
+void LayerImpacts::read_nodes() {
   first_nodes_.assign(1, 0);
   for (const Layer& layer : layers_)
     first_nodes_.push_back(first_nodes_.back() + layer.body->m_nodes.size());
@@ -115,11 +133,20 @@ bool LayerImpacts::read_nodes() {
     }
   }
   is_moved_.assign(static_cast<std::size_t>(count), 1);  // all are looked at first
-  return starts_.allFinite() && ends_.allFinite();
 }
 
-void LayerImpacts::write_nodes() {
-  for (std::size_t l = 0; l < layers_.size(); ++l) {
+// If not, a body has exploded, and others will find that out.
+bool LayerImpacts::is_finite(const Group& group) const {
+  return std::all_of(group.begin(), group.end(), [this](std::size_t l) {
+    const int first = first_nodes_[l];
+    const int count = first_nodes_[l + 1] - first;
+    return starts_.middleCols(first, count).allFinite() &&
+           ends_.middleCols(first, count).allFinite();
+  });
+}
+
+void LayerImpacts::write_nodes(const Group& group) {
+  for (const std::size_t l : group) {
     btSoftBody& body = *layers_[l].body;
     for (int i = 0; i < body.m_nodes.size(); ++i) {
       const int node = first_nodes_[l] + i;
@@ -129,16 +156,29 @@ void LayerImpacts::write_nodes() {
   }
 }
 
-LayerImpacts::Outcome LayerImpacts::resolve() {
-  Outcome outcome;
+std::vector<LayerImpacts::Outcome> LayerImpacts::resolve() {
   if (surfaces_.size() < layers_.size()) surfaces_.resize(layers_.size());
   for (std::size_t l = 0; l < layers_.size(); ++l) find_surface(l);
-  outcome.is_clear = read_nodes();
+  read_nodes();
+  faces_.clear();
+  for (const Layer& layer : layers_) faces_.push_back(layer.contact->faces(*layer.body));
+  std::vector<Outcome> outcomes(layers_.size());
+  for (const Group& group : groups_of(layers_.size(), pairs_)) {
+    const Outcome outcome = resolve(group);
+    for (const std::size_t l : group) outcomes[l] = outcome;
+  }
+  return outcomes;
+}
+
+LayerImpacts::Outcome LayerImpacts::resolve(const Group& group) {
+  Outcome outcome{.is_clear = is_finite(group)};
   zones_.clear();
   while (outcome.is_clear) {
-    outcome.is_clear = find_impacts() && outcome.num_rounds < kImpulseRounds + kZoneRounds;
+    outcome.is_clear = find_impacts(group);
     if (impacts_.empty() || !outcome.is_clear) break;
     outcome.num_impacts += static_cast<int>(impacts_.size());
+    outcome.is_clear = outcome.num_rounds < kImpulseRounds + kZoneRounds;
+    if (!outcome.is_clear) break;
     std::fill(is_moved_.begin(), is_moved_.end(), 0);
     for (const Impact& impact : impacts_) {  // also where no impulse was needed: it may take a zone
       for (const int node : impact.nodes) is_moved_[static_cast<std::size_t>(node)] = 1;
@@ -148,9 +188,10 @@ LayerImpacts::Outcome LayerImpacts::resolve() {
     } else {
       move_zones_together();
     }
-    write_nodes();
+    write_nodes(group);
     ++outcome.num_rounds;
   }
+  std::fill(is_moved_.begin(), is_moved_.end(), 1);  // for the next group
   return outcome;
 }
 
@@ -164,14 +205,16 @@ void LayerImpacts::find_boxes(std::size_t layer) {
   for (std::size_t f = 0; f < surface.faces.size(); ++f) {
     const auto& face = surface.faces[f];
     surface.is_changed[f] = static_cast<char>(std::any_of(face.begin(), face.end(), [&](int node) {
-      return is_moved_[static_cast<std::size_t>(first_nodes_[layer] + node)] != 0;
+      const int number = first_nodes_[layer] + node;
+      return is_moved_[static_cast<std::size_t>(number)] != 0;
     }));
   }
 }
 
-void LayerImpacts::list_searches() {
+void LayerImpacts::list_searches(const Group& group) {
   searches_.clear();
   for (const auto& [one, other] : pairs_) {
+    if (std::find(group.begin(), group.end(), one) == group.end()) continue;
     const std::size_t count = faces_[one].tree.num_leaves();
     for (std::size_t leaf = 0; leaf < count; leaf += kLeavesTogether)
       searches_.push_back({one, other, leaf, std::min(count, leaf + kLeavesTogether)});
@@ -179,11 +222,13 @@ void LayerImpacts::list_searches() {
   if (found_.size() < searches_.size()) found_.resize(searches_.size());
 }
 
-bool LayerImpacts::find_impacts() {
-  faces_.clear();
-  for (const Layer& layer : layers_) faces_.push_back(layer.contact->faces(*layer.body));
-  parallel_for(layers_.size(), [&](std::size_t l) { find_boxes(l); });
-  list_searches();
+bool LayerImpacts::find_impacts(const Group& group) {
+  parallel_for(group.size(), [&](std::size_t g) {
+    const std::size_t l = group[g];
+    faces_[l].motion = layers_[l].contact->faces(*layers_[l].body).motion;
+    find_boxes(l);
+  });
+  list_searches(group);
   parallel_for(searches_.size(), [&](std::size_t s) {
     found_[s].impacts.clear();
     found_[s].is_too_much = false;
@@ -196,8 +241,9 @@ bool LayerImpacts::find_impacts() {
     is_all = is_all && !found_[s].is_too_much;
   }
   // Not in the order of the trees, which are older than the step.
-  std::sort(impacts_.begin(), impacts_.end(),
-            [](const Impact& a, const Impact& b) { return a.nodes < b.nodes; });
+  std::sort(impacts_.begin(), impacts_.end(), [](const Impact& a, const Impact& b) {
+    return std::tie(a.nodes, a.kind) < std::tie(b.nodes, b.kind);
+  });
   return is_all;
 }
 
@@ -279,6 +325,7 @@ void LayerImpacts::search(const Search& what, Found& found) const {
   found.boxes.resize(mine.boxes.size());
   found.is_flat.assign(is_self ? my_tree.num_leaves() : 0, 0);
   std::int64_t num_near = 0;
+  const std::int64_t of_other = is_self ? 0 : kMostNearOfOther * std::ssize(theirs.faces);
   std::int64_t num_faces = FaceTree::kWidth;
   found.num_distances = 0;
   for (std::size_t leaf = what.first_leaf; leaf < what.last_leaf; ++leaf) {
@@ -306,8 +353,9 @@ void LayerImpacts::search(const Search& what, Found& found) const {
         const bool is_known = !is_changed && theirs.is_changed[static_cast<std::size_t>(g)] == 0;
         if (!is_known && !(is_self && f == g)) pair.look(f, g);
       }
+      const std::int64_t most = kMostNear * num_faces + of_other;
       found.is_too_much =
-          num_near > kMostNear * num_faces || found.num_distances > kMostDistances * num_faces;
+          num_near > most || found.num_distances > kMostDistances / kMostNear * most;
       if (found.is_too_much) return;
       ++num_faces;
     }
@@ -319,8 +367,10 @@ void LayerImpacts::try_pair(PairKind kind, const std::array<int, 4>& nodes, doub
   FourPoints from;
   FourPoints way;
   double mobility = 0;
+  double farthest = 0;
   for (int k = 0; k < 4; ++k) {
     const int node = nodes[static_cast<std::size_t>(k)];
+    farthest = std::max(farthest, ends_.col(node).cwiseAbs().maxCoeff());
     from.col(k) = starts_.col(node) - starts_.col(nodes[0]);
     way.col(k) = ends_.col(node) - starts_.col(node);
     mobility += inverse_masses_[node];
@@ -331,17 +381,24 @@ void LayerImpacts::try_pair(PairKind kind, const std::array<int, 4>& nodes, doub
   const Nearest before = nearest(kind, from);
   const double at_start = before.distance();
   if (!(at_start > 0)) return;  // no side to keep to
-  const double closest = kNearestPart * std::min(at_start, thickness);
+  constexpr double kUnit = std::numeric_limits<btScalar>::epsilon();
+  const double closest = std::max(kNearestPart * std::min(at_start, thickness),
+                                  std::min(at_start / 2, kRoundings * kUnit * farthest));
   const auto hit = first_approach(kind, from, way, closest, &found.num_distances);
   if (!hit) return;
   Nearest place = nearest(kind, from + *hit * way);
   if (!(place.distance() > 0)) place = before;
+  double free = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    free += std::abs(place.weights[k]) * inverse_masses_[nodes[k]];
+  if (!(free > 0)) return;  // it is all on pins
   found.impacts.push_back(
-      {nodes, place.weights, place.separation / place.distance(), (1 + kBeyond) * closest});
+      {kind, nodes, place.weights, place.separation / place.distance(), (1 + kBeyond) * closest});
 }
 
+// To where Bullet can have it.
 void LayerImpacts::move(int node, const Vector3<double>& end) {
-  ends_.col(node) = end;
+  ends_.col(node) = end.cast<btScalar>().cast<double>();
   is_moved_[static_cast<std::size_t>(node)] = 1;
 }
 
@@ -351,12 +408,14 @@ void LayerImpacts::apply_impulses() {
     for (Impact& impact : impacts_) {
       double gap = -impact.least;
       double mobility = 0;
+      double most = 0;
       for (std::size_t k = 0; k < 4; ++k) {
         const double weight = impact.weights[k];
         gap += weight * impact.normal.dot(ends_.col(impact.nodes[k]));
         mobility += weight * weight * inverse_masses_[impact.nodes[k]];
+        most = std::max(most, inverse_masses_[impact.nodes[k]]);
       }
-      if (!(mobility > 0)) continue;
+      if (!(mobility > kLeastFree * most)) continue;  // a zone is left to settle it
       const double impulse = std::max(0.0, impact.impulse - gap / mobility);
       const double change = impulse - impact.impulse;
       impact.impulse = impulse;

@@ -25,8 +25,9 @@ inline namespace WEFT_BULLET_PRECISION {
 /// (continuous collision detection by conservative advancement), impulses take away their approach without a rebound (Bridson,
 /// Fedkiw and Anderson 2002). Nodes that these do not settle move together: impact zones (Provot 1997), here without rotation.
 ///
-/// A step that begins without intersections ends without any. What intersects already is neither kept nor resolved: its parts
-/// pass each other no more, in either direction. Kinetic energy never grows.
+/// A step that begins without intersections ends without any, unless its outcome is not clear, and but for places whose nodes are
+/// all pinned. What intersects already is neither kept nor resolved: its parts pass each other no more, in either direction.
+/// Impulses take kinetic energy away; pins may do work.
 class LayerImpacts {
  public:
   /// A body and its contact, which knows its faces and the distances that it keeps; both must live until clear().
@@ -34,20 +35,22 @@ class LayerImpacts {
     btSoftBody* body;
     ClothContact* contact;
   };
-  /// What a call of resolve() has done.
+  /// What a call of resolve() has done to layers that meet each other, directly or by way of others.
   struct Outcome {
-    int num_impacts = 0;   ///< all that were found
-    int num_rounds = 0;    ///< of looking for more
-    bool is_clear = true;  ///< nothing passes through anything; if not, there was too much
+    int num_impacts = 0;  ///< all that were found
+    int num_rounds = 0;   ///< of looking for more
+    bool is_clear =
+        true;  ///< nothing passes through anything; if not, it was too much, and nodes may be anywhere
   };
 
-  void clear();
+  void clear() { layers_.clear(), pairs_.clear(); }
   /// Layers have numbers from 0 on.
   void add(const Layer& layer) { layers_.push_back(layer); }
   /// Two layers that meet each other, or one that meets itself.
   void add_pair(std::size_t one, std::size_t other) { pairs_.emplace_back(one, other); }
-  /// Changes m_x of nodes that an impulse can move. Bits do not depend on the number of threads.
-  Outcome resolve();
+  /// Changes m_x of nodes that an impulse can move, and says for each layer how that ended. Bits do not depend on the number of
+  /// threads, nor on layers that a layer does not meet.
+  std::vector<Outcome> resolve();
 
  private:
   /// What a body's faces are made of. Each node and each edge is of one face, so that among faces that are near each
@@ -66,6 +69,7 @@ class LayerImpacts {
   };
   /// Parts that would come too near: four nodes of all layers together, whose weighted sum is what parts them.
   struct Impact {
+    PairKind kind;
     std::array<int, 4> nodes;
     std::array<double, 4> weights;
     Vector3<double> normal;
@@ -83,13 +87,17 @@ class LayerImpacts {
   };
   class FacePair;
 
+  /// Layers that meet each other, directly or by way of others.
+  using Group = std::vector<std::size_t>;
+  Outcome resolve(const Group& group);
   void find_surface(std::size_t layer);
-  [[nodiscard]] bool read_nodes();
-  void write_nodes();
+  void read_nodes();
+  [[nodiscard]] bool is_finite(const Group& group) const;
+  void write_nodes(const Group& group);
   void find_boxes(std::size_t layer);
-  void list_searches();
+  void list_searches(const Group& group);
   /// False: there are too many parts near each other to look at all.
-  [[nodiscard]] bool find_impacts();
+  [[nodiscard]] bool find_impacts(const Group& group);
   void search(const Search& what, Found& found) const;
   void try_pair(PairKind kind, const std::array<int, 4>& nodes, double thickness,
                 Found& found) const;
@@ -100,7 +108,7 @@ class LayerImpacts {
   [[nodiscard]] int zone_of(int node) const;
 
   std::vector<Layer> layers_;
-  std::vector<ClothContact::Faces> faces_;  ///< of layers_, at the present look
+  std::vector<ClothContact::Faces> faces_;  ///< of layers_, at their last look
   std::vector<std::pair<std::size_t, std::size_t>> pairs_;
   std::vector<Surface> surfaces_;   ///< of layers_, and of those before
   std::vector<int> first_nodes_;    ///< of each layer

@@ -99,6 +99,9 @@ void ClothContact::serialize(StateArchive& archive, const btSoftBody& body) {
   archive.expect(near_at_rest_.size(), "nodes that have contact with their own cloth");
   tree_.serialize(archive, body.m_faces.size());
   groups_.serialize(archive, body.m_nodes.size());
+  bool is_torn = flat_.is_forgotten();
+  archive.value(is_torn);
+  if (is_torn) flat_.forget();
   is_tree_of_this_step_ = false;
 }
 

@@ -120,7 +120,10 @@ TEST(FlatPatches, AreNotBesideASlit) {
   // Nodes of a line from the rim to the middle of the sheet are there twice.
   std::vector<int> copy(static_cast<std::size_t>(old_nodes), -1);
   int num = old_nodes;
-  for (int k = 0; k < middle; ++k) copy[static_cast<std::size_t>(middle + k * kNodes)] = num++;
+  for (int k = 0; k < middle; ++k) {
+    const int node = middle + k * kNodes;
+    copy[static_cast<std::size_t>(node)] = num++;
+  }
   mesh.rest_positions.conservativeResize(3, num);
   mesh.masses.conservativeResize(num);
   for (int i = 0; i < old_nodes; ++i) {
@@ -144,6 +147,35 @@ TEST(FlatPatches, AreNotBesideASlit) {
   whole.move(kStays, kStays);
   slit.move(kStays, kStays);
   EXPECT_LT(slit.count(), whole.count() - 12);
+}
+
+// A shirt and its pocket may be one body: leaves hold faces of both.
+TEST(FlatPatches, AreNotLayersOfOneBody) {
+  const ClothMesh one = sheet();
+  ClothMesh two = one;
+  const int count = one.num_nodes();
+  two.rest_positions.conservativeResize(3, 2 * count);
+  two.masses.conservativeResize(2 * count);
+  two.triangles.conservativeResize(3, 2 * one.triangles.cols());
+  for (int i = 0; i < count; ++i) {
+    two.rest_positions.col(count + i) = one.rest_positions.col(i) + Vector3<double>(0, 0.02, 0);
+    two.masses[count + i] = one.masses[i];
+  }
+  two.triangles.rightCols(one.triangles.cols()) = one.triangles.array() + count;
+  two.edge_sets.clear();
+  Sheet layers(two);
+  layers.move(kStays, kStays);
+  EXPECT_EQ(layers.count(), 0);
+  // Far enough apart for leaves of their own, and joined at a node in the middle.
+  two.rest_positions.rightCols(count).row(1).array() += 1;
+  Sheet apart(two);
+  apart.move(kStays, kStays);
+  const int middle = count / 2;
+  two.triangles = (two.triangles.array() == count + middle).select(middle, two.triangles);
+  Sheet joined(two);
+  joined.move(kStays, kStays);
+  EXPECT_GT(apart.count(), 2 * 6 * 16);
+  EXPECT_LT(joined.count(), apart.count());
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ class Sheets {
       impacts.add({bodies_[b], contacts_[b].get()});
       for (std::size_t other = 0; other <= b; ++other) impacts.add_pair(b, other);
     }
-    return impacts.resolve();
+    return impacts.resolve().front();
   }
   [[nodiscard]] int num_piercings() const {
     int count = 0;
@@ -231,6 +231,55 @@ TEST(LayerImpacts, GiveUpWhereANodeIsNowhereAndWhereAllIsNearAll) {
   const Matrix3X<double> before = sheets.ends(0);
   EXPECT_FALSE(sheets.resolve().is_clear);
   EXPECT_EQ(sheets.ends(0), before);
+}
+
+// What one pair of sheets does is nothing to another one.
+TEST(LayerImpacts, OfOthersAreHeldWhereANodeIsNowhere) {
+  SoftWorld world({.gravity = {0, 0, 0}});
+  std::vector<btSoftBody*> bodies;
+  std::vector<std::unique_ptr<ClothContact>> contacts;
+  LayerImpacts impacts;
+  for (int b = 0; b < 4; ++b) {
+    const Vector3<double> center(b / 2, 0.05 * (b % 2), 0);
+    btSoftBody& body = world.add(make_cloth_body(world.info(), sheet(9, center, 0.2 * b), {}));
+    for (int i = 0; i < body.m_nodes.size(); ++i) {
+      body.m_nodes[i].m_q = body.m_nodes[i].m_x;
+      if (b % 2 == 1) body.m_nodes[i].m_x -= btVector3(0, btScalar(0.1), 0);
+    }
+    bodies.push_back(&body);
+    contacts.push_back(std::make_unique<ClothContact>(
+        body, ClothContactSettings{.with_others = true, .margin = kThickness / 2}));
+    impacts.add({&body, contacts.back().get()});
+  }
+  bodies[0]->m_nodes[3].m_x.setX(std::numeric_limits<btScalar>::quiet_NaN());
+  impacts.add_pair(0, 1);
+  impacts.add_pair(2, 3);
+  const std::vector<LayerImpacts::Outcome> outcomes = impacts.resolve();
+  EXPECT_FALSE(outcomes[0].is_clear);
+  EXPECT_FALSE(outcomes[1].is_clear);
+  EXPECT_TRUE(outcomes[2].is_clear);
+  EXPECT_GT(outcomes[3].num_impacts, 0);
+  EXPECT_GT(bodies[3]->m_nodes[40].m_x.y(), bodies[2]->m_nodes[40].m_x.y());
+}
+
+// A light node between a pin and what moves the pin's edge is not thrown away.
+TEST(LayerImpacts, ThrowNoNodeThatHardlyTakesPart) {
+  ClothGrid grid;
+  grid.nodes = {2, 2};
+  grid.size = {1, 0.1};
+  grid.total_mass = 0.01;
+  ClothMesh mesh = make_cloth_grid(grid);
+  mesh.pinned = {0, 2};
+  Sheets sheets;
+  Sheets::move(sheets.add(mesh), kStay);
+  // It comes down beside the pins, at a five hundredth of the way to the free nodes.
+  ClothMesh other = sheet(2, {0, 0.02, 0});
+  other.rest_positions.row(0).array() += mesh.rest_positions(0, 0) + 0.002 + kSpacing / 2;
+  for (int i = 0; i < other.num_nodes(); ++i) other.pinned.push_back(i);
+  Sheets::move(sheets.add(other),
+               [](const btVector3&) { return btVector3(0, btScalar(-0.03), 0); });
+  (void)sheets.resolve();
+  EXPECT_LT((sheets.ends(0) - mesh.rest_positions).colwise().norm().maxCoeff(), 0.1);
 }
 
 TEST(LayerImpacts, HaveTheSameBitsForAnyNumberOfThreads) {
