@@ -50,7 +50,9 @@ void SoftBodySolver::Attachments::add_self_pairs() {
 int SoftBodySolver::Attachments::num_layer_substeps(const btSoftBody& body,
                                                     btScalar time_step) const {
   const ContactEntry* const entry = contact_of(body);
-  return entry != nullptr && entry->was_in_contact ? most_layer_substeps(time_step) : 1;
+  const bool is_asked = entry != nullptr && entry->was_in_contact;
+  // A body that encloses a volume is no layer, and lies well on others in steps of 1/60 s.
+  return is_asked && !entry->contact.encloses_volume() ? most_layer_substeps(time_step) : 1;
 }
 
 // Where nodes would fly without springs. The first contact would be the hardest one.

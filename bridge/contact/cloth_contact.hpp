@@ -48,6 +48,8 @@ class ClothContact {
   ClothContact(const btSoftBody& body, const ClothContactSettings& settings);
 
   [[nodiscard]] const ClothContactSettings& settings() const { return settings_; }
+  /// Its faces have an outside.
+  [[nodiscard]] bool encloses_volume() const { return !outward_.empty(); }
   /// From now on with others too. margin [m] > 0, friction [-] >= 0.
   void meet_others(double margin, double friction) {
     settings_.with_others = true;
