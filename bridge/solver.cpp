@@ -300,8 +300,7 @@ bool SoftBodySolver::is_suspended(const btSoftBody& body) const {
 void SoftBodySolver::set_cloth_contact(btSoftBody& body, const ClothContactSettings& settings) {
   check_solver("soft body solver", body, *this);
   ClothContact contact(body, settings);
-  auto entry = std::make_unique<ContactEntry>(
-      ContactEntry{&body, follow_life(body), std::move(contact), false, false, false, false, {}});
+  auto entry = std::make_unique<ContactEntry>(body, follow_life(body), std::move(contact));
   entry->life->solver = this;
   auto& list = attachments_->contacts;
   std::erase_if(list, [&](const auto& known) { return known->is_of(body); });
@@ -413,11 +412,11 @@ ContactEntry& SoftBodySolver::contact_by_flag(btSoftBody& body) {
   const ClothContactSettings settings{.with_others = true, .margin = margin, .friction = friction};
   ContactEntry* entry = find_contact_entry(body);
   if (!entry) {
-    attachments_->contacts.push_back(std::make_unique<ContactEntry>(ContactEntry{
-        &body, follow_life(body), ClothContact(body, settings), true, false, false, true, {}}));
-    return *attachments_->contacts.back();
-  }
-  if (!entry->contact.settings().with_others) {
+    attachments_->contacts.push_back(
+        std::make_unique<ContactEntry>(body, follow_life(body), ClothContact(body, settings)));
+    entry = attachments_->contacts.back().get();
+    entry->was_in_world = entry->is_by_flag = true;
+  } else if (!entry->contact.settings().with_others) {
     entry->contact.meet_others(margin, friction);
     entry->is_by_flag = true;
   }

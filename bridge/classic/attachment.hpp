@@ -115,6 +115,9 @@ struct SoftBodySolver::Attachment {
 };
 
 struct ContactEntry {
+  ContactEntry(btSoftBody& of, std::shared_ptr<BodyLife> own_life, ClothContact own_contact)
+      : body(&of), life(std::move(own_life)), contact(std::move(own_contact)) {}
+
   btSoftBody* body;
   std::shared_ptr<BodyLife> life;
   ClothContact contact;
@@ -168,7 +171,7 @@ struct SoftBodySolver::Attachments {
   [[nodiscard]] bool is_stepped(const btSoftBody& body) const;
   /// Pairs of bodies that have stopped, or are not stepped.
   void drop_stopped_pairs();
-  /// What is left of contacts is projected by then: nothing passes through cloth.
+  /// Stops nodes and edges that would pass through cloth. Contacts are projected before that.
   void keep_layers_apart();
   /// Contacts with bodies of other solvers are those of the whole step.
   [[nodiscard]] bool meet_other_solvers() const;

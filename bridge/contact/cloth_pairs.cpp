@@ -10,7 +10,6 @@ inline namespace WEFT_BULLET_PRECISION {
 void ClothPairs::clear() {
   members_.clear();
   pairs_.clear();
-  is_inside_.clear();
 }
 
 std::size_t ClothPairs::member(btSoftBody& body, ClothContact& contact) {
@@ -24,8 +23,7 @@ std::size_t ClothPairs::member(btSoftBody& body, ClothContact& contact) {
 void ClothPairs::add(btSoftBody& body, ClothContact& contact, btSoftBody& other,
                      ClothContact& other_contact) {
   const std::size_t first = member(body, contact);
-  pairs_.emplace_back(first, member(other, other_contact));
-  is_inside_.push_back(0);
+  pairs_.push_back({first, member(other, other_contact)});
 }
 
 bool ClothPairs::are_pair(const btSoftBody& one, const btSoftBody& other) const {
@@ -39,32 +37,27 @@ bool ClothPairs::are_pair(const btSoftBody& one, const btSoftBody& other) const 
 ClothPairs ClothPairs::take_apart(const std::function<bool(const btSoftBody&)>& is_in) {
   ClothPairs inside;
   ClothPairs outside;
-  for (const auto& [first, second] : pairs_) {
-    const Member& a = members_[first];
-    const Member& b = members_[second];
+  for (const Pair& pair : pairs_) {
+    const Member& a = members_[pair.first];
+    const Member& b = members_[pair.second];
     ClothPairs& part = is_in(*a.body) && is_in(*b.body) ? inside : outside;
     part.add(*a.body, *a.contact, *b.body, *b.contact);
   }
   // The surfaces that it knows stay here.
   members_ = std::move(inside.members_);
   pairs_ = std::move(inside.pairs_);
-  is_inside_.assign(pairs_.size(), 0);
   return outside;
 }
 
 void ClothPairs::take_back(ClothPairs&& pairs) {
   members_ = std::move(pairs.members_);
   pairs_ = std::move(pairs.pairs_);
-  is_inside_.assign(pairs_.size(), 0);
 }
 
 void ClothPairs::drop_stopped(const std::function<bool(const btSoftBody&)>& has_stopped) {
-  const auto num_before = pairs_.size();
   std::erase_if(pairs_, [&](const auto& pair) {
     return has_stopped(*members_[pair.first].body) || has_stopped(*members_[pair.second].body);
   });
-  // They are known by number.
-  if (pairs_.size() != num_before) is_inside_.assign(pairs_.size(), 0);
 }
 
 void ClothPairs::set_others_aside() {
@@ -93,17 +86,15 @@ bool ClothPairs::find_contacts(btScalar time_step) {
 void ClothPairs::add_contacts(btScalar time_step) {
   parallel_for(pairs_.size(), [&](std::size_t p) {
     const Member& one = members_[pairs_[p].first];
-    if (pairs_[p].first == pairs_[p].second) one.contact->add_self_contacts(*one.body, time_step);
+    if (pairs_[p].is_self()) one.contact->add_self_contacts(*one.body, time_step);
   });
-  is_inside_.assign(pairs_.size(), 0);
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    const auto& [first, second] = pairs_[p];
-    if (first == second) continue;
-    const Member& a = members_[first];
-    const Member& b = members_[second];
+  for (Pair& pair : pairs_) {
+    if (pair.is_self()) continue;
+    const Member& a = members_[pair.first];
+    const Member& b = members_[pair.second];
     const bool is_one = a.contact->add_contacts(*a.body, *b.body, *b.contact, time_step);
     const bool is_other = b.contact->add_contacts(*b.body, *a.body, *a.contact, time_step);
-    is_inside_[p] = static_cast<char>(is_one || is_other);
+    pair.is_inside = is_one || is_other;
   }
 }
 
@@ -111,8 +102,8 @@ void ClothPairs::keep_apart(
     const std::function<void(const btSoftBody&, const LayerImpacts::Outcome&)>& use) {
   impacts_.clear();
   for (const Member& one : members_) impacts_.add({one.body, one.contact});
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    if (is_inside_[p] == 0) impacts_.add_pair(pairs_[p].first, pairs_[p].second);
+  for (const Pair& pair : pairs_) {
+    if (!pair.is_inside) impacts_.add_pair(pair.first, pair.second);
   }
   const std::vector<LayerImpacts::Outcome> outcomes = impacts_.resolve();
   for (std::size_t m = 0; m < members_.size(); ++m) use(*members_[m].body, outcomes[m]);

@@ -49,11 +49,15 @@ class ClothPairs {
     ClothContact* contact;
     std::vector<btSoftBody::SContact> others;
   };
+  struct Pair {
+    std::size_t first, second;  ///< of members_; equal: it meets itself
+    bool is_inside = false;     ///< one of the other, as the last search for contacts found
+    [[nodiscard]] bool is_self() const { return first == second; }
+  };
   [[nodiscard]] std::size_t member(btSoftBody& body, ClothContact& contact);
 
   std::vector<Member> members_;
-  std::vector<std::pair<std::size_t, std::size_t>> pairs_;  ///< one and itself: it meets itself
-  std::vector<char> is_inside_;                             ///< of pairs_, by add_contacts()
+  std::vector<Pair> pairs_;
   LayerImpacts impacts_;
 };
 

@@ -35,7 +35,7 @@ class LayerImpacts {
     btSoftBody* body;
     ClothContact* contact;
   };
-  /// What a call of resolve() has done to layers that meet each other, directly or by way of others.
+  /// The outcome of resolve() for layers that meet each other, directly or by way of others.
   struct Outcome {
     int num_impacts = 0;  ///< all that were found
     int num_rounds = 0;   ///< of looking for more
@@ -53,7 +53,7 @@ class LayerImpacts {
   std::vector<Outcome> resolve();
 
  private:
-  /// What a body's faces are made of. Each node and each edge is of one face, so that among faces that are near each
+  /// The nodes and edges of a body's faces. Each of them belongs to one face, so that among faces that are near each
   /// other each pair of these is found once.
   struct Surface {
     std::vector<std::array<int, 3>> faces;
@@ -76,7 +76,7 @@ class LayerImpacts {
     double least;        ///< [m] separation along the normal at the end
     double impulse = 0;  ///< [kg m], a displacement times a mass
   };
-  /// What a search works with and finds.
+  /// The memory of a search, and its result.
   struct Found {
     FaceTree::Nearby nearby;
     std::vector<MotionBox> boxes;  ///< of nodes of the one, in the other's motion

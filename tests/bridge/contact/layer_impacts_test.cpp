@@ -233,7 +233,7 @@ TEST(LayerImpacts, GiveUpWhereANodeIsNowhereAndWhereAllIsNearAll) {
   EXPECT_EQ(sheets.ends(0), before);
 }
 
-// What one pair of sheets does is nothing to another one.
+// One pair of sheets does not depend on another one.
 TEST(LayerImpacts, OfOthersAreHeldWhereANodeIsNowhere) {
   SoftWorld world({.gravity = {0, 0, 0}});
   std::vector<btSoftBody*> bodies;

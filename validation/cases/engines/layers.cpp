@@ -1,6 +1,7 @@
 // Layers of cloth in the steps of a game: nothing passes through cloth, and nobody gains energy.
 // Tested by tests/apps/CMakeLists.txt.
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -13,15 +14,16 @@ namespace weft::validation {
 namespace layers {
 namespace {
 
-constexpr double kTimeStep = 1.0 / 50;  // [s] of the frames of both scenes
+constexpr double kTimeStep = 1.0 / 50;    // [s] of the frames of both scenes
+constexpr double kShortStep = 1.0 / 250;  // [s] for what should come of it
 constexpr const char* kEngine = "bullet_weft";
 constexpr const char* kScenes[] = {"towel", "stack"};
 constexpr scenes::StoredPrecision kPrecisions[] = {scenes::StoredPrecision::kFloat32,
                                                    scenes::StoredPrecision::kFloat64};
 
-scenes::Scene scene_of(const char* name, bool with_contact) {
+scenes::Scene scene_of(const char* name, bool with_contact, double time_step = kTimeStep) {
   scenes::Scene scene = scenes::load_scene(name);
-  scene.world.time_step = kTimeStep;
+  scene.world.time_step = time_step;
   scene.world.implicit_time_step.reset();
   for (scenes::Cloth& cloth : scene.cloths) {
     cloth.self_collision = cloth.self_collision && with_contact;
@@ -37,7 +39,11 @@ std::string label_of(const char* name, scenes::StoredPrecision precision, bool w
                      with_contact ? "" : "_without_contact");
 }
 
-/// What passes through cloth in one frame.
+std::string label_of_short(const char* name) {
+  return fmt::format("layers_{}_short_steps", name);
+}
+
+/// Counts the edges that pass through triangles in one frame.
 int piercings(const std::vector<Triangles>& triangles, const scenes::SceneState& state) {
   int count = 0;
   for (std::size_t c = 0; c < triangles.size(); ++c) {
@@ -53,6 +59,7 @@ struct Result {
   double most_piercings = 0;  ///< of all frames
   double gain = 0;  ///< [1] by which energy rises after it was least, over what gravity gives
   double gain_if_faster = 0;  ///< the same of a run whose velocities are half as large again
+  double fall = 0;            ///< [J] of gravity, from the start to the end
   Series over_time;           ///< piercings
 };
 
@@ -84,6 +91,7 @@ Result measure(const std::filesystem::path& recording, const std::string& title)
     least = std::min(least, now.total());
     if (f + 1 == reader.num_frames()) given = -given - now.gravitational;
   }
+  result.fall = given;
   result.gain = most / given;
   result.gain_if_faster = most_if_faster / given;
   return result;
@@ -107,6 +115,7 @@ void plan_layers(const CaseInfo&, const CaseOptions& options, EngineRuns& runs) 
   for (const char* name : kScenes) {
     for (const scenes::StoredPrecision precision : kPrecisions)
       runs.add({label_of(name, precision, true), scene_of(name, true), kEngine, precision});
+    runs.add({label_of_short(name), scene_of(name, true, kShortStep), kEngine, kPrecisions[1]});
     runs.add(
         {label_of(name, kPrecisions[0], false), scene_of(name, false), kEngine, kPrecisions[0]});
   }
@@ -120,6 +129,7 @@ void evaluate_layers(const CaseInfo& info, const CaseOptions& options, const Eng
   for (const char* name : kScenes) {
     const Result without =
         measure(runs.outcome(label_of(name, kPrecisions[0], false)).recording, "without contact");
+    const Result right = measure(runs.outcome(label_of_short(name)).recording, "short steps");
     Plot plot{fmt::format("What passes through cloth in {}", name),
               "time [s]",
               "edges in triangles [1]",
@@ -157,6 +167,19 @@ void evaluate_layers(const CaseInfo& info, const CaseOptions& options, const Eng
           {"velocities half as large again", result.gain_if_faster,
            judge(result.gain_if_faster, *gained.tolerance) == Verdict::kFail});
       report.checks.push_back(std::move(gained));
+      // A cloth that stands still passes through nothing and gains no energy.
+      CheckResult fallen = check_of(info, name, precision);
+      fallen.claim += ": it comes down as far as in steps of 1/250 s";
+      fallen.metric = "energy that gravity gives, over that in short steps, less 1";
+      fallen.unit = "1";
+      fallen.formula = "0";
+      fallen.source = "the same engine in steps of 1/250 s";
+      fallen.measured = std::abs(result.fall / right.fall - 1);
+      fallen.tolerance = {0.05, Basis::kTruncation, "layers come to rest in other folds"};
+      fallen.verdict = judge(fallen.measured, *fallen.tolerance);
+      fallen.sabotages.push_back(
+          {"it stays at its start", 1.0, judge(1.0, *fallen.tolerance) == Verdict::kFail});
+      report.checks.push_back(std::move(fallen));
     }
     section.plots.push_back(std::move(plot));
   }
