@@ -48,6 +48,17 @@ struct Tangent {
   friend bool operator!=(const Tangent& a, const Tangent& b) { return a.value != b.value; }
 };
 
+/// a or b, without a branch that a vector unit could not take.
+template <class Number>
+[[nodiscard]] Number choose(bool is_first, const Number& a, const Number& b) {
+  return is_first ? a : b;
+}
+template <class Scalar>
+[[nodiscard]] Tangent<Scalar> choose(bool is_first, const Tangent<Scalar>& a,
+                                     const Tangent<Scalar>& b) {
+  return {choose(is_first, a.value, b.value), choose(is_first, a.rate, b.rate)};
+}
+
 template <class Scalar>
 [[nodiscard]] Tangent<Scalar> sqrt(const Tangent<Scalar>& a) {
   using std::sqrt;

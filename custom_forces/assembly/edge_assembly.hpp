@@ -1,14 +1,11 @@
 #pragma once
 
-#include <cstddef>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <weft/core/types.hpp>
 #include <weft/custom_forces/assembly/edge_kernel.hpp>
-#include <weft/custom_forces/assembly/element_chunks.hpp>
-#include <weft/custom_forces/assembly/parallel_sum.hpp>
+#include <weft/custom_forces/assembly/element_runs.hpp>
 
 namespace weft::forces {
 
@@ -16,22 +13,20 @@ namespace weft::forces {
 /// depend on differences along the edge, made for the processor's vector unit.
 ///
 /// Each chunk copies the vectors of its nodes into arrays of one component each and sums into such
-/// arrays too. Its edges are ordered by the distance between their node numbers, like the diagonals
-/// of a matrix: on a grid that makes long runs whose first nodes, and second nodes, follow each
-/// other, so that whole vectors are loaded and stored. Edges outside of runs are computed in
-/// batches as well, with their differences fetched and their forces added one by one.
+/// arrays too, its edges in the order of ElementRuns.
 class EdgeAssembly {
  public:
   /// edges: node indices in [0, num_nodes), first and second. grain: edges per chunk, > 0.
-  EdgeAssembly(Edges edges, int num_nodes, int grain = kDefaultGrain);
+  EdgeAssembly(Edges edges, int num_nodes, int grain = kDefaultGrain)
+      : runs_(std::move(edges), num_nodes, grain) {}
 
-  [[nodiscard]] const Edges& edges() const { return edges_; }
-  [[nodiscard]] int num_nodes() const { return chunks_.num_nodes(); }
+  [[nodiscard]] const Edges& edges() const { return runs_.elements(); }
+  [[nodiscard]] int num_nodes() const { return runs_.num_nodes(); }
   /// The edge at each place in the order of evaluation.
-  [[nodiscard]] const std::vector<int>& order() const { return chunks_.order(); }
+  [[nodiscard]] const std::vector<int>& order() const { return runs_.order(); }
   /// Columns of scratch for add_pairs() with so many fields.
   [[nodiscard]] Eigen::Index scratch_columns(int num_fields) const {
-    return chunks_.num_slots() * (2 + num_fields);
+    return runs_.scratch_columns(num_fields);
   }
 
   /// result += sum over edges. force(place, differences...) is what the first node of the edge at
@@ -48,56 +43,16 @@ class EdgeAssembly {
   static constexpr int kDefaultGrain = 4096;
 
  private:
-  /// Memory on the stack: the same cache lines for every chunk of a thread, where scratch memory would be
-  /// walked through from end to end.
-  static constexpr Eigen::Index kStackBytes = 128 * 1024;
-
-  Edges edges_;
-  ElementChunks chunks_;
-  std::vector<int> first_slots_;   ///< of each place, counted from the chunk's first slot
-  std::vector<int> second_slots_;  ///< likewise
-  std::vector<EdgeRun> runs_;
-  std::vector<std::size_t> first_run_;  ///< chunk c has runs_[first_run_[c] ... first_run_[c + 1])
+  ElementRuns<2> runs_;
 };
 
 template <class Scalar, class Force, class... Fields>
 void EdgeAssembly::add_pairs(const Force& force, Matrix3XRef<Scalar> scratch,
                              Matrix3XRef<Scalar> result, const Fields&... fields) const {
-  constexpr int kNumFields = sizeof...(Fields);
-  check_sum_sizes(num_nodes(), scratch_columns(kNumFields), result.cols(), scratch.cols());
-  check_sum_strides(scratch.outerStride());
-  const auto accumulate = [&](const ElementChunks::Chunk& chunk, const auto& sum_of_slot) {
-    const Eigen::Index num_slots = chunk.num_slots();
-    // A large chunk of a wide mesh, or another kind of number, works in the scratch memory.
-    alignas(64) std::byte stack[kStackBytes];
-    const bool fits =
-        std::is_floating_point_v<Scalar> &&
-        3 * (1 + kNumFields) * num_slots * static_cast<Eigen::Index>(sizeof(Scalar)) <= kStackBytes;
-    Scalar* const sums =
-        fits ? reinterpret_cast<Scalar*>(stack)
-             : scratch.data() + 3 * (chunks_.num_slots() + (1 + kNumFields) * chunk.first_slot);
-    Scalar* place = sums;
-    for (Eigen::Index i = 0; i < 3 * num_slots; ++i) *place++ = Scalar(0);
-    const auto gather = [&](const auto& field) {
-      for (Eigen::Index s = 0; s < num_slots; ++s) {
-        const int node = chunks_.node(chunk.first_slot + s);
-        for (int axis = 0; axis < 3; ++axis) place[axis * num_slots + s] = field(axis, node);
-      }
-      place += 3 * num_slots;
-    };
-    (gather(fields), ...);
-    const auto c = static_cast<std::size_t>(&chunk - chunks_.chunks().data());
-    evaluate_runs<Scalar, kNumFields>(
-        force,
-        EdgeRunsView{runs_.data() + first_run_[c], runs_.data() + first_run_[c + 1],
-                     first_slots_.data(), second_slots_.data(), num_slots},
-        sums);
-    for (Eigen::Index s = 0; s < num_slots; ++s) {
-      sum_of_slot(chunk.first_slot + s,
-                  Vector3<Scalar>(sums[s], sums[num_slots + s], sums[2 * num_slots + s]));
-    }
+  const auto evaluate = [&](const ElementRunsView<2>& runs, Scalar* work) {
+    evaluate_runs<Scalar, sizeof...(Fields)>(force, runs, work);
   };
-  parallel_sum<Scalar>(chunks_, accumulate, scratch, result);
+  runs_.template add<Scalar>(evaluate, scratch, result, fields...);
 }
 
 }  // namespace weft::forces

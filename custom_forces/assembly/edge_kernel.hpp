@@ -7,44 +7,24 @@
 #include <utility>
 
 #include <weft/core/eigen_alignment.hpp>
+#include <weft/custom_forces/assembly/element_runs.hpp>
 #include <weft/custom_forces/assembly/plain_vector.hpp>
 
 namespace weft::forces {
-
-/// Edges computed at a time: enough to fill vectors of any width, few enough for the first-level
-/// cache.
-inline constexpr int kEdgeBatch = 64;
-/// Shorter runs are not worth loops of their own.
-inline constexpr int kShortestRun = 8;
-
-/// Edges at successive places.
-struct EdgeRun {
-  int begin;            ///< first place
-  int count;            ///< <= kEdgeBatch
-  bool is_consecutive;  ///< from each edge to the next, both slots go up by one
-};
-
-/// The runs of one chunk.
-struct EdgeRunsView {
-  const EdgeRun* begin;
-  const EdgeRun* end;
-  const int* first_slots;  ///< of each place
-  const int* second_slots;
-  Eigen::Index num_slots;
-};
 
 // The loops over k below are written for the compiler's vectoriser: fixed arrays, no branches, one
 // simple statement each. What they compute is defined edge by edge, in a fixed order of additions,
 // and without fused operations; it does not depend on the width of the vectors.
 
 template <class Scalar>
-using EdgeVectors = Scalar[3][kEdgeBatch];
+using EdgeVectors = Scalar[3][kElementBatch];
 
 template <class Scalar>
-[[gnu::always_inline]] inline void subtract_ends(const EdgeRun& run, const EdgeRunsView& runs,
+[[gnu::always_inline]] inline void subtract_ends(const ElementRun& run,
+                                                 const ElementRunsView<2>& runs,
                                                  const Scalar* field, EdgeVectors<Scalar>& out) {
-  const int* const first = runs.first_slots + run.begin;
-  const int* const second = runs.second_slots + run.begin;
+  const int* const first = runs.slots[0] + run.begin;
+  const int* const second = runs.slots[1] + run.begin;
   for (int axis = 0; axis < 3; ++axis) {
     const Scalar* const values = field + axis * runs.num_slots;
     if (run.is_consecutive) {
@@ -58,10 +38,11 @@ template <class Scalar>
 }
 
 template <class Scalar>
-[[gnu::always_inline]] inline void add_to_ends(const EdgeRun& run, const EdgeRunsView& runs,
+[[gnu::always_inline]] inline void add_to_ends(const ElementRun& run,
+                                               const ElementRunsView<2>& runs,
                                                const EdgeVectors<Scalar>& forces, Scalar* sums) {
-  const int* const first = runs.first_slots + run.begin;
-  const int* const second = runs.second_slots + run.begin;
+  const int* const first = runs.slots[0] + run.begin;
+  const int* const second = runs.slots[1] + run.begin;
   for (int axis = 0; axis < 3; ++axis) {
     Scalar* const values = sums + axis * runs.num_slots;
     if (run.is_consecutive) {
@@ -79,11 +60,12 @@ template <class Scalar>
 /// work: the sums, then the fields, each as 3 arrays of num_slots numbers.
 template <class Scalar, class Force, std::size_t... kFields>
 [[gnu::always_inline]] inline void evaluate_runs_inline(const Force& force,
-                                                        const EdgeRunsView& runs, Scalar* work,
+                                                        const ElementRunsView<2>& runs,
+                                                        Scalar* work,
                                                         std::index_sequence<kFields...>) {
   EdgeVectors<Scalar> differences[sizeof...(kFields)];
   EdgeVectors<Scalar> forces;
-  for (const EdgeRun* run = runs.begin; run != runs.end; ++run) {
+  for (const ElementRun* run = runs.begin; run != runs.end; ++run) {
     (subtract_ends(*run, runs, work + 3 * (1 + kFields) * static_cast<std::size_t>(runs.num_slots),
                    differences[kFields]),
      ...);
@@ -103,7 +85,7 @@ template <class Scalar, class Force, std::size_t... kFields>
 #if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__))
 template <class Scalar, int kNumFields, class Force>
 [[gnu::target("avx2"), gnu::flatten]] void evaluate_runs_avx2(const Force& force,
-                                                              const EdgeRunsView& runs,
+                                                              const ElementRunsView<2>& runs,
                                                               Scalar* work) {
   evaluate_runs_inline(force, runs, work, std::make_index_sequence<kNumFields>{});
 }
@@ -112,7 +94,8 @@ template <class Scalar, int kNumFields, class Force>
 /// Adds the forces of all edges in runs to the sums. On processors with AVX2 the same source runs
 /// compiled for it: the same operations, and so the same bits.
 template <class Scalar, int kNumFields, class Force>
-[[gnu::flatten]] void evaluate_runs(const Force& force, const EdgeRunsView& runs, Scalar* work) {
+[[gnu::flatten]] void evaluate_runs(const Force& force, const ElementRunsView<2>& runs,
+                                    Scalar* work) {
 #if defined(__x86_64__) && (defined(__GNUC__) || defined(__clang__))
   if constexpr (std::is_floating_point_v<Scalar>) {
     if (__builtin_cpu_supports("avx2")) {

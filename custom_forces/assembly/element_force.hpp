@@ -10,6 +10,7 @@
 
 #include <weft/core/tangent.hpp>
 #include <weft/custom_forces/assembly/element_assembly.hpp>
+#include <weft/custom_forces/assembly/element_pairs.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
 namespace weft::forces {
@@ -84,13 +85,7 @@ class ElementForce {
   template <class Stiffness>
   void add_pairs(Eigen::Index e, const Stiffness& stiffness,
                  std::vector<PairStiffness<Scalar>>& pairs) const {
-    for (int corner = 0; corner < kNodes; ++corner) {
-      for (int other = corner + 1; other < kNodes; ++other) {
-        pairs.push_back(
-            {elements()(corner, e), elements()(other, e),
-             stiffness(static_cast<std::size_t>(corner), static_cast<std::size_t>(other))});
-      }
-    }
+    append_pairs(elements(), e, stiffness, pairs);
   }
 
   /// Sum of value(e, element), in the order of the elements.

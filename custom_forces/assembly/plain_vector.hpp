@@ -17,6 +17,10 @@ struct PlainVector {
     return Scalar(x * other.x + y * other.y + z * other.z);
   }
   [[nodiscard]] Scalar squared_norm() const { return dot(*this); }
+  [[nodiscard]] PlainVector cross(const PlainVector& other) const {
+    return {Scalar(y * other.z - z * other.y), Scalar(z * other.x - x * other.z),
+            Scalar(x * other.y - y * other.x)};
+  }
 
   friend PlainVector operator+(const PlainVector& a, const PlainVector& b) {
     return {Scalar(a.x + b.x), Scalar(a.y + b.y), Scalar(a.z + b.z)};

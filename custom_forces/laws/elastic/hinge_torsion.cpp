@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 
 #include <weft/core/error.hpp>
+#include <weft/custom_forces/assembly/arc_tangent.hpp>
+#include <weft/custom_forces/assembly/element_pairs.hpp>
 #include <weft/custom_forces/instantiate_law.hpp>
 #include <weft/custom_forces/law_input.hpp>
 #include <weft/mesh/topology/hinges.hpp>
@@ -100,40 +102,48 @@ Hinges bending_hinges(const ClothMesh& mesh) {
 template <class Number>
 struct HingeAngle {
   Number theta;
-  std::array<Vector3<Number>, 4> gradient;
+  Corners<Number, 4> gradient;
 };
 
-/// False for a hinge with a triangle too small to have a normal.
+/// Without branches, for the vector unit. A hinge with a triangle too small to have a normal has the angle at_rest, and so no
+/// moment. smallest: least squared length of both normals [m^4].
 template <class Number, class Scalar>
-bool hinge_angle(const std::array<Vector3<Number>, 4>& x, const Scalar& smallest_first,
-                 const Scalar& smallest_second, HingeAngle<Number>& angle) {
-  using std::atan2;
+[[gnu::always_inline]] inline HingeAngle<Number> hinge_angle(const Corners<Number, 4>& x,
+                                                             const Scalar& smallest_first,
+                                                             const Scalar& smallest_second,
+                                                             const Scalar& at_rest) {
   using std::sqrt;
-  const Vector3<Number> edge = x[1] - x[0];
-  const Vector3<Number> wing1 = x[2] - x[0];
-  const Vector3<Number> wing2 = x[3] - x[0];
-  const Vector3<Number> n1 = edge.cross(wing1);
-  const Vector3<Number> n2 = wing2.cross(edge);
-  const Number squared1 = n1.squaredNorm();
-  const Number squared2 = n2.squaredNorm();
-  if (!(squared1 > Number(smallest_first)) || !(squared2 > Number(smallest_second))) return false;
-  const Number squared_length = edge.squaredNorm();
-  const Number length = sqrt(squared_length);
-  // n1 x n2 lies along the edge: this is |n1| |n2| sin(theta) and cos(theta), times the length.
-  const Number sine = n1.cross(n2).dot(edge);
-  const Number cosine = n1.dot(n2) * length;
-  angle.theta = atan2(sine, cosine);
+  const PlainVector<Number> edge = x[1] - x[0];
+  const PlainVector<Number> wing1 = x[2] - x[0];
+  const PlainVector<Number> wing2 = x[3] - x[0];
+  const PlainVector<Number> n1 = edge.cross(wing1);
+  const PlainVector<Number> n2 = wing2.cross(edge);
+  const Number given1 = n1.squared_norm();
+  const Number given2 = n2.squared_norm();
+  const Number given_length = edge.squared_norm();
+  const bool has_normals = given1 > Number(smallest_first) && given2 > Number(smallest_second);
+  const Number one(Scalar(1));
+  const Number squared1 = choose(has_normals, given1, one);
+  const Number squared2 = choose(has_normals, given2, one);
+  const Number squared_length = choose(has_normals, given_length, one);
+  const Number length(sqrt(squared_length));
+  HingeAngle<Number> angle;
+  // n1 x n2 lies along the edge: this is |n1| |n2| sin(theta) and cos(theta).
+  const Number theta = arc_tangent(Number(-(n1.dot(wing2) * length)), n1.dot(n2));
+  angle.theta = choose(has_normals, theta, Number(at_rest));
   // Raising a wing along its normal closes the hinge by 1 / height; the edge's nodes balance force
   // and torque.
-  const Vector3<Number> by_wing1 = n1 * Number(length / squared1);
-  const Vector3<Number> by_wing2 = n2 * Number(length / squared2);
-  const Number foot1 = wing1.dot(edge) / squared_length;
-  const Number foot2 = wing2.dot(edge) / squared_length;
-  angle.gradient[2] = -by_wing1;
-  angle.gradient[3] = -by_wing2;
-  angle.gradient[1] = by_wing1 * foot1 + by_wing2 * foot2;
+  const PlainVector<Number> by_wing1 = Number(length / squared1) * n1;
+  const PlainVector<Number> by_wing2 = Number(length / squared2) * n2;
+  const Number inverse(one / squared_length);
+  const Number foot1(wing1.dot(edge) * inverse);
+  const Number foot2(wing2.dot(edge) * inverse);
+  const Number minus(Scalar(-1));
+  angle.gradient[2] = minus * by_wing1;
+  angle.gradient[3] = minus * by_wing2;
+  angle.gradient[1] = foot1 * by_wing1 + foot2 * by_wing2;
   angle.gradient[0] = by_wing1 + by_wing2 - angle.gradient[1];
-  return true;
+  return angle;
 }
 
 }  // namespace
@@ -160,49 +170,67 @@ const LawInfo HingeTorsion<Scalar>::kInfo{
 
 template <class Scalar>
 HingeTorsion<Scalar>::HingeTorsion(const LawSpecification& specification, const ClothMesh& mesh)
-    : hinges_(bending_hinges(mesh), mesh.num_nodes(), 4),
+    : hinges_(bending_hinges(mesh), mesh.num_nodes()),
       stiffness_(hinges_.size()),
-      rest_angles_(hinge_angles(mesh.rest_positions, hinges_.elements()).template cast<Scalar>()),
-      smallest_normals_(3, hinges_.size()) {
+      rest_angles_(hinges_.size()),
+      smallest_normals_{VectorX<Scalar>(hinges_.size()), VectorX<Scalar>(hinges_.size())} {
   const double rigidity = law_scalar(specification, "rigidity");
   const double clamp_factor = law_scalar(specification, "clamp_factor");
   const bool is_cut_both_ways = mesh.crossed_triangles.cols() > 0;
   std::vector<bool> pinned(static_cast<std::size_t>(mesh.num_nodes()), false);
   for (const int node : mesh.pinned) pinned[static_cast<std::size_t>(node)] = true;
-  for (Eigen::Index h = 0; h < hinges_.size(); ++h) {
+  const VectorX<double> angles = hinge_angles(mesh.rest_positions, hinges_.elements());
+  for (Eigen::Index place = 0; place < hinges_.size(); ++place) {
+    const Eigen::Index h = hinges_.order()[static_cast<std::size_t>(place)];
     const Eigen::Vector4i nodes = hinges_.elements().col(h);
     const RestHinge hinge = rest_hinge(mesh, nodes);
     const double factor = is_at_clamp(hinge, pinned, nodes) ? clamp_factor : 1.0;
-    stiffness_[h] = Scalar(rigidity * factor * weight(hinge, is_cut_both_ways));
+    stiffness_[place] = Scalar(rigidity * factor * weight(hinge, is_cut_both_ways));
+    rest_angles_[place] = Scalar(angles[h]);
     for (int side = 0; side < 2; ++side) {
       const double smallest = kMinAreaRatio * hinge.length * hinge.heights[side];
-      smallest_normals_(side, h) = Scalar(smallest * smallest);
+      smallest_normals_[side][place] = Scalar(smallest * smallest);
     }
-    smallest_normals_(2, h) = Scalar(0);
   }
 }
 
+/// The hinges' numbers, place by place.
 template <class Scalar>
-template <class Number>
-void HingeTorsion<Scalar>::add_hinge(Eigen::Index h, const std::array<Vector3<Number>, 4>& x,
-                                     ElementForces<Number, 4>& parts) const {
-  HingeAngle<Number> angle;
-  if (!hinge_angle(x, smallest_normals_(0, h), smallest_normals_(1, h), angle)) return;
-  const Number moment = Number(stiffness_[h]) * (Number(rest_angles_[h]) - angle.theta);
-  for (std::size_t corner = 0; corner < 4; ++corner) {
-    parts[corner] = angle.gradient[corner] * moment;
+struct HingeTorsion<Scalar>::Numbers {
+  const Scalar* stiffness;
+  const Scalar* rest_angles;
+  const Scalar* smallest_first;
+  const Scalar* smallest_second;
+
+  template <class Number>
+  [[gnu::always_inline]] HingeAngle<Number> angle(Eigen::Index place,
+                                                  const Corners<Number, 4>& x) const {
+    return hinge_angle(x, smallest_first[place], smallest_second[place], rest_angles[place]);
   }
+  template <class Number>
+  [[gnu::always_inline]] Corners<Number, 4> forces(Eigen::Index place,
+                                                   const Corners<Number, 4>& x) const {
+    const HingeAngle<Number> now = angle(place, x);
+    const Number moment(Number(stiffness[place]) * (Number(rest_angles[place]) - now.theta));
+    return {moment * now.gradient[0], moment * now.gradient[1], moment * now.gradient[2],
+            moment * now.gradient[3]};
+  }
+};
+
+template <class Scalar>
+auto HingeTorsion<Scalar>::numbers() const -> Numbers {
+  return {stiffness_.data(), rest_angles_.data(), smallest_normals_[0].data(),
+          smallest_normals_[1].data()};
 }
 
 template <class Scalar>
 void HingeTorsion<Scalar>::add_forces(const State<Scalar>& state, Matrix3XRef<Scalar> scratch,
                                       Matrix3XRef<Scalar> forces) const {
-  hinges_.add_forces(
-      state,
-      [this](Eigen::Index h, const auto& hinge, auto& parts) {
-        this->add_hinge(h, hinge.x, parts);
-      },
-      scratch, forces);
+  const Numbers hinges = numbers();
+  const auto force = [hinges](Eigen::Index place, const Corners<Scalar, 4>& x) {
+    return hinges.forces(place, x);
+  };
+  hinges_.template add<Scalar>(force, scratch, forces, state.positions);
 }
 
 template <class Scalar>
@@ -210,41 +238,59 @@ void HingeTorsion<Scalar>::add_stiffness_product(const State<Scalar>& state,
                                                  ConstMatrix3XRef<Scalar> displacements,
                                                  Matrix3XRef<Scalar> scratch,
                                                  Matrix3XRef<Scalar> product) const {
-  hinges_.add_stiffness_product(
-      state,
-      [this](Eigen::Index h, const auto& hinge, auto& parts) {
-        this->add_hinge(h, hinge.x, parts);
-      },
-      displacements, scratch, product);
+  using Number = Tangent<Scalar>;
+  const Numbers hinges = numbers();
+  const auto force_change = [hinges](Eigen::Index place, const Corners<Scalar, 4>& x,
+                                     const Corners<Scalar, 4>& changes) {
+    Corners<Number, 4> moving;
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      moving[corner] = {Number(x[corner].x, changes[corner].x),
+                        Number(x[corner].y, changes[corner].y),
+                        Number(x[corner].z, changes[corner].z)};
+    }
+    const Corners<Number, 4> forces = hinges.forces(place, moving);
+    Corners<Scalar, 4> rates;
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      rates[corner] = {forces[corner].x.rate, forces[corner].y.rate, forces[corner].z.rate};
+    }
+    return rates;
+  };
+  hinges_.template add<Scalar>(force_change, scratch, product, state.positions, displacements);
 }
 
 template <class Scalar>
 void HingeTorsion<Scalar>::add_rest_stiffness(const State<Scalar>& rest,
                                               std::vector<PairStiffness<Scalar>>& pairs) const {
+  std::vector<Eigen::Index> place_of(static_cast<std::size_t>(hinges_.size()));
+  for (std::size_t place = 0; place < place_of.size(); ++place) {
+    place_of[static_cast<std::size_t>(hinges_.order()[place])] = static_cast<Eigen::Index>(place);
+  }
   for (Eigen::Index h = 0; h < hinges_.size(); ++h) {
-    HingeAngle<Scalar> angle;
-    if (!hinge_angle(hinges_.at(rest, h).x, smallest_normals_(0, h), smallest_normals_(1, h),
-                     angle)) {
-      continue;
+    const Eigen::Index place = place_of[static_cast<std::size_t>(h)];
+    Corners<Scalar, 4> x;
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      const Vector3<Scalar> position =
+          rest.positions.col(hinges_.elements()(static_cast<Eigen::Index>(corner), h));
+      x[corner] = {position.x(), position.y(), position.z()};
     }
+    const HingeAngle<Scalar> angle = numbers().angle(place, x);
     // Without a moment only the gradient's square is left of the second derivative.
     const auto stiffness = [&](std::size_t corner, std::size_t other) -> Scalar {
-      return stiffness_[h] * angle.gradient[corner].dot(angle.gradient[other]);
+      return stiffness_[place] * angle.gradient[corner].dot(angle.gradient[other]);
     };
-    hinges_.add_pairs(h, stiffness, pairs);
+    append_pairs(hinges_.elements(), h, stiffness, pairs);
   }
 }
 
 template <class Scalar>
 Scalar HingeTorsion<Scalar>::potential_energy(const State<Scalar>& state) const {
-  return hinges_.sum(state, [this](Eigen::Index h, const auto& hinge) -> Scalar {
-    HingeAngle<Scalar> angle;
-    if (!hinge_angle(hinge.x, smallest_normals_(0, h), smallest_normals_(1, h), angle)) {
-      return Scalar(0);
-    }
-    const Scalar turn = angle.theta - rest_angles_[h];
-    return Scalar(0.5) * stiffness_[h] * turn * turn;
-  });
+  const Numbers hinges = numbers();
+  return hinges_.template sum<Scalar>(
+      [hinges](Eigen::Index place, const Corners<Scalar, 4>& x) {
+        const Scalar turn(hinges.angle(place, x).theta - hinges.rest_angles[place]);
+        return Scalar(Scalar(0.5) * hinges.stiffness[place] * turn * turn);
+      },
+      state.positions);
 }
 
 WEFT_INSTANTIATE_LAW(HingeTorsion);

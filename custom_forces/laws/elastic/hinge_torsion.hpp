@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <weft/custom_forces/assembly/element_force.hpp>
+#include <weft/custom_forces/assembly/batched_assembly.hpp>
 #include <weft/custom_forces/force_law.hpp>
 
 namespace weft::forces {
@@ -40,7 +40,9 @@ class HingeTorsion final : public ForceLaw<Scalar> {
   HingeTorsion(const LawSpecification& specification, const ClothMesh& mesh);
 
   [[nodiscard]] const LawInfo& info() const noexcept override { return kInfo; }
-  [[nodiscard]] Eigen::Index scratch_columns() const override { return hinges_.scratch_columns(); }
+  [[nodiscard]] Eigen::Index scratch_columns() const override {
+    return hinges_.scratch_columns(2);  // positions and displacements
+  }
   void add_forces(const State<Scalar>& state, Matrix3XRef<Scalar> scratch,
                   Matrix3XRef<Scalar> forces) const override;
   void add_stiffness_product(const State<Scalar>& state, ConstMatrix3XRef<Scalar> displacements,
@@ -54,14 +56,14 @@ class HingeTorsion final : public ForceLaw<Scalar> {
   static constexpr double kMinAreaRatio = 1e-6;
 
  private:
-  template <class Number>
-  void add_hinge(Eigen::Index h, const std::array<Vector3<Number>, 4>& x,
-                 ElementForces<Number, 4>& parts) const;
+  struct Numbers;
+  [[nodiscard]] Numbers numbers() const;
 
-  ElementForce<Scalar, 4> hinges_;
-  VectorX<Scalar> stiffness_;          ///< k of each hinge [N m]
-  VectorX<Scalar> rest_angles_;        ///< theta0 [rad]
-  Matrix3X<Scalar> smallest_normals_;  ///< rows 0, 1: least squared length of both normals [m^4]
+  BatchedAssembly<4> hinges_;
+  // In the order in which the assembly computes the hinges.
+  VectorX<Scalar> stiffness_;            ///< k [N m]
+  VectorX<Scalar> rest_angles_;          ///< theta0 [rad]
+  VectorX<Scalar> smallest_normals_[2];  ///< least squared length of both normals [m^4]
 };
 
 extern template class HingeTorsion<float>;

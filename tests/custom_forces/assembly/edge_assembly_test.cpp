@@ -126,8 +126,8 @@ void expect_same_bits_without_avx2() {
     first[i] = static_cast<int>(i < 64 ? i : (37 * i) % kSlots);
     second[i] = static_cast<int>(i < 64 ? i + 9 : (53 * i + 1) % kSlots);
   }
-  const EdgeRun runs[] = {{0, 64, true}, {64, 50, false}, {114, 36, false}};
-  const EdgeRunsView view{runs, runs + 3, first.data(), second.data(), kSlots};
+  const ElementRun runs[] = {{0, 64, true}, {64, 50, false}, {114, 36, false}};
+  const ElementRunsView<2> view{runs, runs + 3, {first.data(), second.data()}, kSlots};
   const auto force = [](Eigen::Index place, const PlainVector<Scalar>& d) -> PlainVector<Scalar> {
     const Scalar length = std::sqrt(d.squared_norm() + Scalar(0.01));
     return Scalar((length - Scalar(0.001) * static_cast<Scalar>(place)) / length) * d;
