@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include <weft/core/tangent.hpp>
 #include <weft/core/types.hpp>
 #include <weft/custom_forces/assembly/batched_kernel.hpp>
 #include <weft/custom_forces/assembly/element_runs.hpp>
@@ -42,6 +44,41 @@ class BatchedAssembly {
       evaluate_elements<Scalar, kNodes, sizeof...(Fields)>(force, runs, work);
     };
     runs_.template add<Scalar>(evaluate, scratch, result, fields...);
+  }
+
+  /// product += (df/dx) changes, for force(place, corners) as a template over the number, which is a Tangent here. positions,
+  /// changes: 3 x num_nodes(). scratch: for two fields.
+  template <class Scalar, class Force>
+  void add_stiffness_product(const Force& force, ConstMatrix3XRef<Scalar> positions,
+                             ConstMatrix3XRef<Scalar> changes, Matrix3XRef<Scalar> scratch,
+                             Matrix3XRef<Scalar> product) const {
+    using Number = Tangent<Scalar>;
+    const auto force_change = [&force](Eigen::Index place, const Corners<Scalar, kNodes>& x,
+                                       const Corners<Scalar, kNodes>& by) {
+      Corners<Number, kNodes> moving;
+      for (std::size_t corner = 0; corner < kNodes; ++corner) {
+        moving[corner] = {Number(x[corner].x, by[corner].x), Number(x[corner].y, by[corner].y),
+                          Number(x[corner].z, by[corner].z)};
+      }
+      const Corners<Number, kNodes> forces = force(place, moving);
+      Corners<Scalar, kNodes> rates;
+      for (std::size_t corner = 0; corner < kNodes; ++corner) {
+        rates[corner] = {forces[corner].x.rate, forces[corner].y.rate, forces[corner].z.rate};
+      }
+      return rates;
+    };
+    add<Scalar>(force_change, scratch, product, positions, changes);
+  }
+
+  /// Element e as corners of the field.
+  template <class Scalar>
+  [[nodiscard]] Corners<Scalar, kNodes> at(ConstMatrix3XRef<Scalar> field, Eigen::Index e) const {
+    Corners<Scalar, kNodes> corners;
+    for (std::size_t corner = 0; corner < kNodes; ++corner) {
+      const int node = elements()(static_cast<Eigen::Index>(corner), e);
+      corners[corner] = {field(0, node), field(1, node), field(2, node)};
+    }
+    return corners;
   }
 
   /// Sum over elements of value(place, corners), in one order; of single-precision numbers in double

@@ -238,42 +238,21 @@ void HingeTorsion<Scalar>::add_stiffness_product(const State<Scalar>& state,
                                                  ConstMatrix3XRef<Scalar> displacements,
                                                  Matrix3XRef<Scalar> scratch,
                                                  Matrix3XRef<Scalar> product) const {
-  using Number = Tangent<Scalar>;
   const Numbers hinges = numbers();
-  const auto force_change = [hinges](Eigen::Index place, const Corners<Scalar, 4>& x,
-                                     const Corners<Scalar, 4>& changes) {
-    Corners<Number, 4> moving;
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      moving[corner] = {Number(x[corner].x, changes[corner].x),
-                        Number(x[corner].y, changes[corner].y),
-                        Number(x[corner].z, changes[corner].z)};
-    }
-    const Corners<Number, 4> forces = hinges.forces(place, moving);
-    Corners<Scalar, 4> rates;
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      rates[corner] = {forces[corner].x.rate, forces[corner].y.rate, forces[corner].z.rate};
-    }
-    return rates;
+  const auto force = [hinges](Eigen::Index place, const auto& x) {
+    return hinges.forces(place, x);
   };
-  hinges_.template add<Scalar>(force_change, scratch, product, state.positions, displacements);
+  hinges_.template add_stiffness_product<Scalar>(force, state.positions, displacements, scratch,
+                                                 product);
 }
 
 template <class Scalar>
 void HingeTorsion<Scalar>::add_rest_stiffness(const State<Scalar>& rest,
                                               std::vector<PairStiffness<Scalar>>& pairs) const {
-  std::vector<Eigen::Index> place_of(static_cast<std::size_t>(hinges_.size()));
-  for (std::size_t place = 0; place < place_of.size(); ++place) {
-    place_of[static_cast<std::size_t>(hinges_.order()[place])] = static_cast<Eigen::Index>(place);
-  }
-  for (Eigen::Index h = 0; h < hinges_.size(); ++h) {
-    const Eigen::Index place = place_of[static_cast<std::size_t>(h)];
-    Corners<Scalar, 4> x;
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      const Vector3<Scalar> position =
-          rest.positions.col(hinges_.elements()(static_cast<Eigen::Index>(corner), h));
-      x[corner] = {position.x(), position.y(), position.z()};
-    }
-    const HingeAngle<Scalar> angle = numbers().angle(place, x);
+  for (Eigen::Index place = 0; place < hinges_.size(); ++place) {
+    const Eigen::Index h = hinges_.order()[static_cast<std::size_t>(place)];
+    const HingeAngle<Scalar> angle =
+        numbers().angle(place, hinges_.template at<Scalar>(rest.positions, h));
     // Without a moment only the gradient's square is left of the second derivative.
     const auto stiffness = [&](std::size_t corner, std::size_t other) -> Scalar {
       return stiffness_[place] * angle.gradient[corner].dot(angle.gradient[other]);

@@ -1,8 +1,8 @@
 #include <weft/custom_forces/laws/elastic/torsion.hpp>
 
 #include <cmath>
-#include <numbers>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -121,17 +121,59 @@ const LawInfo Torsion<Scalar>::kInfo{
                .role = LawRole::kBending},
     .parameters = kTorsionParameters};
 
+/// Lines at rest, straight and bent ones apart.
+template <class Scalar>
+struct Torsion<Scalar>::RestLines {
+  struct Part {
+    Triples triples{3, 0};
+    std::vector<double> stiffness;  ///< kappa [N m]
+    std::vector<double> angles;     ///< theta [rad]
+    std::vector<double> sides;      ///< d' and d'' of each line in turn [m]
+  };
+  Part straight;
+  Part bent;
+
+  RestLines(const LawSpecification& specification, const ClothMesh& mesh) {
+    const double first = law_scalar(specification, "stiffness");
+    const double second = first * law_scalar(specification, "side_ratio");
+    const Triples triples = law_triples(specification, mesh);
+    std::vector<Eigen::Index> of_straight;
+    std::vector<Eigen::Index> of_bent;
+    for (Eigen::Index e = 0; e < triples.cols(); ++e) {
+      const Eigen::Vector3i nodes = triples.col(e);
+      const double d1 = rest_side(mesh, nodes[0], nodes[1]);
+      const double d2 = rest_side(mesh, nodes[1], nodes[2]);
+      const Vector3<double> a =
+          (mesh.rest_positions.col(nodes[1]) - mesh.rest_positions.col(nodes[0])) / d1;
+      const Vector3<double> b =
+          (mesh.rest_positions.col(nodes[2]) - mesh.rest_positions.col(nodes[1])) / d2;
+      const double theta = std::atan2(a.cross(b).norm(), a.dot(b));
+      // What rounding leaves of a straight line is no bend.
+      constexpr double kStraight = 1e-7;  // [rad]
+      (theta > kStraight ? of_bent : of_straight).push_back(e);
+      Part& part = theta > kStraight ? bent : straight;
+      part.stiffness.push_back((first * d1 * d1 + second * d2 * d2) / 2);
+      part.angles.push_back(theta);
+      part.sides.insert(part.sides.end(), {d1, d2});
+    }
+    straight.triples = triples(Eigen::all, of_straight);
+    bent.triples = triples(Eigen::all, of_bent);
+  }
+};
+
 template <class Scalar>
 Torsion<Scalar>::Torsion(const LawSpecification& specification, const ClothMesh& mesh)
-    : lines_(law_triples(specification, mesh), mesh.num_nodes(), 3),
-      stiffness_(lines_.size()),
-      rest_angles_(VectorX<Scalar>::Constant(lines_.size(), Scalar(0))),
-      shortest_(3, lines_.size()),
+    : Torsion(RestLines(specification, mesh), mesh) {}
+
+template <class Scalar>
+Torsion<Scalar>::Torsion(const RestLines& lines, const ClothMesh& mesh)
+    : straight_(lines.straight.triples, mesh.num_nodes(), lines.straight.stiffness,
+                lines.straight.sides),
+      bent_(lines.bent.triples, mesh.num_nodes(), 3),
+      stiffness_(bent_.size()),
+      rest_angles_(bent_.size()),
+      shortest_(3, bent_.size()),
       faces_(3, 0) {
-  using std::atan2;
-  using std::sqrt;
-  const double first = law_scalar(specification, "stiffness");
-  const double second = first * law_scalar(specification, "side_ratio");
   std::vector<std::vector<Eigen::Index>> faces_of_node(static_cast<std::size_t>(mesh.num_nodes()));
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     for (const int node : mesh.triangles.col(t)) {
@@ -143,32 +185,17 @@ Torsion<Scalar>::Torsion(const LawSpecification& specification, const ClothMesh&
   const VectorX<Scalar> masses = mesh.masses.template cast<Scalar>();
   const State<Scalar> rest{rest_positions, still, masses};
   first_face_.push_back(0);
-  for (Eigen::Index e = 0; e < lines_.size(); ++e) {
-    const Eigen::Vector3i nodes = lines_.elements().col(e);
-    const double d1 = rest_side(mesh, nodes[0], nodes[1]);
-    const double d2 = rest_side(mesh, nodes[1], nodes[2]);
-    stiffness_[e] = Scalar((first * d1 * d1 + second * d2 * d2) / 2);
-    shortest_.col(e) << Scalar(kMinLengthRatio * d1), Scalar(kMinLengthRatio * d2), Scalar(0);
-
-    const Vector3<double> a =
-        (mesh.rest_positions.col(nodes[1]) - mesh.rest_positions.col(nodes[0])) / d1;
-    const Vector3<double> b =
-        (mesh.rest_positions.col(nodes[2]) - mesh.rest_positions.col(nodes[1])) / d2;
-    const double theta = std::atan2(a.cross(b).norm(), a.dot(b));
-    // What rounding leaves of a straight line is no bend.
-    constexpr double kStraight = 1e-7;  // [rad]
-    const auto& faces = faces_of_node[static_cast<std::size_t>(nodes[1])];
-    if (theta > kStraight) {
-      for (const Eigen::Index t : faces) {
-        faces_.conservativeResize(3, faces_.cols() + 1);
-        faces_.rightCols(1) = mesh.triangles.col(t);
-      }
+  for (Eigen::Index e = 0; e < bent_.size(); ++e) {
+    const auto line = static_cast<std::size_t>(e);
+    stiffness_[e] = Scalar(lines.bent.stiffness[line]);
+    shortest_.col(e) << Scalar(kMinLengthRatio * lines.bent.sides[2 * line]),
+        Scalar(kMinLengthRatio * lines.bent.sides[2 * line + 1]), Scalar(0);
+    for (const Eigen::Index t : faces_of_node[static_cast<std::size_t>(bent_.elements()(1, e))]) {
+      faces_.conservativeResize(3, faces_.cols() + 1);
+      faces_.rightCols(1) = mesh.triangles.col(t);
     }
     first_face_.push_back(faces_.cols());
-    if (theta > kStraight) {
-      rest_angles_[e] = Scalar(theta);  // not 0: side() looks at the normal
-      rest_angles_[e] = Scalar(theta) * side(rest, e, lines_.at(rest, e));
-    }
+    rest_angles_[e] = Scalar(lines.bent.angles[line]) * side(rest, e, bent_.at(rest, e));
   }
 }
 
@@ -188,7 +215,6 @@ Vector3<Scalar> Torsion<Scalar>::normal_at(const State<Scalar>& state, Eigen::In
 template <class Scalar>
 Scalar Torsion<Scalar>::side(const State<Scalar>& state, Eigen::Index e,
                              const ElementState<Scalar, 3>& line) const {
-  if (rest_angles_[e] == Scalar(0)) return Scalar(1);
   const Vector3<Scalar> normal = normal_at(state, e);
   Turn<Scalar> turn;
   if (!turn_of(line.x, shortest_(0, e), shortest_(1, e), turn)) return Scalar(1);
@@ -204,15 +230,13 @@ void Torsion<Scalar>::add_line(const State<Scalar>& state, Eigen::Index e,
                                ElementForces<Number, 3>& parts) const {
   Turn<Number> turn;
   if (!turn_of(line.x, shortest_(0, e), shortest_(1, e), turn)) return;
-  if (is_opposite(turn.cosine, turn.squared_sine)) return;
+  using std::sqrt;
+  if (!(turn.squared_sine > Number(kOppositeSquaredSine))) return;  // straight, or folded back
   // -dE/dtheta / sin(theta)
-  Number pull = -angle_over_sine(turn.cosine, turn.squared_sine);
-  if (rest_angles_[e] != Scalar(0)) {
-    using std::sqrt;
-    if (!(turn.squared_sine > Number(kOppositeSquaredSine))) return;  // bent at rest, straight now
-    const Scalar s = side(state, e, lines_.at(state, e));
-    pull += Number(s * rest_angles_[e]) / Number(sqrt(turn.squared_sine));
-  }
+  const Scalar s = side(state, e, bent_.at(state, e));
+  const Number sine = sqrt(turn.squared_sine);
+  Number pull =
+      Number(s * rest_angles_[e]) / sine - angle_over_sine(turn.cosine, turn.squared_sine);
   pull = pull * Number(stiffness_[e]);
   // sin(theta) dtheta/dA = (second - cos first) / |first|, and likewise for B.
   const Vector3<Number> at_first =
@@ -230,7 +254,8 @@ void Torsion<Scalar>::add_forces(const State<Scalar>& state, Matrix3XRef<Scalar>
   const auto kernel = [&](Eigen::Index e, const auto& line, auto& parts) {
     add_line(state, e, line, parts);
   };
-  lines_.add_forces(state, kernel, scratch, forces);
+  bent_.add_forces(state, kernel, scratch, forces);
+  straight_.add_forces(state, scratch, forces);
 }
 
 template <class Scalar>
@@ -241,62 +266,45 @@ void Torsion<Scalar>::add_stiffness_product(const State<Scalar>& state,
   const auto kernel = [&](Eigen::Index e, const auto& line, auto& parts) {
     add_line(state, e, line, parts);
   };
-  lines_.add_stiffness_product(state, kernel, displacements, scratch, product);
+  bent_.add_stiffness_product(state, kernel, displacements, scratch, product);
+  straight_.add_stiffness_product(state, displacements, scratch, product);
 }
 
 template <class Scalar>
 void Torsion<Scalar>::add_rest_stiffness(const State<Scalar>& rest,
                                          std::vector<PairStiffness<Scalar>>& pairs) const {
-  for (Eigen::Index e = 0; e < lines_.size(); ++e) {
+  straight_.add_rest_stiffness(rest, pairs);
+  for (Eigen::Index e = 0; e < bent_.size(); ++e) {
+    using std::sqrt;
     Turn<Scalar> turn;
-    if (!turn_of(lines_.at(rest, e).x, shortest_(0, e), shortest_(1, e), turn)) continue;
+    if (!turn_of(bent_.at(rest, e).x, shortest_(0, e), shortest_(1, e), turn)) continue;
+    if (!(turn.squared_sine > Scalar(kOppositeSquaredSine))) continue;
     // Unit vectors along which moving either end makes the turn grow.
-    Vector3<Scalar> across_first = turn.second - turn.first * turn.cosine;
-    Vector3<Scalar> across_second = turn.second * turn.cosine - turn.first;
-    Scalar directions(1);
-    if (rest_angles_[e] == Scalar(0)) {
-      // A straight line turns about either of two axes alike.
-      across_first = Vector3<Scalar>(Scalar(1), Scalar(0), Scalar(0));
-      across_second = across_first;
-      directions = Scalar(2);
-    } else {
-      using std::sqrt;
-      if (!(turn.squared_sine > Scalar(kOppositeSquaredSine))) continue;
-      const Scalar sine = sqrt(turn.squared_sine);
-      across_first = across_first / sine;
-      across_second = across_second / sine;
-    }
+    const Scalar sine = sqrt(turn.squared_sine);
+    const Vector3<Scalar> across_first = (turn.second - turn.first * turn.cosine) / sine;
+    const Vector3<Scalar> across_second = (turn.second * turn.cosine - turn.first) / sine;
     ElementForces<Scalar, 3> gradient;
     gradient[0] = across_first / turn.first_length;
     gradient[2] = across_second / turn.second_length;
     gradient[1] = -gradient[0] - gradient[2];
     const auto stiffness = [&](std::size_t corner, std::size_t other) -> Scalar {
-      return stiffness_[e] * directions * gradient[corner].dot(gradient[other]);
+      return stiffness_[e] * gradient[corner].dot(gradient[other]);
     };
-    lines_.add_pairs(e, stiffness, pairs);
+    bent_.add_pairs(e, stiffness, pairs);
   }
 }
 
 template <class Scalar>
 Scalar Torsion<Scalar>::potential_energy(const State<Scalar>& state) const {
-  return lines_.sum(state, [&](Eigen::Index e, const auto& line) -> Scalar {
-    using std::atan2;
+  const Scalar of_bent = bent_.sum(state, [&](Eigen::Index e, const auto& line) -> Scalar {
     using std::sqrt;
     Turn<Scalar> turn;
     if (!turn_of(line.x, shortest_(0, e), shortest_(1, e), turn)) return Scalar(0);
-    if (rest_angles_[e] == Scalar(0)) {
-      // theta^2 = (theta / sin)^2 sin^2 is smooth where the line is straight.
-      if (is_opposite(turn.cosine, turn.squared_sine)) {
-        const Scalar pi(std::numbers::pi);
-        return Scalar(0.5) * stiffness_[e] * pi * pi;
-      }
-      const Scalar ratio = angle_over_sine(turn.cosine, turn.squared_sine);
-      return Scalar(0.5) * stiffness_[e] * ratio * ratio * turn.squared_sine;
-    }
-    const Scalar theta = atan2(Scalar(sqrt(turn.squared_sine)), turn.cosine);
+    const Scalar theta = arc_tangent(Scalar(sqrt(turn.squared_sine)), turn.cosine);
     const Scalar off = side(state, e, line) * theta - rest_angles_[e];
     return Scalar(0.5) * stiffness_[e] * off * off;
   });
+  return straight_.potential_energy(state) + of_bent;
 }
 
 WEFT_INSTANTIATE_LAW(Torsion);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <weft/custom_forces/assembly/element_force.hpp>
 #include <weft/custom_forces/force_law.hpp>
+#include <weft/custom_forces/laws/elastic/straight_lines.hpp>
 
 namespace weft::forces {
 
@@ -38,7 +40,9 @@ class Torsion final : public ForceLaw<Scalar> {
   Torsion(const LawSpecification& specification, const ClothMesh& mesh);
 
   [[nodiscard]] const LawInfo& info() const noexcept override { return kInfo; }
-  [[nodiscard]] Eigen::Index scratch_columns() const override { return lines_.scratch_columns(); }
+  [[nodiscard]] Eigen::Index scratch_columns() const override {
+    return std::max(straight_.scratch_columns(), bent_.scratch_columns());
+  }
   void add_forces(const State<Scalar>& state, Matrix3XRef<Scalar> scratch,
                   Matrix3XRef<Scalar> forces) const override;
   void add_stiffness_product(const State<Scalar>& state, ConstMatrix3XRef<Scalar> displacements,
@@ -49,21 +53,25 @@ class Torsion final : public ForceLaw<Scalar> {
   [[nodiscard]] Scalar potential_energy(const State<Scalar>& state) const override;
 
  private:
-  /// Twice the area vector of the triangles around the centre of a triple; zero without triangles.
+  struct RestLines;
+  Torsion(const RestLines& lines, const ClothMesh& mesh);
+
+  /// Twice the area vector of the triangles around the centre of a bent line; zero without triangles.
   [[nodiscard]] Vector3<Scalar> normal_at(const State<Scalar>& state, Eigen::Index e) const;
-  /// s, or 1 where it does not matter.
+  /// s of a bent line.
   [[nodiscard]] Scalar side(const State<Scalar>& state, Eigen::Index e,
                             const ElementState<Scalar, 3>& line) const;
   template <class Number>
   void add_line(const State<Scalar>& state, Eigen::Index e, const ElementState<Number, 3>& line,
                 ElementForces<Number, 3>& parts) const;
 
-  ElementForce<Scalar, 3> lines_;
-  VectorX<Scalar> stiffness_;    ///< kappa [N m]
-  VectorX<Scalar> rest_angles_;  ///< theta0 [rad]
-  Matrix3X<Scalar> shortest_;    ///< rows 0, 1: least length of both sides [m]
+  StraightLines<Scalar> straight_;
+  ElementForce<Scalar, 3> bent_;
+  VectorX<Scalar> stiffness_;    ///< kappa of bent lines [N m]
+  VectorX<Scalar> rest_angles_;  ///< theta0 of bent lines [rad], not 0
+  Matrix3X<Scalar> shortest_;    ///< rows 0, 1: least length of both sides of bent lines [m]
   std::vector<Eigen::Index>
-      first_face_;  ///< faces of triple e's centre: first_face_[e] ... [e + 1]
+      first_face_;  ///< faces of bent line e's centre: first_face_[e] ... [e + 1]
   Triangles faces_;
 };
 
