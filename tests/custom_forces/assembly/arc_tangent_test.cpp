@@ -20,12 +20,12 @@ double largest_error() {
     const auto sign = [&] { return generator() % 2 == 0 ? 1.0 : -1.0; };
     const auto y = static_cast<Number>(sign() * std::exp(exponent(generator)));
     const auto x = static_cast<Number>(sign() * std::exp(exponent(generator)));
-    const long double truth = std::atan2(static_cast<long double>(y), static_cast<long double>(x));
-    const auto rounded = static_cast<Number>(std::abs(truth));
+    const long double angle = std::atan2(static_cast<long double>(y), static_cast<long double>(x));
+    const auto rounded = static_cast<Number>(std::abs(angle));
     const auto unit = static_cast<double>(
         std::nextafter(rounded, std::numeric_limits<Number>::infinity()) - rounded);
     const auto error =
-        static_cast<double>(std::abs(static_cast<long double>(arc_tangent(y, x)) - truth));
+        static_cast<double>(std::abs(static_cast<long double>(arc_tangent(y, x)) - angle));
     largest = std::max(largest, error / unit);
   }
   return largest;
