@@ -1,6 +1,8 @@
 #include <weft/bridge/bullet/bullet_guard.hpp>
 
+#ifdef __ELF__
 #include <link.h>
+#endif
 
 #include <string>
 #include <string_view>
@@ -16,6 +18,7 @@ struct LoadedLibraries {
   bool double_precision = false;
 };
 
+#ifdef __ELF__
 int note_library(dl_phdr_info* info, std::size_t /*size*/, void* data) {
   auto& loaded = *static_cast<LoadedLibraries*>(data);
   const std::string_view path = info->dlpi_name;
@@ -24,6 +27,18 @@ int note_library(dl_phdr_info* info, std::size_t /*size*/, void* data) {
   if (name.starts_with("libBulletSoftBody.so")) loaded.single_precision = true;
   return 0;
 }
+
+LoadedLibraries loaded_libraries() {
+  LoadedLibraries loaded;
+  dl_iterate_phdr(&note_library, &loaded);
+  return loaded;
+}
+#else
+// A program of Windows says of each function which library it comes from: two of them do not get into each other's way.
+LoadedLibraries loaded_libraries() {
+  return {};
+}
+#endif
 
 std::string describe(const BulletLayout& layout) {
   return "Bullet " + std::to_string(layout.version) + ", btScalar of " +
@@ -46,8 +61,7 @@ void require_matching_bullet(const BulletLayout& caller) {
                 ", but the bridge for " + describe(own) +
                 "; compile and link both for one Bullet (weft::bridge or weft::bridge_float64)");
   }
-  LoadedLibraries loaded;
-  dl_iterate_phdr(&note_library, &loaded);
+  const LoadedLibraries loaded = loaded_libraries();
   if (loaded.single_precision && loaded.double_precision) {
     throw Error(
         "bridge: libBulletSoftBody and libBulletSoftBody-float64 are both loaded in this process; "
