@@ -5,10 +5,27 @@
 # (build/include/<name>/weft/<path> -> source), so a file can include only the modules its target links: the
 # arrows of the architecture are enforced by the compiler, not by a convention.
 
+if(WIN32 AND BUILD_SHARED_LIBS)
+  message(FATAL_ERROR "BUILD_SHARED_LIBS = ${BUILD_SHARED_LIBS}, expected OFF: on Windows Weft's libraries are static")
+endif()
+
+# GCC does not align the stack of Windows to more than 16 bytes, and yet moves vectors of 32 and 64 bytes to and from it as if it did (GCC bug
+# 54412): what is compiled for AVX crashes. Debian's MinGW is mended, others are not; the assembler knows a move that asks for no alignment.
+if(MINGW AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  include(CheckCXXCompilerFlag)
+  check_cxx_compiler_flag(-Wa,-muse-unaligned-vector-move WEFT_HAS_UNALIGNED_VECTOR_MOVES)
+  if(NOT WEFT_HAS_UNALIGNED_VECTOR_MOVES)
+    message(FATAL_ERROR "The assembler does not know -muse-unaligned-vector-move, expected binutils 2.38 or newer")
+  endif()
+endif()
+
 function(weft_target_flags target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   # -ffp-contract=off: the same source gives the same bits whether or not the compiler may fuse a*b+c.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
+  if(WEFT_HAS_UNALIGNED_VECTOR_MOVES)
+    target_compile_options(${target} PRIVATE -Wa,-muse-unaligned-vector-move)
+  endif()
   if(WEFT_WARNINGS OR WEFT_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic
       # GCC 12 sees overlapping copies in std::string's operator+ where there are none (GCC bug 105651).
@@ -99,7 +116,7 @@ endfunction()
 
 function(weft_shared_library target)
   set_target_properties(${target} PROPERTIES
-    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} WINDOWS_EXPORT_ALL_SYMBOLS ON
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
     DEFINE_SYMBOL "")  # which precompiled headers would have to be made without
   if(APPLE)
     set_target_properties(${target} PROPERTIES INSTALL_RPATH "@loader_path")
