@@ -7,7 +7,7 @@ usage() {
   cat <<TXT
 usage: tools/setup.sh [--list] [GROUP...]
 
-Installs what is missing of the groups (build test lint browser, default: build test) of tools/packages.txt,
+Installs what is missing of the groups (build test lint browser windows, default: build test) of tools/packages.txt,
 as root or through sudo. --list prints the missing packages and installs nothing.
 Exit status: 0 everything is there, 1 the installation failed, 2 it cannot be installed from here.
 TXT
@@ -19,8 +19,8 @@ for argument in "$@"; do
   case $argument in
     -h | --help) usage; exit 0 ;;
     --list) list_only=yes ;;
-    build | test | lint | browser) groups+=("$argument") ;;
-    *) echo "setup: unknown argument '$argument', expected --list or one of: build test lint browser" >&2; exit 2 ;;
+    build | test | lint | browser | windows) groups+=("$argument") ;;
+    *) echo "setup: unknown argument '$argument', expected --list or one of: build test lint browser windows" >&2; exit 2 ;;
   esac
 done
 ((${#groups[@]})) || groups=(build test)
