@@ -154,10 +154,11 @@ TEST_P(TaskGroups, ShareTheLoopsOfTasksWithTheirCaller) {
       } state;
       state.caller = caller;
       group_.start(1, [&state](std::size_t) {
-        parallel_for(100, [&state](std::size_t) {
+        parallel_for(20, [&state](std::size_t) {
           state.has_begun = true;
           if (std::this_thread::get_id() == state.caller) state.was_caller = true;
-          std::this_thread::sleep_for(std::chrono::microseconds(200));
+          // MinGW does not sleep for less than a millisecond.
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
         });
       });
       has_threads = is_set_by_another(state.has_begun);
