@@ -10,8 +10,8 @@ usage: tools/windows.sh [--folder FOLDER] [--native PREFIX] [--jobs N] [--if-ins
 
 On Debian: installs what is missing (groups build and windows of tools/packages.txt), gets the source of Debian's Bullet, compiles it and
 Weft's libraries for Windows with MinGW, in both precisions, and compiles Weft for this machine. Then Wine runs the tests of files and threads,
-and two programs of tests/install/bits, whose state after a third of a second must be that of the same programs on this machine: bit for bit
-without bending, and with bending nearly so, because the two systems round the angle of a hinge differently.
+and the program of tests/install/bits in both precisions, whose state after a third of a second must be that of the same program on this
+machine, bit for bit.
 
 --folder FOLDER   for all that is made (default: build/windows). It has the libraries and the headers for Windows in FOLDER/prefix.
 --native PREFIX   compare with the Weft that is installed there, which must be of this source, compiler and build type Release.
@@ -36,11 +36,6 @@ while (($#)); do
   shift
 done
 [[ $jobs =~ ^[1-9][0-9]*$ ]] || fail "--jobs is '$jobs', expected a whole number above 0" 2
-
-# How far positions may be off with bending [m], by precision; the cloths are 1 m wide. One hangs on a ball, whose contact amplifies what rounding
-# leaves. In single precision the results of the kernels for AVX-512, for AVX2 and for any processor are up to 7e-5 m apart on one system, and
-# those of one kernel on the two systems as much: three times that. In double precision rounding is 2^29 times as small.
-declare -A largest_difference=([bridge]=2e-4 [bridge_float64]=4e-13)
 
 toolchain=$step_root/cmake/toolchains/mingw_w64.cmake
 for_windows=(-G Ninja "-DCMAKE_TOOLCHAIN_FILE=$toolchain" "-DCMAKE_PREFIX_PATH=$folder/prefix" -DEigen3_DIR=/usr/share/eigen3/cmake
@@ -134,33 +129,16 @@ run_tests() {
   WEFT_TEST_LINKS=links/scene quietly "$wine" ./core_test.exe
 }
 
-# Nothing of the machine's folders is in the program's name for its file of positions: Wine's drives are not asked for.
-run_bits() { # folder command...; prints the hashes, leaves positions.txt in the folder
-  cd -- "$1"
-  shift
-  "$@" positions.txt | tr -d '\r'
+hash_of() { # program...
+  "$@" | tr -d '\r' | sed -n 's/^hash \([0-9a-f]*\)$/\1/p'
 }
 
 compare() { # component
-  local component=$1 here there difference
-  here=$(run_bits "$folder/native_bits_$component" ./bits)
-  there=$(run_bits "$folder/bits_$component" "$wine" ./bits.exe)
-  difference=$(paste -d ' ' "$folder/native_bits_$component/positions.txt" "$folder/bits_$component/positions.txt" |
-    awk 'NF != 2 || $1 + 0 != $1 || $2 + 0 != $2 { exit 1 }
-         { d = $1 > $2 ? $1 - $2 : $2 - $1; if (d > most) most = d }
-         END { if (NR != 15000) exit 1; printf "%.3g", most }') || fail "$component: the positions of the two programs cannot be compared"
-  echo "$component: $(hash_of without "$here") here, $(hash_of without "$there") on Windows without bending"
-  echo "$component: $(hash_of with "$here") here, $(hash_of with "$there") on Windows with bending: $difference m apart at most"
-  [[ $(hash_of without "$here") == "$(hash_of without "$there")" ]] || fail "$component: other bits on Windows without bending"
-  awk -v d="$difference" -v most="${largest_difference[$component]}" 'BEGIN { exit !(d <= most) }' ||
-    fail "$component: $difference m apart with bending, expected at most ${largest_difference[$component]} m"
-}
-
-hash_of() { # with|without output
-  case $1 in
-    with) sed -n 's/^hash \([0-9a-f]*\)$/\1/p' <<<"$2" ;;
-    without) sed -n 's/^hash without bending \([0-9a-f]*\)$/\1/p' <<<"$2" ;;
-  esac
+  local component=$1 here there
+  here=$(hash_of "$folder/native_bits_$component/bits")
+  there=$(hash_of "$wine" "$folder/bits_$component/bits.exe")
+  echo "$component: ${here:-nothing} here, ${there:-nothing} on Windows"
+  [[ -n $here && $here == "$there" ]] || fail "$component: other bits on Windows"
 }
 
 compare_all() {

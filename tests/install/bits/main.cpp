@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
-#include <vector>
 
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
@@ -30,19 +29,9 @@ std::uint64_t hash_of(const btSoftBody& body, std::uint64_t hash) {
   return hash;
 }
 
-/// Adds the nodes' positions [m], a number in each line.
-void write_positions(const btSoftBody& body, std::FILE* file) {
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      std::fprintf(file, "%.17g\n", static_cast<double>(body.m_nodes[i].m_x[axis]));
-    }
-  }
-}
-
 /// The state after a third of a second of two cloths that hang by their corners, one stepped by the implicit solver with bending and a ball
-/// below it, one by forces that other threads compute while the program goes on. Bending is what asks the system for a function that it need
-/// not round exactly, the angle of a hinge. positions: a file for where the nodes are in the end, or null.
-std::uint64_t run(bool has_bending, std::FILE* positions) {
+/// below it, one by forces that other threads compute while the program goes on.
+std::uint64_t run() {
   SoftBodySolver solver;
   solver.set_deferred(true);
   btSoftBodyRigidBodyCollisionConfiguration configuration;
@@ -69,13 +58,11 @@ std::uint64_t run(bool has_bending, std::FILE* positions) {
 
   const weft::forces::LawSpecification gravity{
       .law = "gravity", .sets = {}, .parameters = {{"acceleration", {0, -9.81, 0}}}};
-  std::vector<weft::forces::LawSpecification> laws = {{"tension", {}, {{"stiffness", {1000.0}}}},
-                                                      {"velocity_damping", {}, {{"rate", {1.0}}}},
-                                                      gravity};
-  if (has_bending) {
-    laws.insert(laws.begin() + 1, {"hinge_torsion", {}, {{"rigidity", {1e-6}}}});
-  }
-  const auto refusal = solver.attach_fast(*implicit, mesh, laws);
+  const auto refusal = solver.attach_fast(*implicit, mesh,
+                                          {{"tension", {}, {{"stiffness", {1000.0}}}},
+                                           {"hinge_torsion", {}, {{"rigidity", {1e-6}}}},
+                                           {"velocity_damping", {}, {{"rate", {1.0}}}},
+                                           gravity});
   solver.attach(*explicit_body, mesh,
                 {{"tension", {}, {{"stiffness", {0.02}}}},
                  {"spring_damping", {}, {{"damping", {1e-5}}}},
@@ -83,7 +70,6 @@ std::uint64_t run(bool has_bending, std::FILE* positions) {
   for (int step = 0; step < 20; ++step) world.stepSimulation(btScalar(1.0 / 60), 0);
   std::uint64_t hash = hash_of(*explicit_body, hash_of(*implicit, 14695981039346656037U));
   for (const btSoftBody* body : {implicit.get(), explicit_body.get()}) {
-    if (positions) write_positions(*body, positions);
     const auto blow_up = solver.blow_up(*body);
     if (!refusal && !blow_up) continue;
     std::fprintf(stderr, "%s\n", refusal ? refusal->c_str() : blow_up->reason.c_str());
@@ -97,21 +83,13 @@ std::uint64_t run(bool has_bending, std::FILE* positions) {
 
 }  // namespace
 
-// The state of a run as one number, which must not depend on how Weft was built, linked and found, nor on threads. With the name of a file
-// the positions are written to it, and the same without bending is printed too.
-int main(int argc, char** argv) {
-  std::FILE* const positions = argc > 1 ? std::fopen(argv[1], "wb") : nullptr;
-  if (argc > 1 && !positions) return std::perror(argv[1]), 2;
+// The state of a run as one number, which must not depend on how Weft was built, linked and found, nor on threads.
+int main() {
   std::printf("threads from %s\n", weft::thread_library().c_str());
-  const std::uint64_t hash = weft::with_threads(1, [&] { return run(true, positions); });
+  const std::uint64_t hash = weft::with_threads(1, run);
   std::printf("hash %016llx\n", static_cast<unsigned long long>(hash));
-  if (positions) {
-    if (std::fclose(positions) != 0) return std::perror(argv[1]), 2;
-    const std::uint64_t plain = weft::with_threads(1, [] { return run(false, nullptr); });
-    std::printf("hash without bending %016llx\n", static_cast<unsigned long long>(plain));
-  }
   for (const int threads : {2, 4}) {
-    if (weft::with_threads(threads, [] { return run(true, nullptr); }) == hash) continue;
+    if (weft::with_threads(threads, run) == hash) continue;
     std::fprintf(stderr, "other bits on %d threads\n", threads);
     return 1;
   }
