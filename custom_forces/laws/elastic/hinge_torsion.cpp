@@ -127,17 +127,19 @@ template <class Number, class Scalar>
   const Number squared2 = choose(has_normals, given2, one);
   const Number squared_length = choose(has_normals, given_length, one);
   const Number length(sqrt(squared_length));
+  const Number inverse(one / squared_length);
+  const Number foot1(wing1.dot(edge) * inverse);
+  const Number foot2(wing2.dot(edge) * inverse);
   HingeAngle<Number> angle;
-  // n1 x n2 lies along the edge: this is |n1| |n2| sin(theta) and cos(theta).
-  const Number theta = arc_tangent(Number(-(n1.dot(wing2) * length)), n1.dot(n2));
+  // n1 x n2 lies along the edge: this is |n1| |n2| sin(theta) and cos(theta). Of the wing only what is across the edge counts: what
+  // rounding gives n1 along the edge would meet the rest, which is long beside the height of a thin triangle.
+  const PlainVector<Number> across = wing2 - foot2 * edge;
+  const Number theta = arc_tangent(Number(-(n1.dot(across) * length)), n1.dot(n2));
   angle.theta = choose(has_normals, theta, Number(at_rest));
   // Raising a wing along its normal closes the hinge by 1 / height; the edge's nodes balance force
   // and torque.
   const PlainVector<Number> by_wing1 = Number(length / squared1) * n1;
   const PlainVector<Number> by_wing2 = Number(length / squared2) * n2;
-  const Number inverse(one / squared_length);
-  const Number foot1(wing1.dot(edge) * inverse);
-  const Number foot2(wing2.dot(edge) * inverse);
   const Number minus(Scalar(-1));
   angle.gradient[2] = minus * by_wing1;
   angle.gradient[3] = minus * by_wing2;
@@ -179,14 +181,15 @@ HingeTorsion<Scalar>::HingeTorsion(const LawSpecification& specification, const 
   const bool is_cut_both_ways = mesh.crossed_triangles.cols() > 0;
   std::vector<bool> pinned(static_cast<std::size_t>(mesh.num_nodes()), false);
   for (const int node : mesh.pinned) pinned[static_cast<std::size_t>(node)] = true;
-  const VectorX<double> angles = hinge_angles(mesh.rest_positions, hinges_.elements());
   for (Eigen::Index place = 0; place < hinges_.size(); ++place) {
     const Eigen::Index h = hinges_.order()[static_cast<std::size_t>(place)];
     const Eigen::Vector4i nodes = hinges_.elements().col(h);
     const RestHinge hinge = rest_hinge(mesh, nodes);
     const double factor = is_at_clamp(hinge, pinned, nodes) ? clamp_factor : 1.0;
     stiffness_[place] = Scalar(rigidity * factor * weight(hinge, is_cut_both_ways));
-    rest_angles_[place] = Scalar(angles[h]);
+    // By the formula of the motion: a hinge that is folded flat at rest is so on the same side.
+    const auto corners = hinges_.template at<double>(mesh.rest_positions, h);
+    rest_angles_[place] = Scalar(hinge_angle(corners, 0.0, 0.0, 0.0).theta);
     for (int side = 0; side < 2; ++side) {
       const double smallest = kMinAreaRatio * hinge.length * hinge.heights[side];
       smallest_normals_[side][place] = Scalar(smallest * smallest);
