@@ -1,4 +1,4 @@
-// What regular_file.hpp promises, by the functions of POSIX.
+// This file keeps the promises of regular_file.hpp by the functions of POSIX.
 // Tested by tests/core/input_file_test.cpp.
 #include <fcntl.h>
 #include <sys/stat.h>

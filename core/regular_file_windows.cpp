@@ -1,4 +1,4 @@
-// What regular_file.hpp promises, by the functions of Windows.
+// This file keeps the promises of regular_file.hpp by the functions of Windows.
 // Tested by tests/core/input_file_test.cpp.
 #include <algorithm>
 

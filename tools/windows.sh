@@ -58,14 +58,16 @@ quietly() { # command...
   "$@" >"$log" 2>&1 || { tail -n 40 "$log" >&2; return 1; }
 }
 
-# The list of Debian's sources is one of our own: neither the system's is changed nor are its rights needed. apt checks what it gets.
+# The list of sources is one of our own, with the server from which this machine has its packages: neither the system's is changed nor are its rights needed. apt checks what it gets.
 get_bullet() {
-  local version release lists=$folder/apt
+  local version release server lists=$folder/apt
   version=$(dpkg-query -W -f '${Version}' libbullet-dev)
   [[ -e $folder/bullet_source/.version && $(<"$folder/bullet_source/.version") == "$version" ]] && return
   release=$(. /etc/os-release && echo "$VERSION_CODENAME")
+  server=$(apt-get indextargets --format '$(REPO_URI) $(RELEASE)' 'Created-By: Packages' | awk -v release="$release" '$2 == release { print $1; exit }')
+  [[ -n $server ]] || fail "no source of packages of Debian $release is known to apt, expected one in /etc/apt" 2
   mkdir -p "$lists/lists/partial" "$lists/archives/partial"
-  echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian $release main" >"$lists/sources.list"
+  echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $server $release main" >"$lists/sources.list"
   local apt=(apt-get -q -o "Dir::Etc::SourceList=$lists/sources.list" -o Dir::Etc::SourceParts=/dev/null -o "Dir::State::Lists=$lists/lists"
     -o "Dir::Cache=$lists" -o APT::Sandbox::User=root -o Acquire::Retries=3)
   cd -- "$lists"

@@ -43,11 +43,7 @@ Count count_elements(ElementKind kind, const ClothMesh& mesh) {
       for (const LineSet& set : mesh.line_sets) number += static_cast<double>(set.triples.cols());
       return {"line", number};
     case ElementKind::kHinges:
-      // Cells of a grid are cut both ways, and the law has the hinges of both.
-      for (const Triangles* one_way : {&mesh.triangles, &mesh.crossed_triangles}) {
-        number += static_cast<double>(hinges_of_triangles(*one_way).cols());
-      }
-      return {"hinge", number};
+      return {"hinge", static_cast<double>(bending_hinges(mesh).cols())};
     case ElementKind::kFaces:
       return {"face", static_cast<double>(mesh.triangles.cols())};
     case ElementKind::kConnections:

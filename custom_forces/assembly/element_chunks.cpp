@@ -6,12 +6,12 @@
 namespace weft::forces {
 namespace {
 
-/// Equal pieces for two and for four threads.
+/// More pieces than two are equal shares for two and for four threads.
 constexpr Eigen::Index kPiecesMultiple = 4;
 
 Eigen::Index num_pieces(Eigen::Index num_elements, int grain) {
   const Eigen::Index pieces = (num_elements + grain - 1) / grain;
-  if (pieces <= kPiecesMultiple) return pieces;
+  if (pieces <= 2) return pieces;
   return std::min((pieces + kPiecesMultiple - 1) / kPiecesMultiple * kPiecesMultiple, num_elements);
 }
 

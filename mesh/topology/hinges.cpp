@@ -152,6 +152,14 @@ Hinges hinges_of_triangles(const Triangles& triangles) {
   return result;
 }
 
+Hinges bending_hinges(const ClothMesh& mesh) {
+  const Hinges one_way = hinges_of_triangles(mesh.triangles);
+  const Hinges other_way = hinges_of_triangles(mesh.crossed_triangles);
+  Hinges hinges(4, one_way.cols() + other_way.cols());
+  hinges << one_way, other_way;
+  return hinges;
+}
+
 bool is_closed_surface(const Triangles& triangles) {
   const SharedEdges edges(triangles);
   for (std::size_t e = 0; e < edges.size(); ++e) {

@@ -15,6 +15,9 @@ namespace weft {
 /// and for two neighbors that do not turn the same way round.
 [[nodiscard]] Hinges hinges_of_triangles(const Triangles& triangles);
 
+/// Those of both ways in which the cells of a mesh are cut: of its triangles, then of its crossed triangles. Throws likewise.
+[[nodiscard]] Hinges bending_hinges(const ClothMesh& mesh);
+
 /// Whether every edge belongs to exactly two triangles that turn the same way round, and there is at
 /// least one triangle.
 [[nodiscard]] bool is_closed_surface(const Triangles& triangles);

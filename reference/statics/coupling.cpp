@@ -50,10 +50,7 @@ Edges pairs_of(const ClothMesh& mesh, const std::set<forces::ElementKind>& kinds
   if (kinds.count(Kind::kLines) != 0) {
     for (const LineSet& set : mesh.line_sets) add_all_pairs(set.triples, pairs);
   }
-  if (kinds.count(Kind::kHinges) != 0) {
-    add_all_pairs(hinges_of_triangles(mesh.triangles), pairs);
-    add_all_pairs(hinges_of_triangles(mesh.crossed_triangles), pairs);
-  }
+  if (kinds.count(Kind::kHinges) != 0) add_all_pairs(bending_hinges(mesh), pairs);
   if (kinds.count(Kind::kFaces) != 0) add_all_pairs(mesh.triangles, pairs);
   if (kinds.count(Kind::kConnections) != 0) add_connections(mesh, pairs);
   std::sort(pairs.begin(), pairs.end());

@@ -90,17 +90,10 @@ bool is_at_clamp(const RestHinge& hinge, const std::vector<bool>& pinned,
   return num_free == 1;
 }
 
-Hinges bending_hinges(const ClothMesh& mesh) {
-  const Hinges one_way = hinges_of_triangles(mesh.triangles);
-  const Hinges other_way = hinges_of_triangles(mesh.crossed_triangles);
-  Hinges hinges(4, one_way.cols() + other_way.cols());
-  hinges << one_way, other_way;
-  return hinges;
-}
-
 /// dtheta/dx of the four nodes, and theta.
 template <class Number>
 struct HingeAngle {
+  bool has_normals;  ///< else the gradient is finite, and means nothing
   Number theta;
   Corners<Number, 4> gradient;
 };
@@ -131,6 +124,7 @@ template <class Number, class Scalar>
   const Number foot1(wing1.dot(edge) * inverse);
   const Number foot2(wing2.dot(edge) * inverse);
   HingeAngle<Number> angle;
+  angle.has_normals = has_normals;
   // n1 x n2 lies along the edge: this is |n1| |n2| sin(theta) and cos(theta). Of the wing only what is across the edge counts: what
   // rounding gives n1 along the edge would meet the rest, which is long beside the height of a thin triangle.
   const PlainVector<Number> across = wing2 - foot2 * edge;
@@ -256,6 +250,7 @@ void HingeTorsion<Scalar>::add_rest_stiffness(const State<Scalar>& rest,
     const Eigen::Index h = hinges_.order()[static_cast<std::size_t>(place)];
     const HingeAngle<Scalar> angle =
         numbers().angle(place, hinges_.template at<Scalar>(rest.positions, h));
+    if (!angle.has_normals) continue;
     // Without a moment only the gradient's square is left of the second derivative.
     const auto stiffness = [&](std::size_t corner, std::size_t other) -> Scalar {
       return stiffness_[place] * angle.gradient[corner].dot(angle.gradient[other]);

@@ -269,7 +269,6 @@ void NonlocalTorsion<Scalar>::add_stiffness_product(const State<Scalar>& state,
 template <class Scalar>
 Scalar NonlocalTorsion<Scalar>::potential_energy(const State<Scalar>& state) const {
   return ties_.sum(state, [this](Eigen::Index e, const auto& tie) -> Scalar {
-    using std::atan2;
     using std::sqrt;
     Pose<Scalar> pose;
     if (!pose_of(frames_[static_cast<std::size_t>(e)], tie, pose)) return Scalar(0);
@@ -277,7 +276,7 @@ Scalar NonlocalTorsion<Scalar>::potential_energy(const State<Scalar>& state) con
       const Scalar ratio = angle_over_sine(pose.cosine, pose.squared_sine);
       return Scalar(0.5) * stiffness_ * ratio * ratio * pose.squared_sine;
     }
-    const Scalar angle = atan2(Scalar(sqrt(pose.squared_sine)), pose.cosine);
+    const Scalar angle = arc_tangent(Scalar(sqrt(pose.squared_sine)), pose.cosine);
     return Scalar(0.5) * stiffness_ * angle * angle;
   });
 }

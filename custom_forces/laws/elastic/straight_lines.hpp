@@ -11,6 +11,7 @@
 #include <weft/custom_forces/assembly/element_pairs.hpp>
 #include <weft/custom_forces/assembly/spring_set.hpp>
 #include <weft/custom_forces/force_law.hpp>
+#include <weft/custom_forces/laws/elastic/line_turn.hpp>
 #include <weft/custom_forces/laws/elastic/turning_angle.hpp>
 
 namespace weft::forces {
@@ -63,7 +64,7 @@ class StraightLines {
                           std::vector<PairStiffness<Scalar>>& pairs) const {
     for (Eigen::Index place = 0; place < lines_.size(); ++place) {
       const Eigen::Index e = lines_.order()[static_cast<std::size_t>(place)];
-      const Turn<Scalar> turn =
+      const LineTurn<Scalar> turn =
           numbers().turn(place, lines_.template at<Scalar>(rest.positions, e));
       if (!turn.has_sides) continue;
       // How the turn grows with each node, across the line; it turns about either of two axes alike.
@@ -86,18 +87,6 @@ class StraightLines {
   }
 
  private:
-  /// The turn of A -> C -> B.
-  template <class Number>
-  struct Turn {
-    bool has_sides;              ///< both are long enough to have a direction
-    PlainVector<Number> first;   ///< unit vector from A to C
-    PlainVector<Number> second;  ///< unit vector from C to B
-    Number first_length;         ///< [m]
-    Number second_length;        ///< [m]
-    Number cosine;               ///< of theta
-    Number squared_sine;
-  };
-
   /// The lines' numbers, place by place.
   struct Numbers {
     const Scalar* stiffness;
@@ -105,49 +94,26 @@ class StraightLines {
     const Scalar* squared_second;
 
     template <class Number>
-    [[gnu::always_inline]] Turn<Number> turn(Eigen::Index place,
-                                             const Corners<Number, 3>& x) const {
-      using std::sqrt;
-      const PlainVector<Number> first = x[1] - x[0];
-      const PlainVector<Number> second = x[2] - x[1];
-      const Number given_first = first.squared_norm();
-      const Number given_second = second.squared_norm();
-      const Number one(Scalar(1));
-      Turn<Number> turn;
-      const Number second_if_first =
-          choose(given_first > Number(squared_first[place]), given_second, Number(Scalar(0)));
-      turn.has_sides = second_if_first > Number(squared_second[place]);
-      turn.first_length = Number(sqrt(choose(turn.has_sides, given_first, one)));
-      turn.second_length = Number(sqrt(choose(turn.has_sides, given_second, one)));
-      turn.first = Number(one / turn.first_length) * first;
-      turn.second = Number(one / turn.second_length) * second;
-      turn.cosine = turn.first.dot(turn.second);
-      turn.squared_sine = turn.first.cross(turn.second).squared_norm();
-      return turn;
+    [[gnu::always_inline]] LineTurn<Number> turn(Eigen::Index place,
+                                                 const Corners<Number, 3>& x) const {
+      return line_turn(x, squared_first[place], squared_second[place]);
     }
 
     template <class Number>
     [[gnu::always_inline]] Corners<Number, 3> forces(Eigen::Index place,
                                                      const Corners<Number, 3>& x) const {
-      const Turn<Number> now = turn(place, x);
-      // dE/dtheta / sin(theta)
-      const Number moment(Number(stiffness[place]) * angle_over_sine(now.cosine, now.squared_sine));
+      const LineTurn<Number> now = turn(place, x);
+      const Number minus_stiffness(-stiffness[place]);
+      // -dE/dtheta / sin(theta)
+      const Number moment(minus_stiffness * angle_over_sine(now.cosine, now.squared_sine));
       const Number none(Scalar(0));
       const Number with_sides = choose(now.has_sides, moment, none);
-      const Number push = choose(is_opposite(now.cosine, now.squared_sine), none, with_sides);
-      // sin(theta) dtheta/dA = (second - cos first) / |first|, and likewise for B.
-      const PlainVector<Number> at_first =
-          Number(push / now.first_length) * (now.cosine * now.first - now.second);
-      const PlainVector<Number> at_second =
-          Number(push / now.second_length) * (now.first - now.cosine * now.second);
-      const PlainVector<Number> at_both = at_first + at_second;
-      return {{{at_first.x, at_first.y, at_first.z},
-               {Number(-at_both.x), Number(-at_both.y), Number(-at_both.z)},
-               {at_second.x, at_second.y, at_second.z}}};
+      return now.gradient_times(
+          choose(is_opposite(now.cosine, now.squared_sine), none, with_sides));
     }
 
     [[gnu::always_inline]] Scalar energy(Eigen::Index place, const Corners<Scalar, 3>& x) const {
-      const Turn<Scalar> now = turn(place, x);
+      const LineTurn<Scalar> now = turn(place, x);
       const Scalar pi(std::numbers::pi);
       // theta^2 = (theta / sin)^2 sin^2 is smooth where the line is straight.
       const Scalar ratio = angle_over_sine(now.cosine, now.squared_sine);

@@ -28,39 +28,6 @@ constexpr ParameterInfo kTorsionParameters[] = {
      .default_value = 1.0},
 };
 
-/// The turn of A -> C -> B.
-template <class Number>
-struct Turn {
-  Vector3<Number> first;   ///< unit vector from A to C
-  Vector3<Number> second;  ///< unit vector from C to B
-  Number first_length;     ///< [m]
-  Number second_length;    ///< [m]
-  Number cosine;           ///< of theta
-  Number squared_sine;
-};
-
-/// False for a triple with a side too short to have a direction.
-template <class Number, class Scalar>
-bool turn_of(const std::array<Vector3<Number>, 3>& x, const Scalar& shortest_first,
-             const Scalar& shortest_second, Turn<Number>& turn) {
-  using std::sqrt;
-  const Vector3<Number> first = x[1] - x[0];
-  const Vector3<Number> second = x[2] - x[1];
-  const Number squared_first = first.squaredNorm();
-  const Number squared_second = second.squaredNorm();
-  if (!(squared_first > Number(shortest_first * shortest_first)) ||
-      !(squared_second > Number(shortest_second * shortest_second))) {
-    return false;
-  }
-  turn.first_length = sqrt(squared_first);
-  turn.second_length = sqrt(squared_second);
-  turn.first = first / turn.first_length;
-  turn.second = second / turn.second_length;
-  turn.cosine = turn.first.dot(turn.second);
-  turn.squared_sine = turn.first.cross(turn.second).squaredNorm();
-  return true;
-}
-
 Triples law_triples(const LawSpecification& specification, const ClothMesh& mesh) {
   Triples triples(3, 0);
   const auto append = [&](const Triples& more) {
@@ -143,12 +110,14 @@ struct Torsion<Scalar>::RestLines {
       const Eigen::Vector3i nodes = triples.col(e);
       const double d1 = rest_side(mesh, nodes[0], nodes[1]);
       const double d2 = rest_side(mesh, nodes[1], nodes[2]);
-      const Vector3<double> a =
-          (mesh.rest_positions.col(nodes[1]) - mesh.rest_positions.col(nodes[0])) / d1;
-      const Vector3<double> b =
-          (mesh.rest_positions.col(nodes[2]) - mesh.rest_positions.col(nodes[1])) / d2;
-      const double theta = std::atan2(a.cross(b).norm(), a.dot(b));
-      // What rounding leaves of a straight line is no bend.
+      Corners<double, 3> x;
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const Vector3<double> position = mesh.rest_positions.col(nodes[static_cast<int>(corner)]);
+        x[corner] = {position.x(), position.y(), position.z()};
+      }
+      const LineTurn<double> turn = line_turn(x, 0.0, 0.0);
+      const double theta = arc_tangent(std::sqrt(turn.squared_sine), turn.cosine);
+      // Rounding bends a straight line by less than this.
       constexpr double kStraight = 1e-7;  // [rad]
       (theta > kStraight ? of_bent : of_straight).push_back(e);
       Part& part = theta > kStraight ? bent : straight;
@@ -172,7 +141,7 @@ Torsion<Scalar>::Torsion(const RestLines& lines, const ClothMesh& mesh)
       bent_(lines.bent.triples, mesh.num_nodes(), 3),
       stiffness_(bent_.size()),
       rest_angles_(bent_.size()),
-      shortest_(3, bent_.size()),
+      squared_shortest_(2, bent_.size()),
       faces_(3, 0) {
   std::vector<std::vector<Eigen::Index>> faces_of_node(static_cast<std::size_t>(mesh.num_nodes()));
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
@@ -188,8 +157,10 @@ Torsion<Scalar>::Torsion(const RestLines& lines, const ClothMesh& mesh)
   for (Eigen::Index e = 0; e < bent_.size(); ++e) {
     const auto line = static_cast<std::size_t>(e);
     stiffness_[e] = Scalar(lines.bent.stiffness[line]);
-    shortest_.col(e) << Scalar(kMinLengthRatio * lines.bent.sides[2 * line]),
-        Scalar(kMinLengthRatio * lines.bent.sides[2 * line + 1]), Scalar(0);
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double shortest = kMinLengthRatio * lines.bent.sides[2 * line + side];
+      squared_shortest_(static_cast<Eigen::Index>(side), e) = Scalar(shortest * shortest);
+    }
     for (const Eigen::Index t : faces_of_node[static_cast<std::size_t>(bent_.elements()(1, e))]) {
       faces_.conservativeResize(3, faces_.cols() + 1);
       faces_.rightCols(1) = mesh.triangles.col(t);
@@ -213,13 +184,25 @@ Vector3<Scalar> Torsion<Scalar>::normal_at(const State<Scalar>& state, Eigen::In
 }
 
 template <class Scalar>
+template <class Number>
+LineTurn<Number> Torsion<Scalar>::turn_of(Eigen::Index e,
+                                          const ElementState<Number, 3>& line) const {
+  Corners<Number, 3> x;
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    x[corner] = {line.x[corner].x(), line.x[corner].y(), line.x[corner].z()};
+  }
+  return line_turn(x, squared_shortest_(0, e), squared_shortest_(1, e));
+}
+
+template <class Scalar>
 Scalar Torsion<Scalar>::side(const State<Scalar>& state, Eigen::Index e,
                              const ElementState<Scalar, 3>& line) const {
+  const LineTurn<Scalar> turn = turn_of(e, line);
+  if (!turn.has_sides) return Scalar(1);
   const Vector3<Scalar> normal = normal_at(state, e);
-  Turn<Scalar> turn;
-  if (!turn_of(line.x, shortest_(0, e), shortest_(1, e), turn)) return Scalar(1);
   // The line turns away from the normal where the front is convex.
-  const Scalar towards = Vector3<Scalar>(turn.second - turn.first).dot(normal);
+  const Scalar towards =
+      (turn.second - turn.first).dot(PlainVector<Scalar>{normal.x(), normal.y(), normal.z()});
   return towards > Scalar(0) ? Scalar(-1) : Scalar(1);
 }
 
@@ -228,24 +211,20 @@ template <class Number>
 void Torsion<Scalar>::add_line(const State<Scalar>& state, Eigen::Index e,
                                const ElementState<Number, 3>& line,
                                ElementForces<Number, 3>& parts) const {
-  Turn<Number> turn;
-  if (!turn_of(line.x, shortest_(0, e), shortest_(1, e), turn)) return;
   using std::sqrt;
+  const LineTurn<Number> turn = turn_of(e, line);
+  if (!turn.has_sides) return;
   if (!(turn.squared_sine > Number(kOppositeSquaredSine))) return;  // straight, or folded back
-  // -dE/dtheta / sin(theta)
   const Scalar s = side(state, e, bent_.at(state, e));
   const Number sine = sqrt(turn.squared_sine);
-  Number pull =
-      Number(s * rest_angles_[e]) / sine - angle_over_sine(turn.cosine, turn.squared_sine);
-  pull = pull * Number(stiffness_[e]);
-  // sin(theta) dtheta/dA = (second - cos first) / |first|, and likewise for B.
-  const Vector3<Number> at_first =
-      (turn.second - turn.first * turn.cosine) * Number(pull / turn.first_length);
-  const Vector3<Number> at_second =
-      (turn.second * turn.cosine - turn.first) * Number(pull / turn.second_length);
-  parts[0] = at_first;
-  parts[2] = at_second;
-  parts[1] = -at_first - at_second;
+  // -dE/dtheta / sin(theta)
+  const Number pull =
+      Number(stiffness_[e]) *
+      Number(Number(s * rest_angles_[e]) / sine - angle_over_sine(turn.cosine, turn.squared_sine));
+  const Corners<Number, 3> forces = turn.gradient_times(pull);
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    parts[corner] << forces[corner].x, forces[corner].y, forces[corner].z;
+  }
 }
 
 template <class Scalar>
@@ -276,17 +255,10 @@ void Torsion<Scalar>::add_rest_stiffness(const State<Scalar>& rest,
   straight_.add_rest_stiffness(rest, pairs);
   for (Eigen::Index e = 0; e < bent_.size(); ++e) {
     using std::sqrt;
-    Turn<Scalar> turn;
-    if (!turn_of(bent_.at(rest, e).x, shortest_(0, e), shortest_(1, e), turn)) continue;
-    if (!(turn.squared_sine > Scalar(kOppositeSquaredSine))) continue;
-    // Unit vectors along which moving either end makes the turn grow.
-    const Scalar sine = sqrt(turn.squared_sine);
-    const Vector3<Scalar> across_first = (turn.second - turn.first * turn.cosine) / sine;
-    const Vector3<Scalar> across_second = (turn.second * turn.cosine - turn.first) / sine;
-    ElementForces<Scalar, 3> gradient;
-    gradient[0] = across_first / turn.first_length;
-    gradient[2] = across_second / turn.second_length;
-    gradient[1] = -gradient[0] - gradient[2];
+    const LineTurn<Scalar> turn = turn_of(e, bent_.at(rest, e));
+    if (!turn.has_sides || !(turn.squared_sine > Scalar(kOppositeSquaredSine))) continue;
+    const Corners<Scalar, 3> gradient =
+        turn.gradient_times(Scalar(Scalar(1) / sqrt(turn.squared_sine)));
     const auto stiffness = [&](std::size_t corner, std::size_t other) -> Scalar {
       return stiffness_[e] * gradient[corner].dot(gradient[other]);
     };
@@ -298,8 +270,8 @@ template <class Scalar>
 Scalar Torsion<Scalar>::potential_energy(const State<Scalar>& state) const {
   const Scalar of_bent = bent_.sum(state, [&](Eigen::Index e, const auto& line) -> Scalar {
     using std::sqrt;
-    Turn<Scalar> turn;
-    if (!turn_of(line.x, shortest_(0, e), shortest_(1, e), turn)) return Scalar(0);
+    const LineTurn<Scalar> turn = turn_of(e, line);
+    if (!turn.has_sides) return Scalar(0);
     const Scalar theta = arc_tangent(Scalar(sqrt(turn.squared_sine)), turn.cosine);
     const Scalar off = side(state, e, line) * theta - rest_angles_[e];
     return Scalar(0.5) * stiffness_[e] * off * off;

@@ -58,6 +58,8 @@ class Torsion final : public ForceLaw<Scalar> {
 
   /// Twice the area vector of the triangles around the centre of a bent line; zero without triangles.
   [[nodiscard]] Vector3<Scalar> normal_at(const State<Scalar>& state, Eigen::Index e) const;
+  template <class Number>
+  [[nodiscard]] LineTurn<Number> turn_of(Eigen::Index e, const ElementState<Number, 3>& line) const;
   /// s of a bent line.
   [[nodiscard]] Scalar side(const State<Scalar>& state, Eigen::Index e,
                             const ElementState<Scalar, 3>& line) const;
@@ -67,9 +69,9 @@ class Torsion final : public ForceLaw<Scalar> {
 
   StraightLines<Scalar> straight_;
   ElementForce<Scalar, 3> bent_;
-  VectorX<Scalar> stiffness_;    ///< kappa of bent lines [N m]
-  VectorX<Scalar> rest_angles_;  ///< theta0 of bent lines [rad], not 0
-  Matrix3X<Scalar> shortest_;    ///< rows 0, 1: least length of both sides of bent lines [m]
+  VectorX<Scalar> stiffness_;          ///< kappa of bent lines [N m]
+  VectorX<Scalar> rest_angles_;        ///< theta0 of bent lines [rad], not 0
+  Matrix2X<Scalar> squared_shortest_;  ///< of both sides of bent lines, the least length [m^2]
   std::vector<Eigen::Index>
       first_face_;  ///< faces of bent line e's centre: first_face_[e] ... [e + 1]
   Triangles faces_;

@@ -1,17 +1,17 @@
-#include <weft/core/parallel/threads.hpp>
 #include <weft/custom_forces/assembly/batched_assembly.hpp>
 
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include <weft/core/error.hpp>
+#include <weft/custom_forces/assembly/arc_tangent.hpp>
 #include <weft/mesh/cloth_grid.hpp>
 #include <weft/mesh/topology/hinges.hpp>
+
+#include "tests/custom_forces/assembly/assembled_sums.hpp"
 
 namespace weft::forces {
 namespace {
@@ -20,34 +20,11 @@ constexpr int kHinges = 3000;
 /// n eps scale of the sum at one node: at most 4 kHinges terms of size <= 1.
 constexpr double kBatchedSumRoundoff = 4 * kHinges * std::numeric_limits<double>::epsilon();
 
-Hinges random_hinges(int count, int num_nodes) {
-  std::mt19937 generator(3);
-  Hinges hinges(4, count);
-  for (int& node : hinges.reshaped()) {
-    node = static_cast<int>(generator() % static_cast<unsigned>(num_nodes));
-  }
-  return hinges;
-}
-
 /// As the law of bending has them: cells cut both ways.
 Hinges grid_hinges(int columns, int rows) {
   ClothGrid grid;
   grid.nodes = {columns, rows};
-  const ClothMesh mesh = make_cloth_grid(grid);
-  const Hinges one_way = hinges_of_triangles(mesh.triangles);
-  const Hinges other_way = hinges_of_triangles(mesh.crossed_triangles);
-  Hinges hinges(4, one_way.cols() + other_way.cols());
-  hinges << one_way, other_way;
-  return hinges;
-}
-
-template <class Scalar>
-Matrix3X<Scalar> random_field(int num_nodes) {
-  std::mt19937 generator(1);
-  std::uniform_real_distribution<double> uniform(-0.25, 0.25);
-  Matrix3X<Scalar> field(3, num_nodes);
-  for (Scalar& value : field.reshaped()) value = static_cast<Scalar>(uniform(generator));
-  return field;
+  return bending_hinges(make_cloth_grid(grid));
 }
 
 /// Differs for every hinge and corner, so that a mix-up shows. Elements are numbered by place.
@@ -61,7 +38,7 @@ Corners<Scalar, 4> parts_of(const BatchedAssembly<4>& assembly, Eigen::Index pla
 
 template <class Scalar>
 Matrix3X<Scalar> sum(const BatchedAssembly<4>& assembly) {
-  const Matrix3X<Scalar> field = random_field<Scalar>(assembly.num_nodes());
+  const Matrix3X<Scalar> field = random_field<Scalar>(assembly.num_nodes(), 1);
   // contents of the scratch memory do not matter
   Matrix3X<Scalar> scratch =
       Matrix3X<Scalar>::Constant(3, assembly.scratch_columns(1), Scalar(1e30));
@@ -93,7 +70,7 @@ std::vector<Eigen::Index> places_of(const BatchedAssembly<4>& assembly) {
 
 void expect_naive_sum(const Hinges& hinges, int num_nodes, int grain) {
   const BatchedAssembly<4> assembly(hinges, num_nodes, grain);
-  const Matrix3X<double> field = random_field<double>(num_nodes);
+  const Matrix3X<double> field = random_field<double>(num_nodes, 1);
   const std::vector<Eigen::Index> places = places_of(assembly);
   Matrix3X<double> expected = Matrix3X<double>::Ones(3, num_nodes);
   for (Eigen::Index h = 0; h < hinges.cols(); ++h) {
@@ -110,14 +87,14 @@ void expect_naive_sum(const Hinges& hinges, int num_nodes, int grain) {
 
 TEST(BatchedAssembly, EqualsTheNaiveSumForEveryGrain) {
   for (const int grain : {1, 2, 7, 64, 2048, kHinges, 10 * kHinges}) {
-    expect_naive_sum(random_hinges(kHinges, 300), 300, grain);
+    expect_naive_sum(random_elements<Hinges>(kHinges, 300), 300, grain);
     expect_naive_sum(grid_hinges(19, 24), 19 * 24, grain);
   }
 }
 
 TEST(BatchedAssembly, CopesWithOneNodeOneElementAndNone) {
-  expect_naive_sum(random_hinges(10, 1), 1, 3);  // all corners on the same node
-  expect_naive_sum(random_hinges(1, 4), 4, 2048);
+  expect_naive_sum(random_elements<Hinges>(10, 1), 1, 3);  // all corners on the same node
+  expect_naive_sum(random_elements<Hinges>(1, 4), 4, 2048);
   expect_naive_sum(Hinges(4, 0), 5, 2048);
   expect_naive_sum(Hinges(4, 0), 0, 2048);
 }
@@ -131,40 +108,31 @@ TEST(BatchedAssembly, MakesRunsOfAGrid) {
           if (run->is_consecutive) num_in_runs += run->count;
         }
       },
-      random_field<double>(2500));
+      random_field<double>(2500, 1));
   EXPECT_GT(num_in_runs, 9 * runs.elements().cols() / 10);
-}
-
-template <class Scalar>
-void expect_same_bits_for_all_threads(const BatchedAssembly<4>& assembly) {
-  Matrix3X<Scalar> one;
-  with_threads(1, [&] { one = sum<Scalar>(assembly); });
-  for (const int threads : {2, 3, 8}) {
-    Matrix3X<Scalar> several;
-    with_threads(threads, [&] { several = sum<Scalar>(assembly); });
-    EXPECT_EQ(std::memcmp(one.data(), several.data(),
-                          static_cast<std::size_t>(one.size()) * sizeof(Scalar)),
-              0)
-        << threads << " threads";
-  }
 }
 
 TEST(BatchedAssembly, ThreadsChangeNoBit) {
   const BatchedAssembly<4> grid(grid_hinges(40, 40), 1600, 500);
-  const BatchedAssembly<4> random(random_hinges(kHinges, 300), 300, 100);
+  const BatchedAssembly<4> random(random_elements<Hinges>(kHinges, 300), 300, 100);
   for (const BatchedAssembly<4>* assembly : {&grid, &random}) {
-    expect_same_bits_for_all_threads<float>(*assembly);
-    expect_same_bits_for_all_threads<double>(*assembly);
+    expect_same_bits_for_all_threads([&] { return sum<float>(*assembly); });
+    expect_same_bits_for_all_threads([&] { return sum<double>(*assembly); });
   }
 }
 
-// Compiled twice, for the baseline processor and for AVX2: the bits must agree.
+// Compiled twice, for the baseline processor and for AVX2: the bits must agree, with all that laws compute with.
 template <class Scalar>
 void expect_same_hinges_without_avx2() {
-  const BatchedAssembly<4> assembly(grid_hinges(20, 20), 400);
   const ElementRuns<4> runs(grid_hinges(20, 20), 400, 2048);
-  const auto force = [&](Eigen::Index place, const Corners<Scalar, 4>& x) {
-    return parts_of<Scalar>(assembly, place, x);
+  const auto force = [](Eigen::Index place, const Corners<Scalar, 4>& x) -> Corners<Scalar, 4> {
+    const PlainVector<Scalar> normal = x[0].cross(x[1]);
+    const Scalar length = std::sqrt(normal.squared_norm() + Scalar(1e-3));
+    const Scalar angle = arc_tangent(x[2].dot(normal), x[3].dot(x[0]));
+    const Tangent<Scalar> moving =
+        arc_tangent(Tangent<Scalar>(x[0].x, x[1].x), Tangent<Scalar>(x[2].y, x[3].z));
+    const Scalar chosen = choose(angle > Scalar(1), moving.rate, static_cast<Scalar>(place));
+    return {angle * x[0], Scalar(chosen / length) * x[1], moving.value * x[2], normal};
   };
   const auto value = [](Eigen::Index, const Corners<Scalar, 4>& x) { return x[0].dot(x[2]); };
   runs.for_each_chunk<Scalar>(
@@ -183,7 +151,7 @@ void expect_same_hinges_without_avx2() {
         sum_elements_inline<Scalar, 4, double>(value, view, field, plain);
         EXPECT_EQ(std::memcmp(wide, plain, sizeof wide), 0);
       },
-      random_field<Scalar>(400));
+      random_field<Scalar>(400, 1));
 }
 
 TEST(BatchedAssembly, VectorWidthChangesNoBit) {
@@ -209,13 +177,7 @@ TEST(BatchedAssembly, RefusesWrongSizesAndGapsInScratch) {
   const auto add = [&](Matrix3XRef<double> scratch, Matrix3XRef<double> result) {
     assembly.add<double>(force, scratch, result, field);
   };
-  Matrix3X<double> scratch(3, assembly.scratch_columns(1));
-  Matrix3X<double> result = Matrix3X<double>::Zero(3, 25);
-  EXPECT_NO_THROW(add(scratch, result));
-  EXPECT_THROW(add(scratch.leftCols(1), result), InvalidArgument);
-  EXPECT_THROW(add(scratch, result.leftCols(24)), InvalidArgument);
-  Eigen::MatrixXd tall(4, assembly.scratch_columns(1));
-  EXPECT_THROW(add(tall.topRows(3), result), InvalidArgument);
+  expect_wrong_sizes_are_refused(add, assembly.scratch_columns(1), 25);
 }
 
 }  // namespace

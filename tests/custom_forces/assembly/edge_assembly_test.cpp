@@ -1,14 +1,14 @@
-#include <weft/core/parallel/threads.hpp>
 #include <weft/custom_forces/assembly/edge_assembly.hpp>
 
 #include <cstring>
 #include <limits>
-#include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
-#include <weft/core/error.hpp>
 #include <weft/mesh/cloth_grid.hpp>
+
+#include "tests/custom_forces/assembly/assembled_sums.hpp"
 
 namespace weft::forces {
 namespace {
@@ -17,28 +17,10 @@ constexpr int kEdges = 5000;
 /// n eps scale of the sum at one node: at most kEdges terms of size <= 1.
 constexpr double kEdgeAssemblySumRoundoff = kEdges * std::numeric_limits<double>::epsilon();
 
-Edges random_edges(int count, int num_nodes) {
-  std::mt19937 generator(3);
-  Edges edges(2, count);
-  for (int& node : edges.reshaped()) {
-    node = static_cast<int>(generator() % static_cast<unsigned>(num_nodes));
-  }
-  return edges;
-}
-
 Edges grid_edges(int columns, int rows) {
   ClothGrid grid;
   grid.nodes = {columns, rows};
   return make_cloth_grid(grid).edges_of({"stretch", "shear", "bend"});
-}
-
-template <class Scalar>
-Matrix3X<Scalar> random_field(int num_nodes, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> uniform(-0.25, 0.25);
-  Matrix3X<Scalar> field(3, num_nodes);
-  for (Scalar& value : field.reshaped()) value = static_cast<Scalar>(uniform(generator));
-  return field;
 }
 
 /// Differs for every edge, so that a mix-up of places and edges shows.
@@ -81,38 +63,24 @@ void expect_naive_sum(const Edges& edges, int num_nodes, int grain) {
 
 TEST(EdgeAssembly, EqualsTheNaiveSumForEveryGrain) {
   for (const int grain : {1, 2, 7, 64, 2048, kEdges, 10 * kEdges}) {
-    expect_naive_sum(random_edges(kEdges, 300), 300, grain);
+    expect_naive_sum(random_elements<Edges>(kEdges, 300), 300, grain);
     expect_naive_sum(grid_edges(19, 24), 19 * 24, grain);
   }
 }
 
 TEST(EdgeAssembly, CopesWithLoopsOneEdgeAndNone) {
-  expect_naive_sum(random_edges(10, 1), 1, 3);  // both ends on the same node
-  expect_naive_sum(random_edges(1, 2), 2, 2048);
+  expect_naive_sum(random_elements<Edges>(10, 1), 1, 3);  // both ends on the same node
+  expect_naive_sum(random_elements<Edges>(1, 2), 2, 2048);
   expect_naive_sum(Edges(2, 0), 5, 2048);
   expect_naive_sum(Edges(2, 0), 0, 2048);
 }
 
-template <class Scalar>
-void expect_same_bits_for_all_threads(const EdgeAssembly& assembly) {
-  Matrix3X<Scalar> one;
-  with_threads(1, [&] { one = sum<Scalar>(assembly); });
-  for (const int threads : {2, 3, 8}) {
-    Matrix3X<Scalar> several;
-    with_threads(threads, [&] { several = sum<Scalar>(assembly); });
-    EXPECT_EQ(std::memcmp(one.data(), several.data(),
-                          static_cast<std::size_t>(one.size()) * sizeof(Scalar)),
-              0)
-        << threads << " threads";
-  }
-}
-
 TEST(EdgeAssembly, ThreadsChangeNoBit) {
   const EdgeAssembly grid(grid_edges(40, 40), 1600, 500);
-  const EdgeAssembly random(random_edges(kEdges, 300), 300, 100);
+  const EdgeAssembly random(random_elements<Edges>(kEdges, 300), 300, 100);
   for (const EdgeAssembly* assembly : {&grid, &random}) {
-    expect_same_bits_for_all_threads<float>(*assembly);
-    expect_same_bits_for_all_threads<double>(*assembly);
+    expect_same_bits_for_all_threads([&] { return sum<float>(*assembly); });
+    expect_same_bits_for_all_threads([&] { return sum<double>(*assembly); });
   }
 }
 
@@ -153,13 +121,7 @@ TEST(EdgeAssembly, RefusesWrongSizesAndGapsInScratch) {
   const auto add = [&](Matrix3XRef<double> scratch, Matrix3XRef<double> result) {
     assembly.add_pairs<double>(force, scratch, result, field);
   };
-  Matrix3X<double> scratch(3, assembly.scratch_columns(1));
-  Matrix3X<double> result = Matrix3X<double>::Zero(3, 25);
-  EXPECT_NO_THROW(add(scratch, result));
-  EXPECT_THROW(add(scratch.leftCols(1), result), InvalidArgument);
-  EXPECT_THROW(add(scratch, result.leftCols(24)), InvalidArgument);
-  Eigen::MatrixXd tall(4, assembly.scratch_columns(1));
-  EXPECT_THROW(add(tall.topRows(3), result), InvalidArgument);
+  expect_wrong_sizes_are_refused(add, assembly.scratch_columns(1), 25);
 }
 
 }  // namespace

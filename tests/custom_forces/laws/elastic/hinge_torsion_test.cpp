@@ -1,12 +1,17 @@
 #include <weft/custom_forces/laws/elastic/hinge_torsion.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 #include <weft/core/error.hpp>
 #include <weft/mesh/cloth_grid.hpp>
+#include <weft/mesh/topology/hinges.hpp>
 
 #include "tests/custom_forces/one_law.hpp"
 
@@ -102,6 +107,105 @@ TEST(HingeTorsion, ATriangleWithoutAreaIsRefusedAtRestAndIgnoredInMotion) {
   Matrix3X<double> crushed = folded(0.5);
   crushed.col(3) << 0, 0.5, 0;
   EXPECT_EQ(hinge_force_at(two_triangles(), crushed).norm(), 0.0);
+}
+
+// The law says from which area on it trusts a normal.
+TEST(HingeTorsion, ATriangleIsTrustedFromItsLeastAreaOn) {
+  const ClothMesh mesh = two_triangles();
+  const auto crushed = [](double height) {
+    Matrix3X<double> positions = folded(0.5);
+    positions.col(3) << 0, 0.5, height;
+    return positions;
+  };
+  const auto law = make_law<double>(hinge_torsion(), mesh);
+  const Matrix3X<double> still = Matrix3X<double>::Zero(3, 4);
+  Matrix3X<double> scratch(3, law->scratch_columns());
+  const auto product_at = [&](const Matrix3X<double>& positions) -> Matrix3X<double> {
+    Matrix3X<double> product = still;
+    law->add_stiffness_product({positions, still, mesh.masses}, folded(0.1), scratch, product);
+    return product;
+  };
+  constexpr double kLeast = HingeTorsion<double>::kMinAreaRatio;  // the rest height is 1 m
+  for (const double height : {0.0, 0.999 * kLeast}) {
+    EXPECT_EQ(hinge_force_at(mesh, crushed(height)).norm(), 0.0) << height;
+    EXPECT_EQ(hinge_energy_at(mesh, crushed(height)), 0.0) << height;
+    EXPECT_EQ(product_at(crushed(height)).norm(), 0.0) << height;
+  }
+  const Matrix3X<double> above = crushed(1.001 * kLeast);
+  EXPECT_GT(hinge_force_at(mesh, above).norm(), 0.0);
+  EXPECT_TRUE(hinge_force_at(mesh, above).allFinite());
+  EXPECT_NEAR(hinge_energy_at(mesh, above), kRigidity * std::numbers::pi * std::numbers::pi / 8,
+              1e-6)
+      << "a wing that stands upright";
+}
+
+// The angle pi is -pi as well: which of both rounding gives at rest it must give in motion too.
+TEST(HingeTorsion, AFoldThatIsClosedAtRestIsAtRestHoweverItLies) {
+  Matrix3X<double> closed(3, 4);
+  closed << 0, 0, 1, 0.75,  //
+      0, 1, 0.5, 0.25,      //
+      0, 0, 0, 0;
+  for (int turn = 0; turn < 48; ++turn) {
+    // Into each plane and direction of the axes, and to angles between them.
+    const int quarters = turn % 4;
+    const double more = turn < 24 ? 0.0 : 0.1 * turn;
+    const Eigen::Matrix3d rotation =
+        (Eigen::AngleAxisd(std::numbers::pi / 2 * quarters + more, Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(std::numbers::pi / 2 * (turn / 4 % 3), Eigen::Vector3d::UnitX()))
+            .toRotationMatrix();
+    const Matrix3X<double> lying =
+        more > 0 ? Matrix3X<double>(rotation * closed)
+                 : Matrix3X<double>((rotation.array().round().matrix()) * closed);
+    for (const auto& [from, to] : {std::pair(0, 1), std::pair(1, 0)}) {
+      ClothMesh mesh = small_mesh(lying, Edges(2, 0));
+      mesh.triangles.resize(3, 2);
+      mesh.triangles.col(0) << from, to, 2;
+      mesh.triangles.col(1) << to, from, 3;
+      EXPECT_EQ(hinge_force_at(mesh, lying).norm(), 0.0) << turn << " from " << from;
+    }
+  }
+}
+
+// Rounding along the edge, which is long beside the height of a thin triangle, is no angle.
+TEST(HingeTorsion, ThinTrianglesKnowTheirAngleInSinglePrecision) {
+  constexpr double kHeight = 0.01;  // [m], of edges of 1 m
+  double largest = 0;
+  for (int sample = 0; sample < 200; ++sample) {
+    const double angle = 0.3 + 1e-4 * sample;
+    Matrix3X<double> thin(3, 4);
+    thin << 0, 0, -kHeight, kHeight * std::cos(angle),  //
+        0, 1, 1.0, 0.97,                                //
+        0, 0, 0, kHeight * std::sin(angle);
+    const Eigen::Matrix3d rotation =
+        Eigen::AngleAxisd(0.37 * sample, Eigen::Vector3d(0.48, 0.6, 0.64)).toRotationMatrix();
+    ClothMesh mesh = two_triangles();
+    mesh.rest_positions.row(0) *= kHeight;
+    mesh.rest_positions.row(1) << 0, 1, 1.0, 0.97;
+    const Matrix3X<float> rotated = (rotation * thin).cast<float>();
+    const VectorX<float> masses = VectorX<float>::Ones(4);
+    const Matrix3X<float> still = Matrix3X<float>::Zero(3, 4);
+    const double energy = static_cast<double>(
+        make_law<float>(hinge_torsion(), mesh)->potential_energy({rotated, still, masses}));
+    // Against double precision at the same, rounded positions.
+    const double expected = hinge_energy_at(mesh, rotated.cast<double>());
+    largest = std::max(largest, std::abs(energy / expected - 1));
+  }
+  // An angle's error of 60 roundings (0.3 of the least height over the edge's length), twice over the angle.
+  EXPECT_LE(largest, 2 * 60 * static_cast<double>(std::numeric_limits<float>::epsilon()) / 0.3);
+}
+
+// By the angles that the mesh's own function gives, which has another formula.
+TEST(HingeTorsion, TheEnergyOfACrumpledGridIsThatOfAllItsAngles) {
+  ClothGrid grid;
+  grid.nodes = {23, 17};
+  grid.size = {2.2, 1.6};  // square cells
+  const ClothMesh mesh = make_cloth_grid(grid);
+  std::srand(7);
+  const Matrix3X<double> crumpled =
+      mesh.rest_positions + 0.04 * Matrix3X<double>::Random(3, mesh.num_nodes());
+  const double squares = hinge_angles(crumpled, bending_hinges(mesh)).squaredNorm();
+  const double expected = kRigidity / 2 * squares / 2;
+  EXPECT_NEAR(hinge_energy_at(mesh, crumpled), expected, 1e-12 * expected);
 }
 
 TEST(HingeTorsion, ThreeTrianglesAtAnEdgeAndTwistedNeighborsAreRefused) {

@@ -130,6 +130,40 @@ TEST(Torsion, ALineFoldedBackHasNoDirectionAndNoForce) {
               kStiffness * kSide * kSide * std::numbers::pi * std::numbers::pi / 2, 1e-9);
 }
 
+TEST(Torsion, ALineThatLosesASideOrFoldsBackHasNoStiffnessEither) {
+  const ClothMesh mesh = line(turned(0));
+  const auto law = make_law<double>(torsion(), mesh);
+  const Matrix3X<double> still = Matrix3X<double>::Zero(3, 3);
+  Matrix3X<double> scratch(3, law->scratch_columns());
+  Matrix3X<double> collapsed = turned(0);
+  collapsed.col(2).setZero();
+  for (const Matrix3X<double>& positions : {collapsed, turned(std::numbers::pi)}) {
+    Matrix3X<double> product = still;
+    law->add_stiffness_product({positions, still, mesh.masses}, turned(0.3), scratch, product);
+    EXPECT_EQ(product.norm(), 0.0);
+  }
+  EXPECT_EQ(force_at(mesh, collapsed).norm(), 0.0);
+  EXPECT_EQ(energy_at(mesh, collapsed), 0.0);
+}
+
+// Straight and bent lines are computed apart; the sum is over both.
+TEST(Torsion, StraightAndBentLinesOfOneMeshAddUp) {
+  Matrix3X<double> positions(3, 6);
+  positions << turned(0), turned(0.6);
+  Matrix3X<double> moved(3, 6);
+  moved << turned(0.2), turned(0.9);
+  ClothMesh both = line(positions);
+  both.line_sets.front().triples.resize(3, 2);
+  both.line_sets.front().triples.col(0) << 0, 1, 2;
+  both.line_sets.front().triples.col(1) << 3, 4, 5;
+  Matrix3X<double> expected(3, 6);
+  expected << force_at(line(turned(0)), turned(0.2)), force_at(line(turned(0.6)), turned(0.9));
+  EXPECT_LE((force_at(both, moved) - expected).norm(), kRoundoff);
+  EXPECT_NEAR(energy_at(both, moved),
+              energy_at(line(turned(0)), turned(0.2)) + energy_at(line(turned(0.6)), turned(0.9)),
+              kRoundoff);
+}
+
 TEST(Torsion, ASideWithoutLengthIsRefused) {
   Matrix3X<double> positions = turned(0);
   positions.col(2).setZero();
