@@ -115,6 +115,16 @@ void ImplicitSolver<Scalar>::smooth(NodeRange nodes, Floats& correction) {
   project(nodes, correction);
 }
 
+// The drag of sliding nodes becomes the second derivative of their friction.
+template <class Scalar>
+void ImplicitSolver<Scalar>::relieve(NodeRange nodes, const Floats& displacements,
+                                     Floats& product) const {
+  for (const int i : in_range(constrained_, nodes)) {
+    if (contact_states_[at(i)] != ContactState::kOnPlane) continue;
+    friction_.relieve_product(i, displacements, product);
+  }
+}
+
 // Rows of linked nodes contain their own tangential motion, if any, and get that of the body.
 template <class Scalar>
 template <class Next>
@@ -128,6 +138,7 @@ void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body:
   };
   team_->run(parts_.count(), [this, &displacements, &product, is_linked, finish](int part) {
     forces_.multiply(parts_[part], system_inertia_, displacements, product);
+    relieve(parts_[part], displacements, product);
     if (!is_linked) finish(parts_[part], part);
   });
   for (Body& body : bodies_) body.*body_product = body.inertia * (body.*motion);
@@ -135,7 +146,7 @@ void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body:
   if (!is_linked) return;
   supports_.add_products(displacements, motion, product, bodies_, body_product);
   gather(links_, product, bodies_, body_product);
-  add_drags(links_, drag_, displacements, motion, product, bodies_, body_product);
+  add_drags(links_, friction_.drags(), displacements, motion, product, bodies_, body_product);
   team_->run(parts_.count(), [this, finish](int part) { finish(parts_[part], part); });
 }
 
@@ -188,7 +199,8 @@ typename ImplicitSolver<Scalar>::Overlaps ImplicitSolver<Scalar>::precondition(F
 template <class Scalar>
 void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
   for (const BodyLink& link : links_) {
-    if (link.is_dragged) system_inertia_[link.node] += static_cast<float>(drag_[link.node]);
+    if (link.is_dragged)
+      system_inertia_[link.node] += static_cast<float>(friction_.drags()[link.node]);
   }
   for_each_part([this](NodeRange nodes) {
     const int count = nodes.end - nodes.begin;
@@ -200,6 +212,10 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
                                   forces_.diagonal_blocks().data(), blocks_.data());
   });
   supports_.invert_blocks(forces_.diagonal_blocks(), system_inertia_, kSmoothing, blocks_);
+  for (const int i : constrained_) {
+    if (contact_states_[at(i)] != ContactState::kOnPlane) continue;
+    friction_.relieve_inverse(i, kSmoothing, blocks_);
+  }
   for (const BodyLink& link : links_) {
     if (link.is_dragged) system_inertia_[link.node] = inertia_[link.node];  // add_drags() has it
   }
@@ -216,7 +232,7 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
         contact.normal.dot(at_node(positions_, i) + move - with_body) - contact.offset;
     step_.row(i) = (move - height * contact.normal).template cast<float>().transpose();
     if (contact_states_[at(i)] == ContactState::kOnPlane)
-      residual_vector_.row(i) += friction_.col(i).transpose();
+      residual_vector_.row(i) += friction_.force(i).transpose();
     moves_held = true;
   }
   for (const KinematicNode<Scalar>& kinematic : problem.kinematic) {
@@ -255,7 +271,7 @@ void ImplicitSolver<Scalar>::set_system_inertia() {
   has_drag_ = !constrained_.empty();
   for (const int i : constrained_) {
     if (contact_states_[at(i)] == ContactState::kOnPlane)
-      system_inertia_[i] += static_cast<float>(drag_[i]);
+      system_inertia_[i] += static_cast<float>(friction_.drags()[i]);
   }
   for (const BodyLink& link : links_) system_inertia_[link.node] = inertia_[link.node];
 }

@@ -18,6 +18,7 @@
 #include <weft/fast_solver/newton/direction_weights.hpp>
 #include <weft/fast_solver/newton/newton_iteration.hpp>
 #include <weft/fast_solver/newton/node_supports.hpp>
+#include <weft/fast_solver/newton/sliding_friction.hpp>
 #include <weft/fast_solver/solver_report.hpp>
 #include <weft/fast_solver/solver_settings.hpp>
 #include <weft/fast_solver/step_problem.hpp>
@@ -136,7 +137,8 @@ class ImplicitSolver : TeamLoops {
   [[nodiscard]] bool is_on_link(const PlaneContact<Scalar>& contact) const {
     return contact.body >= 0 && bodies_[static_cast<std::size_t>(contact.body)].is_link;
   }
-  void set_friction(const PlaneContact<Scalar>& contact, Scalar expected);
+  void relieve(NodeRange nodes, const Floats& displacements, Floats& product) const;
+  [[nodiscard]] Scalar resistance_of(int node) const;
   [[nodiscard]] Vector3<Scalar> slip_of(const PlaneContact<Scalar>& contact,
                                         const Vector3<Scalar>& position,
                                         Vector6 Body::*motion) const;
@@ -148,6 +150,7 @@ class ImplicitSolver : TeamLoops {
   void list_constrained();
   void find_coarse_roles();
   [[nodiscard]] Scalar rounding_of_force(int node) const;
+  [[nodiscard]] Scalar rounding_of_position(int node) const;
   [[nodiscard]] Scalar first_push(int node, const Vector3<Scalar>& normal) const;
   void project(NodeRange nodes, Floats& vectors) const;
   void smooth(NodeRange nodes, Floats& correction);
@@ -204,6 +207,7 @@ class ImplicitSolver : TeamLoops {
       const StepProblem<Scalar>& problem);
   void update_compensation(NodeRange nodes);
   void clamp(const StepProblem<Scalar>& problem);
+  void put_in_front(const StepProblem<Scalar>& problem);
 
   const StepForces<Scalar>* step_force_law_ = nullptr;  ///< while a step is solved
   NetworkForces<Scalar> forces_;
@@ -220,13 +224,12 @@ class ImplicitSolver : TeamLoops {
   std::vector<Body> bodies_;
   BodyCouplings<Scalar> couplings_;
   NodeSupports<Scalar> supports_;
-  std::vector<int> linked_blocks_;   ///< blocks of nodes that are linked to one body
-  VectorX<float> inertia_;           ///< m / h'^2 [N/m]; 0 for pinned nodes; padded with zeros
-  VectorX<float> system_inertia_;    ///< inertia_ plus the drag of friction
-  bool has_drag_ = false;            ///< system_inertia_ differs
-  VectorX<Scalar> drag_;             ///< for each sliding node [N/m]
-  VectorX<Scalar> friction_bounds_;  ///< bound of each sliding node by Coulomb's law [N]
-  VectorX<Scalar> weights_;          ///< inertia_ in Scalar
+  std::vector<int> linked_blocks_;  ///< blocks of nodes that are linked to one body
+  VectorX<float> inertia_;          ///< m / h'^2 [N/m]; 0 for pinned nodes; padded with zeros
+  VectorX<float> system_inertia_;   ///< inertia_ plus the drag of friction
+  bool has_drag_ = false;           ///< system_inertia_ differs
+  SlidingFriction<Scalar> friction_;
+  VectorX<Scalar> weights_;  ///< inertia_ in Scalar
   // The present problem [m].
   Nodes inertial_positions_, start_positions_, positions_;
   Nodes residual_forces_;  ///< residual forces [N]
@@ -238,10 +241,10 @@ class ImplicitSolver : TeamLoops {
   Matrix3X<Scalar> step_force_positions_;  ///< positions as StepForces takes them
   Matrix3X<Scalar> step_forces_;
   std::vector<ContactState> contact_states_;         ///< for each node, padded
+  std::vector<char> has_slid_;                       ///< flags of nodes: in this step
   std::vector<ContactState> contact_states_before_;  ///< contact states of the iteration before
   std::vector<int> contact_of_;                      ///< for each node: its active contact, or -1
   Matrix3X<float> normals_;                          ///< for each node on a plane
-  Matrix3X<float> friction_;                         ///< for each sliding node [N]
   BlockArrays blocks_;                               ///< inverse diagonal blocks
   Floats step_, residual_vector_, direction_, direction_product_, correction_product_, work_;
   Floats smoothed_, coarse_;  ///< parts of a correction

@@ -66,19 +66,24 @@ class ExactCollider {
     for (int k = 0; k < 3; ++k) turn_.row(k) = from_bullet(collider.pose.getBasis().getRow(k));
   }
 
-  /// The contact of a node that moves from one point to another. One that is followed is stopped where its path first
-  /// meets the surface.
+  /// The contact of a node that moves from one point to another. One that is followed, or would end inside, is stopped where
+  /// its path first meets the surface, or, if it begins inside, at the face that is nearest there: where it would end another
+  /// face may be nearer.
   [[nodiscard]] std::optional<RigidContact> find(const btVector3& from, const btVector3& to,
                                                  bool is_followed) const {
     const Vector3<double> start = local(from);
     const Vector3<double> end = local(to);
     const double reach = 2 * margin_;
-    const double length = is_followed ? (end - start).norm() * (1 + kRounding) : 0;
-    const SurfaceDistance at_end = distance_at(end, std::max(reach, length));
-    if (is_followed && at_end.distance < length) {
+    const double length = (end - start).norm() * (1 + kRounding);
+    const SurfaceDistance at_end = distance_at(end, is_followed ? std::max(reach, length) : reach);
+    if (at_end.distance < (is_followed ? length : 0)) {
       if (auto contact = first_on_path(start, end, length)) return contact;
     }
     if (at_end.distance >= reach) return std::nullopt;
+    if (at_end.distance < 0) {
+      const SurfaceDistance at_start = distance_at(start, reach);
+      if (at_start.distance <= 0) return plane_at(start, at_start);
+    }
     return plane_at(end, at_end);
   }
 
@@ -303,7 +308,7 @@ void find_together(const btSoftBody& body, const ContactFinder& finder, const So
     const int i = batch.nodes[static_cast<std::size_t>(lane)];
     const btSoftBody::Node& node = body.m_nodes[i];
     const std::size_t num_before = found.size();
-    if (finder.is_followed(node.m_q, node.m_x)) {
+    if (finder.is_followed(node.m_q, node.m_x) || distances.distance[lane] < 0) {
       finder.find(node.m_q, node.m_x, nearby, found);
     } else if (!(distances.distance[lane] >= finder.reach())) {
       found.push_back(finder.contact_at(distances, lane));

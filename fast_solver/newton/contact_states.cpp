@@ -15,9 +15,9 @@ namespace {
 
 /// A node that a body presses sticks once the slip that is left would take this share of its friction to stop [-].
 constexpr double kStopped = 0.01;
-/// Over what resists the motion of a node: a drag. With less, a node that begins to slide is too fast, by mu g h over this. With
-/// much more, conjugate gradients would see nothing else.
-constexpr double kStiffestDrag = 300;
+/// A node that sticks again after it has slid in the same step bears so many times its bound, for the stiffest drag gives way by a
+/// part of that, and it would let go again and again [-].
+constexpr double kSticksAgain = 1 + 2 / SlidingFriction<double>::kStiffest;
 /// Springs that pull at a node by less than this share of its friction, beside rounding, leave its slip as it is without them [-].
 constexpr double kSlack = 0.1;
 /// The stiffness of a plane for the coarse correction, over that of the node's springs.
@@ -44,6 +44,10 @@ void ImplicitSolver<Scalar>::decide_contact_states(const StepProblem<Scalar>& pr
   contact_states_before_.swap(contact_states_);
   std::fill(contact_states_.begin(), contact_states_.end(), ContactState::kFree);
   std::fill(contact_of_.begin(), contact_of_.end(), -1);
+  if (iteration.is_first && !iteration.continues) {
+    std::fill(has_slid_.begin(), has_slid_.end(), 0);
+    friction_.begin_step();
+  }
   links_.clear();
   for (const KinematicNode<Scalar>& kinematic : problem.kinematic)
     contact_states_[at(kinematic.node)] = ContactState::kFixed;
@@ -87,7 +91,7 @@ void ImplicitSolver<Scalar>::decide_contact_states(const StepProblem<Scalar>& pr
          sticks ? Vector3<Scalar>::Zero().eval() : contact.normal);
   }
   for (const KinematicNode<Scalar>& kinematic : problem.kinematic) {
-    friction_.col(kinematic.node).setZero();
+    friction_.release(kinematic.node);
     normals_.col(kinematic.node).setZero();
     if (kinematic.body >= 0)
       link(kinematic.node, kinematic.body, turned(kinematic.body, kinematic.lever_arm),
@@ -125,7 +129,8 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::find_coarse_roles() {
   coarse_roles_.set(constrained_, links_, contact_states_, [this](int i) {
     const auto stiffness = static_cast<float>(largest_stiffness(i)) + inertia_[i];
-    return SlidingNode{i, normals_.col(i), kPlane * stiffness, static_cast<float>(drag_[i])};
+    return SlidingNode{i, normals_.col(i), kPlane * stiffness,
+                       static_cast<float>(friction_.drags()[i])};
   });
   const bool is_whole =
       coarse_roles_.slide_as_a_whole() && pinned_.empty() && links_.empty() && supports_.empty();
@@ -179,21 +184,18 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const bool slides_on =
       is_first && !supports_.empty() && contact_states_before_[at(i)] == ContactState::kOnPlane;
   const bool may_stick = did_stick || has_stopped || (!was_held && !slides_on);
-  const bool sticks = size <= most - doubt && may_stick;
+  if (was_held && !did_stick) has_slid_[at(i)] = 1;
+  const bool sticks_again = did_stick && !is_first && has_slid_[at(i)] != 0;
+  const Scalar bears = sticks_again ? Scalar(kSticksAgain) * most : most - doubt;
+  const bool sticks = size <= bears && may_stick;
   contact_states_[at(i)] = sticks ? ContactState::kFixed : ContactState::kOnPlane;
   normals_.col(i) = normal.template cast<float>();
-  friction_.col(i).setZero();
-  drag_[i] = 0;
-  if (sticks) return;
-  if (is_on_link(contact)) {
-    friction_bounds_[i] = 0;
-    friction_.col(i) = (-(most / size) * tendency).template cast<float>();
-    return;
-  }
-  // Friction that slides is solved for as a drag that has Coulomb's size at the slip that is expected: unlike a constant force
-  // it never drives a node, however wrong the pressure still is. Forces foretell the slip of a node alone, the motion so far
+  if (sticks) return friction_.release(i);
+  if (is_on_link(contact))
+    return friction_.set_force(i, (-(most / size) * tendency).template cast<float>());
+  // Friction that slides is solved for as a drag that has Coulomb's size at the slip that is expected: Forces foretell the slip of a node alone, the motion so far
   // that of others too (iteratively reweighted least squares, which converge for any pressure).
-  friction_bounds_[i] = most;
+  friction_.set_bound(i, most, resistance_of(i), rounding_of_position(i));
   // Alone, a node has its springs and inertia against it. A drag for that slip would hold nodes that slide together too much:
   // they have their inertia, and slip no farther than so far or, if springs hardly pull at them, than without springs.
   const auto slip_against = [&](Scalar resistance) {
@@ -213,20 +215,14 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
       farthest, slip_against(inertia) + rounding / std::max(inertia, Scalar(kLeastInertia)));
   const bool is_foretold = is_first || did_stick || !(slipped > 0);
   const Scalar expected = is_foretold ? std::max(alone, together) : slipped;
-  set_friction(contact, expected);
+  if (is_foretold) return friction_.expect_slip(i, along, expected);
+  friction_.set_slip(i, along, contact.body < 0);
 }
 
-// The friction of a node that slides on a surface, at its present position.
+// What resists the motion of a node alone [N/m].
 template <class Scalar>
-void ImplicitSolver<Scalar>::set_friction(const PlaneContact<Scalar>& contact, Scalar expected) {
-  const int i = contact.node;
-  const Scalar most = friction_bounds_[i];
-  const Scalar resistance =
-      std::max(Scalar(inertia_[i]) + largest_stiffness(i), Scalar(kLeastInertia));
-  drag_[i] = most / std::max(expected, most / (Scalar(kStiffestDrag) * resistance));
-  if (!(most > 0)) drag_[i] = 0;
-  const Vector3<Scalar> slip = slip_of(contact, at_node(positions_, i), &Body::motion);
-  friction_.col(i) = (-drag_[i] * slip).template cast<float>();
+Scalar ImplicitSolver<Scalar>::resistance_of(int node) const {
+  return std::max(Scalar(inertia_[node]) + largest_stiffness(node), Scalar(kLeastInertia));
 }
 
 // The motion of a node along a surface in the step, relative to it [m].
@@ -250,7 +246,8 @@ void ImplicitSolver<Scalar>::update_friction(const StepProblem<Scalar>& problem)
     if (contact_of_[at(i)] < 0 || contact_states_[at(i)] != ContactState::kOnPlane) continue;
     const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
     if (is_on_link(contact)) continue;
-    set_friction(contact, slip_of(contact, at_node(positions_, i), &Body::motion).norm());
+    friction_.set_slip(i, slip_of(contact, at_node(positions_, i), &Body::motion),
+                       contact.body < 0);
   }
 }
 
@@ -259,17 +256,15 @@ void ImplicitSolver<Scalar>::update_friction(const StepProblem<Scalar>& problem)
 template <class Scalar>
 void ImplicitSolver<Scalar>::update_supports(const StepProblem<Scalar>& problem,
                                              const NewtonIteration& iteration) {
-  supports_.update(positions_, start_positions_, bodies_, iteration.is_first, [&](int node) {
-    return std::max(Scalar(inertia_[node]) + largest_stiffness(node), Scalar(kLeastInertia));
-  });
+  supports_.update(positions_, start_positions_, bodies_, iteration.is_first,
+                   [&](int node) { return resistance_of(node); });
   for (std::size_t k = 0; k < supports_.all().size() && !iteration.decides; ++k) {
     const int i = supports_.all()[k].node;
     if (contact_of_[at(i)] < 0 || contact_states_[at(i)] != ContactState::kOnPlane) continue;
     const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
     if (is_on_link(contact)) continue;
-    friction_bounds_[i] =
-        std::max(Scalar(0), friction_bounds_[i] + contact.friction * supports_.change_of(k));
-    set_friction(contact, slip_of(contact, at_node(positions_, i), &Body::motion).norm());
+    friction_.add_to_bound(i, contact.friction * supports_.change_of(k));
+    friction_.set_slip(i, slip_of(contact, at_node(positions_, i), &Body::motion), false);
   }
   evaluate();
   energy_before_ = energy(problem, positions_, &Body::motion);
@@ -279,8 +274,12 @@ void ImplicitSolver<Scalar>::update_supports(const StepProblem<Scalar>& problem,
 template <class Scalar>
 Scalar ImplicitSolver<Scalar>::rounding_of_force(int node) const {
   constexpr Scalar kRoundings = 8;
-  return kRoundings * std::numeric_limits<Scalar>::epsilon() * largest_stiffness(node) *
-         at_node(positions_, node).cwiseAbs().maxCoeff();
+  return kRoundings * largest_stiffness(node) * rounding_of_position(node);
+}
+
+template <class Scalar>
+Scalar ImplicitSolver<Scalar>::rounding_of_position(int node) const {
+  return std::numeric_limits<Scalar>::epsilon() * at_node(positions_, node).cwiseAbs().maxCoeff();
 }
 
 // The displacement of a node along a normal by the residual there if its neighbors stood still [m]. Without springs it would
@@ -300,6 +299,16 @@ void ImplicitSolver<Scalar>::project(NodeRange nodes, Floats& vectors) const {
     } else if (contact_states_[at(i)] == ContactState::kOnPlane) {
       take_away(normals_.col(i), vectors, i);
     }
+  }
+}
+
+// Puts nodes in front of the planes of what nothing moves, whatever their contact states.
+template <class Scalar>
+void ImplicitSolver<Scalar>::put_in_front(const StepProblem<Scalar>& problem) {
+  for (const PlaneContact<Scalar>& contact : problem.contacts) {
+    if (!is_free_[at(contact.node)] || contact.body >= 0) continue;
+    const Scalar gap = contact.normal.dot(at_node(positions_, contact.node)) - contact.offset;
+    if (gap < 0) positions_.row(contact.node) -= gap * contact.normal.transpose();
   }
 }
 
@@ -327,9 +336,7 @@ void ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
     contact_states_[at(i)] = ContactState::kOnPlane;
     contact_of_[at(i)] = static_cast<int>(c);
     normals_.col(i) = contact.normal.template cast<float>();
-    friction_.col(i).setZero();
-    drag_[i] = 0;
-    friction_bounds_[i] = 0;
+    friction_.release(i);
     constrained_.push_back(i);
   }
 }
@@ -353,7 +360,7 @@ void ImplicitSolver<Scalar>::find_constraint_forces() {
       const Vector3<Scalar> normal = normals_.col(i).template cast<Scalar>();
       const Scalar push = -normal.dot(at_node(residual_forces_, i));
       constraint_forces_.row(i) =
-          (push * normal + friction_.col(i).template cast<Scalar>()).transpose();
+          (push * normal + friction_.force(i).template cast<Scalar>()).transpose();
     }
   }
 }

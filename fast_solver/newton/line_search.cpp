@@ -73,9 +73,9 @@ double ImplicitSolver<Scalar>::energy_of_contacts(const StepProblem<Scalar>& pro
     const Vector3<Scalar> slip = slip_of(contact, at_node(positions, i), motion);
     if (is_on_link(contact)) {
       sum -= static_cast<double>(
-          std::min(Scalar(0), slip.dot(friction_.col(i).template cast<Scalar>())));
+          std::min(Scalar(0), slip.dot(friction_.force(i).template cast<Scalar>())));
     } else {
-      sum += static_cast<double>(friction_bounds_[i] * slip.norm());
+      sum += static_cast<double>(friction_.energy(i, slip.norm()));
     }
   }
   return sum;
@@ -100,7 +100,7 @@ void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
   }
   for (const PlaneContact<Scalar>& contact : problem.contacts) {
     // Nodes between the fingers of a robot are held by both: out of one they would be in the other.
-    if (!is_free_[at(contact.node)] || is_on_link(contact)) continue;
+    if (!is_free_[at(contact.node)]) continue;
     if (contact.body < 0 && contact_states_[at(contact.node)] == ContactState::kFixed) {
       unmoved_.row(contact.node) = start_positions_.row(contact.node) + contact.motion.transpose();
     }

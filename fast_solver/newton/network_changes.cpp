@@ -44,7 +44,9 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
   constrained_.clear();
   constrained_.reserve(at(static_cast<int>(n)));
   contact_of_.assign(at(static_cast<int>(n)), -1);
-  for (auto* vectors : {&normals_, &friction_}) vectors->setZero(3, n);
+  has_slid_.assign(at(static_cast<int>(n)), 0);
+  normals_.setZero(3, n);
+  friction_.resize(n);
   const Eigen::Index num_rows = rows_for(static_cast<int>(n));
   for (auto* holds : {&contact_states_, &contact_states_before_}) {
     holds->assign(static_cast<std::size_t>(num_rows), ContactState::kFree);
@@ -59,8 +61,6 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
   masses_.head(n) = masses.cast<Scalar>();
   inertia_.setZero(num_rows);
   system_inertia_.setZero(num_rows);
-  drag_.setZero(n);
-  friction_bounds_.setZero(n);
   weights_.setZero(num_rows);
   if (blocks_.rows() == num_rows) return;  // the others keep no number from one step to the next
   blocks_.setZero(num_rows, 6);

@@ -19,8 +19,13 @@ constexpr int kIterationsPerFactor = 4;
 /// enough: with 1 no iteration gains any.
 constexpr double kFirstTransverse = 0.02;
 constexpr double kTransverseGrowth = 7;
-/// The share of an energy that is rounding [-].
+/// The share of an energy that is rounding [-]. With contacts there is more of it, of what nodes press with and the last digits of
+/// their heights: gains of less than kEnergyDoubt are judged by the slopes at both ends (Hager and Zhang 2005).
 constexpr double kEnergyRounding = 2e-7;
+constexpr double kEnergyDoubt = 1e-6;
+constexpr double kSteepestRise = -0.5;
+/// What rounding gains in contact, where heights above planes are rounded too, over what it gains without [-].
+constexpr double kRoundingOfHeights = 3;
 /// The share of an energy that a step without motion is held against [-].
 constexpr double kAtRest = 0.01;
 constexpr double kAtRestInContact = 0.3;
@@ -85,10 +90,13 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
                            .decides = decisions.decides(),
                            .continues = problem.continues,
                            .factorizes = iteration % kIterationsPerFactor == 0});
-    if (iteration == 0) {
-      stop.set_rounding(sum_over_parts([this](NodeRange nodes) {
-        return gain_of_rounding<Scalar>(nodes, forces_.diagonal_blocks(), inertia_, positions_);
-      }));
+    if (iteration == 0 ||
+        has_contacts) {  // the drag of nodes that hardly slip is many times as stiff as springs
+      stop.set_rounding((has_contacts ? kRoundingOfHeights : 1) *
+                        sum_over_parts([this](NodeRange nodes) {
+                          return gain_of_rounding<Scalar>(nodes, forces_.diagonal_blocks(),
+                                                          system_inertia_, positions_);
+                        }));
     }
     const bool are_contact_states_new =
         has_met_planes_ ||
@@ -96,7 +104,9 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     decisions.add(iteration == 0, are_contact_states_new);
     const double now = energy(problem, positions_, &Body::motion);
     const bool is_rounding = !last_gain_.is_broken && last_gain_.total <= stop.most_of_rounding();
-    const double noise = kEnergyRounding * energy_before_ +
+    const bool is_doubtful = has_contacts && last_gain_.slope_left > kSteepestRise &&
+                             last_gain_.total <= kEnergyDoubt * std::abs(energy_before_);
+    const double noise = (is_doubtful ? kEnergyDoubt : kEnergyRounding) * energy_before_ +
                          (is_rounding ? stop.most_of_rounding() : stop.rounding());
     if (!are_contact_states_new && !(now <= energy_before_ + asked + noise)) {
       restore_positions();
@@ -181,6 +191,7 @@ double ImplicitSolver<Scalar>::accelerate(const StepProblem<Scalar>& problem, do
       body.motion -= static_cast<Scalar>(weights[k]) * body.result_changes[at(k)];
     }
   }
+  put_in_front(problem);  // for combinations may lie behind planes, with less energy for that
   const double combined = energy(problem, positions_, &Body::motion);
   if (combined <= reached) {
     evaluate();

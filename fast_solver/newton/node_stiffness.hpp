@@ -20,7 +20,7 @@ template <class Scalar>
 }
 
 /// What some nodes gain by the rounding of their positions alone, twice an energy as in LinearGain [J]. blocks: the diagonal
-/// blocks of their stiffness; inertia: m / h'^2, for each node [N/m].
+/// blocks of their stiffness; inertia: m / h'^2 and drag, for each node [N/m].
 template <class Scalar>
 [[nodiscard]] double gain_of_rounding(NodeRange nodes, const BlockArrays& blocks,
                                       const VectorX<float>& inertia,

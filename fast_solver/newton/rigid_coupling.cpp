@@ -34,7 +34,7 @@ void ImplicitSolver<Scalar>::load_bodies(const StepProblem<Scalar>& problem) {
 template <class Scalar>
 void ImplicitSolver<Scalar>::link(int node, int body, const Vector3<Scalar>& lever_arm,
                                   const Vector3<Scalar>& normal) {
-  const bool is_dragged = !normal.isZero(0) && drag_[node] > 0;
+  const bool is_dragged = !normal.isZero(0) && friction_.drags()[node] > 0;
   links_.push_back(
       {node, body, lever_arm.template cast<float>(), normal.template cast<float>(), is_dragged});
 }
@@ -128,7 +128,7 @@ void ImplicitSolver<Scalar>::find_body_residuals(Floats6 Body::*result) {
     const Vector3<Scalar> normal = link.normal.template cast<Scalar>();
     Vector3<Scalar> force = at_node(residual_forces_, link.node);
     if (!normal.isZero(0)) {
-      force = normal.dot(force) * normal - friction_.col(link.node).template cast<Scalar>();
+      force = normal.dot(force) * normal - friction_.force(link.node).template cast<Scalar>();
     }
     const Vector3<float> rounded = force.template cast<float>();
     Floats6& sum = bodies_[at(link.body)].*result;
