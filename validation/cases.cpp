@@ -179,6 +179,8 @@ const std::array kCases = {
              &sweep_scenes},
     CaseInfo{"layers", "Layers of cloth do not pass through each other, and gain no energy",
              &plan_layers, &evaluate_layers, Tier::kNightly},
+    CaseInfo{"solved_steps", "The fast solver solves its steps in the scenes of the catalog",
+             &plan_solved_steps, &evaluate_solved_steps, Tier::kNightly},
     CaseInfo{"cusick", "Discs of cloth drape over a smaller disc, eight times each", nullptr,
              &evaluate_cusick, Tier::kNightly},
     CaseInfo{"explosion", "Explicit Euler explodes, and is reported as data", &plan_explosion,

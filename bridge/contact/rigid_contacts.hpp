@@ -1,6 +1,6 @@
 #pragma once
 
-// Tested by tests/bridge/contact/rigid_response_test.cpp, tests/bridge/implicit/fast_body_test.cpp.
+// Tested by tests/bridge/contact/rigid_contacts_test.cpp, tests/bridge/contact/rigid_response_test.cpp, tests/bridge/implicit/fast_body_test.cpp.
 
 #include <algorithm>
 #include <array>

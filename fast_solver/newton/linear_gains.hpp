@@ -28,15 +28,19 @@ struct LinearAccuracy {
 };
 
 /// For one iteration of Newton's method, which need not leave less than a share of the gain that is asked for [J].
-[[nodiscard]] inline LinearAccuracy accuracy_of(int iteration, bool has_contacts, double asked) {
+[[nodiscard]] inline LinearAccuracy accuracy_of(int iteration, bool has_contacts, bool has_bodies,
+                                                double asked) {
   /// A step that so many iterations have not solved has stiff springs that turn. There conjugate gradients have long plateaus,
-  /// and what they leave on each of them is what the next iterations of Newton's method would gain slowly. With contacts it is
-  /// their states that take iterations.
+  /// and what they leave on each of them is what the next iterations of Newton's method would gain slowly. With contacts the
+  /// first iterations find their states. With bodies that cloth moves it is always these that take iterations.
   constexpr int kRoughIterations = 4;
+  constexpr int kRoughInContact = 2;
   constexpr LinearAccuracy kRough = {.forcing = 0.1};
   constexpr LinearAccuracy kAccurate = {.forcing = 0.03, .delay = 0.5};
   constexpr double kLastShare = 0.02;
-  LinearAccuracy accuracy = has_contacts || iteration < kRoughIterations ? kRough : kAccurate;
+  const bool is_rough =
+      has_bodies || iteration < (has_contacts ? kRoughInContact : kRoughIterations);
+  LinearAccuracy accuracy = is_rough ? kRough : kAccurate;
   accuracy.least_gain = kLastShare * asked;
   return accuracy;
 }

@@ -84,20 +84,14 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
   for (int iteration = 0; iteration < solver_settings.newton_iterations && !report_.is_converged;
        ++iteration) {
     report_.newton_iterations = iteration + 1;
-    iterate_once(problem, {.iterations = solver_settings.linear_iterations,
-                           .accuracy = accuracy_of(iteration, has_contacts, wanted),
-                           .is_first = iteration == 0,
-                           .decides = decisions.decides(),
-                           .continues = problem.continues,
-                           .factorizes = iteration % kIterationsPerFactor == 0});
-    if (iteration == 0 ||
-        has_contacts) {  // the drag of nodes that hardly slip is many times as stiff as springs
-      stop.set_rounding((has_contacts ? kRoundingOfHeights : 1) *
-                        sum_over_parts([this](NodeRange nodes) {
-                          return gain_of_rounding<Scalar>(nodes, forces_.diagonal_blocks(),
-                                                          system_inertia_, positions_);
-                        }));
-    }
+    iterate_once(problem,
+                 {.iterations = solver_settings.linear_iterations,
+                  .accuracy = accuracy_of(iteration, has_contacts, !bodies_.empty(), wanted),
+                  .is_first = iteration == 0,
+                  .decides = decisions.decides(),
+                  .continues = problem.continues,
+                  .factorizes = iteration % kIterationsPerFactor == 0});
+    if (iteration == 0 || has_contacts) stop.set_rounding(gain_of_rounding_now(has_contacts));
     const bool are_contact_states_new =
         has_met_planes_ ||
         (decisions.decides() && (iteration == 0 || have_contact_states_changed_));
@@ -147,6 +141,15 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
   }
   report_.is_converged = report_.is_converged || is_within;
   forces_.set_least_transverse_stiffness(0);
+}
+
+// What positions gain by their rounding alone, with the drag of nodes that hardly slip, which is many times as stiff as springs.
+template <class Scalar>
+double ImplicitSolver<Scalar>::gain_of_rounding_now(bool has_contacts) {
+  const double gain = sum_over_parts([this](NodeRange nodes) {
+    return gain_of_rounding<Scalar>(nodes, forces_.diagonal_blocks(), system_inertia_, positions_);
+  });
+  return has_contacts ? kRoundingOfHeights * gain : gain;
 }
 
 // Twice the energy of the motion that the tolerance is a share of [J]: that of the step, m |x - q|^2 / (2 h'^2). Where cloth

@@ -56,7 +56,7 @@ const std::array kNotJudged = {
         {"energy_ledger", "momentum", "swing", "impacts", "rest"}},
     NotJudged{"they compare several runs of one engine or of Weft's engines with each other",
               {"engine_cantilever", "damped_hang", "materials", "explosion", "layers",
-               "work_precision", "third_opinion", "determinism"}},
+               "solved_steps", "work_precision", "third_opinion", "determinism"}},
 };
 
 std::string judged_names() {

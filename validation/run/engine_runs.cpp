@@ -41,6 +41,19 @@ std::optional<double> engine_seconds(const std::string& log) {
   return seconds;
 }
 
+/// From a line "3 of 200 steps not solved to the tolerance; ...".
+std::optional<double> unsolved_share(const std::string& log) {
+  const std::size_t end = log.find(" steps not solved to the tolerance");
+  if (end == std::string::npos) return std::nullopt;
+  const std::size_t before = log.rfind('\n', end);
+  std::istringstream line(log.substr(before == std::string::npos ? 0 : before + 1));
+  double unsolved = 0;
+  std::string of;
+  double all = 0;
+  if (!(line >> unsolved >> of >> all) || !(all > 0)) return std::nullopt;
+  return unsolved / all;
+}
+
 std::filesystem::path with_suffix(const std::filesystem::path& folder, const std::string& label,
                                   const char* suffix) {
   return folder / (label + suffix);
@@ -217,6 +230,7 @@ void EngineRuns::finish(Run& run, int wait_status) const {
       WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128 + WTERMSIG(wait_status);
   run.outcome.log = read_text(with_suffix(folder_, label, ".log"));
   run.outcome.engine_seconds = engine_seconds(run.outcome.log);
+  run.outcome.unsolved_share = unsolved_share(run.outcome.log);
   run.outcome.recording = with_suffix(folder_, label, ".weftrec");
   run.done = true;
 }

@@ -42,6 +42,8 @@ class EngineRuns {
     std::filesystem::path recording;  ///< exists for exit codes 0 and 1
     /// Wall time of the engine's steps alone [s], as the run printed it.
     std::optional<double> engine_seconds = std::nullopt;
+    /// Steps that were not solved to the tolerance over all [1], of an engine that iterates.
+    std::optional<double> unsolved_share = std::nullopt;
   };
   /// Throws InvalidArgument for a label that was never added or not run.
   [[nodiscard]] const Outcome& outcome(const std::string& label) const;

