@@ -100,7 +100,7 @@ void ImplicitSolver<Scalar>::stay_at_start(const StepProblem<Scalar>& problem) {
   }
   for (const PlaneContact<Scalar>& contact : problem.contacts) {
     // Nodes between the fingers of a robot are held by both: out of one they would be in the other.
-    if (!is_free_[at(contact.node)]) continue;
+    if (!is_free_[at(contact.node)] || is_on_link(contact)) continue;
     if (contact.body < 0 && contact_states_[at(contact.node)] == ContactState::kFixed) {
       unmoved_.row(contact.node) = start_positions_.row(contact.node) + contact.motion.transpose();
     }

@@ -19,8 +19,9 @@ constexpr int kIterationsPerFactor = 4;
 /// enough: with 1 no iteration gains any.
 constexpr double kFirstTransverse = 0.02;
 constexpr double kTransverseGrowth = 7;
-/// The share of an energy that is rounding [-]. With contacts there is more of it, of what nodes press with and the last digits of
-/// their heights: gains of less than kEnergyDoubt are judged by the slopes at both ends (Hager and Zhang 2005).
+/// The share of an energy that is rounding [-]. In contact with what nothing moves there is more of it, of what nodes press with and
+/// the last digits of their heights: gains of less than kEnergyDoubt are judged by the slopes at both ends (Hager and Zhang 2005).
+/// Not so on bodies: between fingers friction gives way by what rounding would excuse.
 constexpr double kEnergyRounding = 2e-7;
 constexpr double kEnergyDoubt = 1e-6;
 constexpr double kSteepestRise = -0.5;
@@ -98,7 +99,8 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     decisions.add(iteration == 0, are_contact_states_new);
     const double now = energy(problem, positions_, &Body::motion);
     const bool is_rounding = !last_gain_.is_broken && last_gain_.total <= stop.most_of_rounding();
-    const bool is_doubtful = has_contacts && last_gain_.slope_left > kSteepestRise &&
+    const bool is_doubtful = has_contacts && bodies_.empty() &&
+                             last_gain_.slope_left > kSteepestRise &&
                              last_gain_.total <= kEnergyDoubt * std::abs(energy_before_);
     const double noise = (is_doubtful ? kEnergyDoubt : kEnergyRounding) * energy_before_ +
                          (is_rounding ? stop.most_of_rounding() : stop.rounding());
@@ -149,7 +151,7 @@ double ImplicitSolver<Scalar>::gain_of_rounding_now(bool has_contacts) {
   const double gain = sum_over_parts([this](NodeRange nodes) {
     return gain_of_rounding<Scalar>(nodes, forces_.diagonal_blocks(), system_inertia_, positions_);
   });
-  return has_contacts ? kRoundingOfHeights * gain : gain;
+  return has_contacts && bodies_.empty() ? kRoundingOfHeights * gain : gain;
 }
 
 // Twice the energy of the motion that the tolerance is a share of [J]: that of the step, m |x - q|^2 / (2 h'^2). Where cloth
