@@ -183,7 +183,7 @@ class ImplicitSolver : TeamLoops {
   void iterate_once(const StepProblem<Scalar>& problem, const NewtonIteration& iteration);
   void iterate(const StepProblem<Scalar>& problem, const SolverSettings& solver_settings);
   [[nodiscard]] double motion_that_counts(bool has_contacts);
-  [[nodiscard]] double gain_of_rounding_now(bool has_contacts);
+  [[nodiscard]] double gain_of_rounding_now(bool is_on_fixed);
   void save_positions();
   void restore_positions();
   [[nodiscard]] double accelerate(const StepProblem<Scalar>& problem, double reached);

@@ -184,10 +184,10 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const bool slides_on =
       is_first && !supports_.empty() && contact_states_before_[at(i)] == ContactState::kOnPlane;
   const bool may_stick = did_stick || has_stopped || (!was_held && !slides_on);
-  const bool is_alone =
-      contact.body < 0;  // on bodies both would give way by more than friction has
+  // Bodies would take what nodes bear beyond their bound, or slip before they have it, for more or less friction than there is.
+  const bool is_on_body = contact.body >= 0;
   if (was_held && !did_stick) has_slid_[at(i)] = 1;
-  const bool sticks_again = is_alone && did_stick && !is_first && has_slid_[at(i)] != 0;
+  const bool sticks_again = !is_on_body && did_stick && !is_first && has_slid_[at(i)] != 0;
   const Scalar bears = sticks_again ? Scalar(kSticksAgain) * most : most - doubt;
   const bool sticks = size <= bears && may_stick;
   contact_states_[at(i)] = sticks ? ContactState::kFixed : ContactState::kOnPlane;
@@ -195,9 +195,9 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   if (sticks) return friction_.release(i);
   if (is_on_link(contact))
     return friction_.set_force(i, (-(most / size) * tendency).template cast<float>());
-  // Friction that slides is solved for as a drag that has Coulomb's size at the slip that is expected: Forces foretell the slip of a node alone, the motion so far
+  // Friction that slides is solved for as a drag that has Coulomb's size at the slip that is expected. Forces foretell the slip of a node alone, the motion so far
   // that of others too (iteratively reweighted least squares, which converge for any pressure).
-  friction_.set_bound(i, most, resistance_of(i), is_alone ? rounding_of_position(i) : Scalar(0));
+  friction_.set_bound(i, most, resistance_of(i), is_on_body ? Scalar(0) : rounding_of_position(i));
   // Alone, a node has its springs and inertia against it. A drag for that slip would hold nodes that slide together too much:
   // they have their inertia, and slip no farther than so far or, if springs hardly pull at them, than without springs.
   const auto slip_against = [&](Scalar resistance) {
@@ -218,10 +218,10 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const bool is_foretold = is_first || did_stick || !(slipped > 0);
   const Scalar expected = is_foretold ? std::max(alone, together) : slipped;
   if (is_foretold) return friction_.expect_slip(i, along, expected);
-  friction_.set_slip(i, along, is_alone);
+  friction_.set_slip(i, along, !is_on_body);
 }
 
-// What resists the motion of a node alone [N/m].
+// Returns what resists the motion of a node whose neighbors stand still [N/m].
 template <class Scalar>
 Scalar ImplicitSolver<Scalar>::resistance_of(int node) const {
   return std::max(Scalar(inertia_[node]) + largest_stiffness(node), Scalar(kLeastInertia));

@@ -25,7 +25,7 @@ constexpr double kTransverseGrowth = 7;
 constexpr double kEnergyRounding = 2e-7;
 constexpr double kEnergyDoubt = 1e-6;
 constexpr double kSteepestRise = -0.5;
-/// What rounding gains in contact, where heights above planes are rounded too, over what it gains without [-].
+/// In contact rounding gains so many times as much as without, for heights above planes are rounded too [-].
 constexpr double kRoundingOfHeights = 3;
 /// The share of an energy that a step without motion is held against [-].
 constexpr double kAtRest = 0.01;
@@ -72,6 +72,7 @@ template <class Scalar>
 void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
                                      const SolverSettings& solver_settings) {
   const bool has_contacts = !problem.contacts.empty();
+  const bool is_on_fixed = has_contacts && bodies_.empty();
   const double squared_tolerance = solver_settings.tolerance * solver_settings.tolerance;
   const double asked = squared_tolerance * 2 * step_energy_;
   double wanted = squared_tolerance * motion_that_counts(has_contacts);
@@ -92,15 +93,14 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
                   .decides = decisions.decides(),
                   .continues = problem.continues,
                   .factorizes = iteration % kIterationsPerFactor == 0});
-    if (iteration == 0 || has_contacts) stop.set_rounding(gain_of_rounding_now(has_contacts));
+    if (iteration == 0 || has_contacts) stop.set_rounding(gain_of_rounding_now(is_on_fixed));
     const bool are_contact_states_new =
         has_met_planes_ ||
         (decisions.decides() && (iteration == 0 || have_contact_states_changed_));
     decisions.add(iteration == 0, are_contact_states_new);
     const double now = energy(problem, positions_, &Body::motion);
     const bool is_rounding = !last_gain_.is_broken && last_gain_.total <= stop.most_of_rounding();
-    const bool is_doubtful = has_contacts && bodies_.empty() &&
-                             last_gain_.slope_left > kSteepestRise &&
+    const bool is_doubtful = is_on_fixed && last_gain_.slope_left > kSteepestRise &&
                              last_gain_.total <= kEnergyDoubt * std::abs(energy_before_);
     const double noise = (is_doubtful ? kEnergyDoubt : kEnergyRounding) * energy_before_ +
                          (is_rounding ? stop.most_of_rounding() : stop.rounding());
@@ -145,13 +145,13 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
   forces_.set_least_transverse_stiffness(0);
 }
 
-// What positions gain by their rounding alone, with the drag of nodes that hardly slip, which is many times as stiff as springs.
+// The drag of nodes that hardly slip is many times as stiff as springs, so that rounding gains more there.
 template <class Scalar>
-double ImplicitSolver<Scalar>::gain_of_rounding_now(bool has_contacts) {
+double ImplicitSolver<Scalar>::gain_of_rounding_now(bool is_on_fixed) {
   const double gain = sum_over_parts([this](NodeRange nodes) {
     return gain_of_rounding<Scalar>(nodes, forces_.diagonal_blocks(), system_inertia_, positions_);
   });
-  return has_contacts && bodies_.empty() ? kRoundingOfHeights * gain : gain;
+  return is_on_fixed ? kRoundingOfHeights * gain : gain;
 }
 
 // Twice the energy of the motion that the tolerance is a share of [J]: that of the step, m |x - q|^2 / (2 h'^2). Where cloth

@@ -62,7 +62,9 @@ class SlidingFriction {
   /// Makes its drag that for a slip of an expected size [m], and its force that at a slip.
   void expect_slip(int node, const Vector3<Scalar>& slip, Scalar expected) {
     const Scalar bound = bounds_[node];
-    drags_[node] = bound > 0 ? bound / std::max(expected, least_slip(node)) : 0;
+    const Scalar size = std::max(expected, least_slip(node));
+    // A bound that was 0 when it was set has no least slip, and its node may not have moved.
+    drags_[node] = bound > 0 && size > 0 ? bound / size : Scalar(0);
     forces_.col(node) = (-drags_[node] * slip).template cast<float>();
     reliefs_.col(node).setZero();
   }
@@ -82,7 +84,7 @@ class SlidingFriction {
 
   [[nodiscard]] const VectorX<Scalar>& drags() const { return drags_; }  ///< for each node [N/m]
   [[nodiscard]] Vector3<float> force(int node) const { return forces_.col(node); }  ///< [N]
-  /// What friction has taken once a node has slipped so far [J].
+  /// Returns the energy that friction has taken once a node has slipped so far [J].
   [[nodiscard]] Scalar energy(int node, Scalar slip) const {
     const Scalar bound = bounds_[node];
     if (!(bound > 0)) return 0;

@@ -52,6 +52,17 @@ TEST(CoulombDrag, IsNoStifferThanRoundingAllows) {
   EXPECT_LE(friction.force(kNode).norm(), 0.26 * kBound);
 }
 
+// What presses a node may begin to do so after its bound was set, and before it has moved.
+TEST(CoulombDrag, OfANodeThatIsPressedLaterAndHasNotMovedIsFinite) {
+  SlidingFriction<double> friction = friction_with(0);
+  friction.add_to_bound(kNode, kBound);
+  friction.set_slip(kNode, Vector3<double>::Zero(), false);
+  EXPECT_EQ(friction.force(kNode).norm(), 0);
+  EXPECT_TRUE(std::isfinite(friction.drags()[kNode]));
+  friction.set_slip(kNode, {1e-3, 0, 0}, false);
+  EXPECT_NEAR(-static_cast<double>(friction.force(kNode).x()), kBound, 1e-6);
+}
+
 /// The stiffness of friction against displacements of the node.
 Matrix3<float> stiffness_of(const SlidingFriction<double>& friction) {
   NodeArrays<float> displacements = NodeArrays<float>::Zero(16, 3);
