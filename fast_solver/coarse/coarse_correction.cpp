@@ -15,10 +15,10 @@ namespace {
 /// There are at least so many coarse basis functions, or 2.5 sqrt(nodes). Then the cost of the factor grows slower than the network.
 constexpr int kLeastBasis = 24;
 constexpr double kBasisPerRoot = 2.5;
-/// Terms below this share of a spring's largest one are left out [-]. Where springs are much stiffer than inertia, what is
-/// left out is all that holds some mode back, and the correction would overshoot it: with ten times as much left out here and
-/// below, up to 1e5 times.
-constexpr float kLeastTerm = 0.01F;
+/// Coefficients of a spring below this share of its largest one are added to others [-].
+constexpr float kLeastCoefficient = 0.1F;
+/// A sum of coefficients below this share of the largest one is rounding [-].
+constexpr float kLeastSum = 1e-5F;
 /// A coupling below this share of the largest one of each of its two coarse basis functions is taken for none [-].
 constexpr float kLeastCoupling = 0.003F;
 /// A spring whose coefficients have at least this sum couples basis functions to fixed nodes. All such springs count.
@@ -213,24 +213,45 @@ int CoarseCorrection::pair_of(int a, int b) const {
   return found != end && *found == both ? static_cast<int>(found - pairs_.begin()) : -1;
 }
 
-// Expands the energy of a spring with the difference sum d_a x_a into springs between basis functions and to fixed points.
-void CoarseCorrection::add_terms(const Row& row, std::vector<CoarseTerm>& terms) const {
-  float sum = 0;
-  float largest = 0;
-  for (const auto& [basis, d] : row) {
-    sum += d;
-    largest = std::max(largest, std::abs(d));
+// The row of a spring without coefficients that are small, or whose basis functions are not coupled: they are added to the
+// largest one of their sign. The energy of what is left is a square again. With terms of the expansion left out it would not
+// be, and what was left out may be all that holds some mode of springs back that are much stiffer than inertia.
+CoarseCorrection::Row CoarseCorrection::merged(Row row) const {
+  row.sort();
+  Row result;
+  for (const auto& [basis, coefficient] : row) {
+    const bool is_kept =
+        std::abs(coefficient) > kLeastCoefficient * std::abs(row.begin()->coefficient) &&
+        std::all_of(result.begin(), result.end(), [this, basis = basis](const Row::Entry& kept) {
+          return pair_of(basis, kept.basis) >= 0;
+        });
+    if (is_kept) {
+      result.add(basis, coefficient);
+      continue;
+    }
+    const auto* const alike = std::find_if(
+        result.begin(), result.end(), [coefficient = coefficient](const Row::Entry& kept) {
+          return kept.coefficient * coefficient > 0;
+        });
+    result.add((alike != result.end() ? alike : result.begin())->basis, coefficient);
   }
-  const float least = kLeastTerm * largest * largest;
+  return result;
+}
+
+// Expands the energy of a spring with the difference sum d_a x_a into springs between basis functions and to fixed points.
+void CoarseCorrection::add_terms(const Row& of_spring, std::vector<CoarseTerm>& terms) const {
+  const Row row = merged(of_spring);
+  float sum = 0;
+  for (const auto& [basis, d] : row) sum += d;
+  const float least = kLeastSum * std::abs(row.count > 0 ? row.begin()->coefficient : 0.0F);
   for (const Row::Entry* one = row.begin(); one != row.end(); ++one) {
     const auto [basis, d] = *one;
+    if (d == 0) continue;
     for (const Row::Entry* two = one + 1; two != row.end(); ++two) {
-      const float factor = -d * two->coefficient;
-      const int pair = pair_of(basis, two->basis);
-      if (pair >= 0 && std::abs(factor) > least)
-        terms.push_back({factor_.pair_block(pair), factor});
+      if (two->coefficient == 0) continue;
+      terms.push_back({factor_.pair_block(pair_of(basis, two->basis)), -d * two->coefficient});
     }
-    if (std::abs(d * sum) > least) terms.push_back({factor_.own_block(basis), d * sum});
+    if (std::abs(sum) > least) terms.push_back({factor_.own_block(basis), d * sum});
   }
 }
 

@@ -3,6 +3,8 @@
 // Tested by tests/fast_solver/coarse/coarse_correction_test.cpp.
 
 #include <array>
+#include <cmath>
+#include <utility>
 
 #include <weft/core/index.hpp>
 
@@ -26,6 +28,17 @@ struct CoarseRow {
       return;
     }
     entries[at(count++)] = {basis, coefficient};
+  }
+  /// The largest coefficients, of whatever sign, come first.
+  void sort() {
+    for (int last = 1; last < count; ++last) {
+      for (int k = last; k > 0; --k) {
+        Entry& before = entries[at(k - 1)];
+        Entry& one = entries[at(k)];
+        if (!(std::abs(one.coefficient) > std::abs(before.coefficient))) break;
+        std::swap(one, before);
+      }
+    }
   }
 };
 
