@@ -188,7 +188,10 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const bool is_on_body = contact.body >= 0;
   if (was_held && !did_stick) has_slid_[at(i)] = 1;
   const bool sticks_again = !is_on_body && did_stick && !is_first && has_slid_[at(i)] != 0;
-  const Scalar bears = sticks_again ? Scalar(kSticksAgain) * most : most - doubt;
+  Scalar bears = sticks_again ? Scalar(kSticksAgain) * most : most - doubt;
+  // Between two fingers nobody knows which of many nodes bears how much: near their bounds they would change their states again and
+  // again. Friction is a drag there, at its stiffest where nothing slips.
+  if (contact.squeeze > 0) bears = std::min(bears, Scalar(kStopped) * most);
   const bool sticks = size <= bears && may_stick;
   contact_states_[at(i)] = sticks ? ContactState::kFixed : ContactState::kOnPlane;
   normals_.col(i) = normal.template cast<float>();

@@ -137,11 +137,9 @@ TEST(Gripper, HoldsATowelAboveTheThresholdOfFriction) {
   }
 }
 
-// From more than 0.75 of the threshold on nodes may stick with more than friction bears: which, that is decided by rounding, also by that
-// of the processor's vector unit.
 TEST(Gripper, ATowelSlipsBelowTheThreshold) {
   for (int seed = 1; seed <= test::count(1); ++seed) {
-    const Outcome outcome = hold(0.75 * kGripThreshold, 1, seed);
+    const Outcome outcome = hold(0.9 * kGripThreshold, 1, seed);
     EXPECT_LT(outcome.carried, outcome.lifted - 0.1) << seed;
   }
 }

@@ -127,21 +127,21 @@ TowelMotion grip(double force, double seconds, unsigned seed) {
   return outcome;
 }
 
-// Cloth used to fly off at 15 m/s when such fingers closed on it, and threw them apart. While they lift it, it may slip by some
-// centimeters (one seed of twenty), after that by less than a millimeter.
+// Cloth used to fly off at 15 m/s when such fingers closed on it, and threw them apart. While they lift it, it slips by up to 4 mm,
+// after that by less than half a millimeter (20 seeds, both precisions).
 TEST(RigidGripper, HoldsATowelAboveTheThresholdOfFriction) {
   for (int seed = 1; seed <= test::count(1); ++seed) {
-    const TowelMotion outcome = grip(2 * kGripThreshold, 10, seed);
+    const TowelMotion outcome = grip(1.25 * kGripThreshold, 10, seed);
     EXPECT_LT(outcome.slip, 1e-3) << seed;
     EXPECT_GT(outcome.lifted, 0.15) << seed;
-    EXPECT_GT(outcome.carried, outcome.lifted - 0.04) << seed;
+    EXPECT_GT(outcome.carried, outcome.lifted - 0.01) << seed;
     EXPECT_GT(outcome.fallen, 0.3) << seed;
   }
 }
 
 TEST(RigidGripper, LosesATowelBelowTheThreshold) {
   for (int seed = 1; seed <= test::count(1); ++seed) {
-    const TowelMotion outcome = grip(0.65 * kGripThreshold, 1, seed);
+    const TowelMotion outcome = grip(0.9 * kGripThreshold, 1, seed);
     EXPECT_LT(outcome.carried, outcome.lifted - 0.1) << seed;
   }
 }
