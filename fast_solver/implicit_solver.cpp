@@ -400,7 +400,7 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem,
   }
   if (!report_.is_converged || !constrained_.empty())
     enforce_descent(problem, solver_settings.linear_iterations);
-  update_friction(problem);
+  update_friction(problem, false);
   find_constraint_forces();
   residual_ = first > 0 ? residual_norm() / first : 0.0;
   const std::optional<Vector3<Scalar>> shift = net_momentum_correction(problem);

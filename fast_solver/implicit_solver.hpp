@@ -85,6 +85,12 @@ class ImplicitSolver : TeamLoops {
   [[nodiscard]] std::pair<int, ContactState> contact_of(std::size_t node) const {
     return {contact_of_[node], contact_states_[node]};
   }
+  /// After solve(): whether a node in contact does not slip: it sticks, or slides so little that friction has not its bound.
+  [[nodiscard]] bool is_held_by_friction(int node) const {
+    const ContactState state = contact_states_[static_cast<std::size_t>(node)];
+    return state == ContactState::kFixed ||
+           (state == ContactState::kOnPlane && friction_.holds(node));
+  }
   /// After solve(): the force of one of the problem's supports on its node [N].
   [[nodiscard]] Vector3<Scalar> support_force(std::size_t support) const {
     return supports_.force_of(support, positions_, start_positions_, bodies_);
@@ -143,7 +149,7 @@ class ImplicitSolver : TeamLoops {
                                         const Vector3<Scalar>& position,
                                         Vector6 Body::*motion) const;
   [[nodiscard]] Scalar largest_stiffness(int node) const;
-  void update_friction(const StepProblem<Scalar>& problem);
+  void update_friction(const StepProblem<Scalar>& problem, bool is_cautious);
   void update_supports(const StepProblem<Scalar>& problem, const NewtonIteration& iteration);
   void set_system_inertia();
   void decide_contact_state(const PlaneContact<Scalar>& contact, const NewtonIteration& iteration);

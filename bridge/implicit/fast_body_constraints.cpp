@@ -233,7 +233,7 @@ void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
         active_solver().contact_of(static_cast<std::size_t>(contacts_[c].node));
     if (active != static_cast<int>(c)) continue;
     contact.impulse = whole_step * to_bullet(active_solver().constraint_force(contact.node));
-    contact.is_sticking = state == fast::ContactState::kFixed;
+    contact.is_sticking = active_solver().is_held_by_friction(contact.node);
     if (plane_contacts_[c].body < 0) continue;
     sticking_points_.add(contacts_[c].node, object, state == fast::ContactState::kFixed,
                          solved_pose(object), in_world(contacts_[c].node));

@@ -213,34 +213,10 @@ int CoarseCorrection::pair_of(int a, int b) const {
   return found != end && *found == both ? static_cast<int>(found - pairs_.begin()) : -1;
 }
 
-// The row of a spring without coefficients that are small, or whose basis functions are not coupled: they are added to the
-// largest one of their sign. The energy of what is left is a square again. With terms of the expansion left out it would not
-// be, and what was left out may be all that holds some mode of springs back that are much stiffer than inertia.
-CoarseCorrection::Row CoarseCorrection::merged(Row row) const {
-  row.sort();
-  Row result;
-  for (const auto& [basis, coefficient] : row) {
-    const bool is_kept =
-        std::abs(coefficient) > kLeastCoefficient * std::abs(row.begin()->coefficient) &&
-        std::all_of(result.begin(), result.end(), [this, basis = basis](const Row::Entry& kept) {
-          return pair_of(basis, kept.basis) >= 0;
-        });
-    if (is_kept) {
-      result.add(basis, coefficient);
-      continue;
-    }
-    const auto* const alike = std::find_if(
-        result.begin(), result.end(), [coefficient = coefficient](const Row::Entry& kept) {
-          return kept.coefficient * coefficient > 0;
-        });
-    result.add((alike != result.end() ? alike : result.begin())->basis, coefficient);
-  }
-  return result;
-}
-
 // Expands the energy of a spring with the difference sum d_a x_a into springs between basis functions and to fixed points.
 void CoarseCorrection::add_terms(const Row& of_spring, std::vector<CoarseTerm>& terms) const {
-  const Row row = merged(of_spring);
+  const Row row = of_spring.merged(
+      kLeastCoefficient, [this](int basis, int other) { return pair_of(basis, other) >= 0; });
   float sum = 0;
   for (const auto& [basis, d] : row) sum += d;
   const float least = kLeastSum * std::abs(row.count > 0 ? row.begin()->coefficient : 0.0F);

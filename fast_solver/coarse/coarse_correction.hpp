@@ -113,7 +113,6 @@ class CoarseCorrection {
   [[nodiscard]] bool is_strong(int basis, int other, float coupling) const;
   void find_pairs(const Couplings& couplings);
   void make_factor();
-  [[nodiscard]] Row merged(Row row) const;
   void add_terms(const Row& of_spring, std::vector<CoarseTerm>& terms) const;
   void note_alone(int node);
   [[nodiscard]] bool is_in_sample(int node, int slot) const;

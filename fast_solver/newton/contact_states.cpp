@@ -13,7 +13,8 @@
 namespace weft::fast {
 namespace {
 
-/// A node that a body presses sticks once the slip that is left would take this share of its friction to stop [-].
+/// A node that a body presses sticks once the slip that is left would take this share of its friction to stop, one between fingers
+/// where it would bear this share [-].
 constexpr double kStopped = 0.01;
 /// A node that sticks again after it has slid in the same step bears so many times its bound, for the stiffest drag gives way by a
 /// part of that, and it would let go again and again [-].
@@ -28,6 +29,15 @@ constexpr double kLeastInertia = 1e-30;
 /// Removes the normal component of one node's vector.
 void take_away(const Vector3<float>& normal, NodeArrays<float>& vectors, int node) {
   vectors.row(node) -= vectors.row(node).dot(normal) * normal.transpose();
+}
+
+/// Returns what friction must bear at most for a node to stick [N]. Between two fingers nobody knows which of many nodes bears how
+/// much: near their bounds they would change their states again and again. Friction is a drag there, at its stiffest where nothing
+/// slips.
+template <class Scalar>
+Scalar most_without_slip(Scalar bound, Scalar doubt, bool is_pinched, bool sticks_again) {
+  if (is_pinched) return std::min(Scalar(kStopped) * bound, bound - doubt);
+  return sticks_again ? Scalar(kSticksAgain) * bound : bound - doubt;
 }
 
 }  // namespace
@@ -188,11 +198,8 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const bool is_on_body = contact.body >= 0;
   if (was_held && !did_stick) has_slid_[at(i)] = 1;
   const bool sticks_again = !is_on_body && did_stick && !is_first && has_slid_[at(i)] != 0;
-  Scalar bears = sticks_again ? Scalar(kSticksAgain) * most : most - doubt;
-  // Between two fingers nobody knows which of many nodes bears how much: near their bounds they would change their states again and
-  // again. Friction is a drag there, at its stiffest where nothing slips.
-  if (contact.squeeze > 0) bears = std::min(bears, Scalar(kStopped) * most);
-  const bool sticks = size <= bears && may_stick;
+  const bool is_pinched = contact.squeeze > 0;
+  const bool sticks = size <= most_without_slip(most, doubt, is_pinched, sticks_again) && may_stick;
   contact_states_[at(i)] = sticks ? ContactState::kFixed : ContactState::kOnPlane;
   normals_.col(i) = normal.template cast<float>();
   if (sticks) return friction_.release(i);
@@ -221,7 +228,7 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const bool is_foretold = is_first || did_stick || !(slipped > 0);
   const Scalar expected = is_foretold ? std::max(alone, together) : slipped;
   if (is_foretold) return friction_.expect_slip(i, along, expected);
-  friction_.set_slip(i, along, !is_on_body);
+  friction_.set_slip(i, along, !is_on_body && !iteration.is_cautious);
 }
 
 // Returns what resists the motion of a node whose neighbors stand still [N/m].
@@ -246,13 +253,13 @@ Scalar ImplicitSolver<Scalar>::largest_stiffness(int node) const {
 }
 
 template <class Scalar>
-void ImplicitSolver<Scalar>::update_friction(const StepProblem<Scalar>& problem) {
+void ImplicitSolver<Scalar>::update_friction(const StepProblem<Scalar>& problem, bool is_cautious) {
   for (const int i : constrained_) {
     if (contact_of_[at(i)] < 0 || contact_states_[at(i)] != ContactState::kOnPlane) continue;
     const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
     if (is_on_link(contact)) continue;
     friction_.set_slip(i, slip_of(contact, at_node(positions_, i), &Body::motion),
-                       contact.body < 0);
+                       contact.body < 0 && !is_cautious);
   }
 }
 

@@ -130,7 +130,7 @@ void ImplicitSolver<Scalar>::enforce_descent(const StepProblem<Scalar>& problem,
   forces_.set_least_transverse_stiffness(1);
   evaluate();
   for (int iteration = 0; iteration < kSafeIterations; ++iteration) {
-    iterate_once(problem, {.iterations = iterations, .factorizes = true});
+    iterate_once(problem, {.iterations = iterations, .is_cautious = true, .factorizes = true});
     if (!goes_up()) break;
   }
   forces_.set_least_transverse_stiffness(0);

@@ -44,7 +44,7 @@ void ImplicitSolver<Scalar>::iterate_once(const StepProblem<Scalar>& problem,
       energy_before_ = energy(problem, positions_, &Body::motion);
   } else {
     list_constrained();
-    update_friction(problem);
+    update_friction(problem, iteration.is_cautious);
   }
   if (!supports_.empty()) update_supports(problem, iteration);
   set_system_inertia();
@@ -92,6 +92,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
                   .is_first = iteration == 0,
                   .decides = decisions.decides(),
                   .continues = problem.continues,
+                  .is_cautious = transverse > 0,
                   .factorizes = iteration % kIterationsPerFactor == 0});
     if (iteration == 0 || has_contacts) stop.set_rounding(gain_of_rounding_now(is_on_fixed));
     const bool are_contact_states_new =

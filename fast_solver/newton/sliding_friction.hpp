@@ -84,6 +84,10 @@ class SlidingFriction {
 
   [[nodiscard]] const VectorX<Scalar>& drags() const { return drags_; }  ///< for each node [N/m]
   [[nodiscard]] Vector3<float> force(int node) const { return forces_.col(node); }  ///< [N]
+  /// Whether a node's friction is less than its bound: it holds the node, but for less than the least slip.
+  [[nodiscard]] bool holds(int node) const {
+    return static_cast<Scalar>(forces_.col(node).norm()) < Scalar(kBelowBound) * bounds_[node];
+  }
   /// Returns the energy that friction has taken once a node has slipped so far [J].
   [[nodiscard]] Scalar energy(int node, Scalar slip) const {
     const Scalar bound = bounds_[node];
@@ -116,6 +120,8 @@ class SlidingFriction {
   }
 
  private:
+  /// A share of a bound that is not all of it, however forces are rounded [-].
+  static constexpr double kBelowBound = 1 - 1e-4;
   /// A drag must not make forces of rounding that are like its bound: so many times the rounding of slips is the least slip.
   static constexpr double kRoundings = 4;
 

@@ -45,6 +45,16 @@ TEST(CoulombDrag, IsTheGradientOfItsEnergyAtAnySlip) {
   }
 }
 
+TEST(CoulombDrag, HoldsWhatSlipsLessThanTheLeastSlip) {
+  SlidingFriction<double> friction = friction_with(kBound);
+  for (const double slip : {0.0, 0.1, 0.99, 1.01, 50.0}) {
+    friction.set_slip(kNode, {slip * kLeastSlip, 0, 0}, true);
+    EXPECT_EQ(friction.holds(kNode), slip < 1) << slip;
+  }
+  friction.release(kNode);
+  EXPECT_FALSE(friction.holds(kNode));
+}
+
 TEST(CoulombDrag, IsNoStifferThanRoundingAllows) {
   const double rounding = 10 * kLeastSlip;
   SlidingFriction<double> friction = friction_with(kBound, rounding);
