@@ -87,6 +87,11 @@ class StateArchive {
     raw(numbers.data(), numbers.size() * sizeof(Number));
   }
   void value(std::vector<std::string>& texts);
+  /// Numbers of which both sides know how many they are.
+  template <class Number, std::size_t kCount>
+  requires(std::is_arithmetic_v<Number>) void values(std::span<Number, kCount> numbers) {
+    raw(numbers.data(), numbers.size_bytes());
+  }
 
   /// Something that may be missing: whether it is there, and what present(value) serializes of it.
   template <class Value, class Present>

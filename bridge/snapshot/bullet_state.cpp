@@ -1,12 +1,14 @@
 #include <weft/bridge/snapshot/bullet_state.hpp>
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <BulletDynamics/ConstraintSolver/btConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
+#include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/core/error.hpp>
 
 namespace weft::bridge {
@@ -15,10 +17,17 @@ namespace {
 
 using Node = btSoftBody::Node;
 
-/// One vector of each node.
+/// One vector of each node, all of them in one piece: a call for each number took half of the time of a snapshot.
 template <btVector3 Node::*kVector>
 void serialize_nodes(StateArchive& archive, btSoftBody& body) {
-  for (int i = 0; i < body.m_nodes.size(); ++i) serialize(archive, body.m_nodes[i].*kVector);
+  Matrix3X<btScalar> vectors(3, body.m_nodes.size());
+  for (int i = 0; i < body.m_nodes.size() && !archive.is_reading(); ++i) {
+    vectors.col(i) = from_bullet<btScalar>(body.m_nodes[i].*kVector);
+  }
+  archive.values(std::span(vectors.data(), static_cast<std::size_t>(vectors.size())));
+  for (int i = 0; i < body.m_nodes.size() && archive.is_reading(); ++i) {
+    body.m_nodes[i].*kVector = to_bullet(vectors.col(i));
+  }
 }
 
 template <class Is>
@@ -30,11 +39,11 @@ bool any_node(const btSoftBody& body, const Is& is) {
 }
 
 void serialize_inverse_masses(StateArchive& archive, btSoftBody& body) {
-  std::vector<btScalar> inverse_masses;
-  for (int i = 0; i < body.m_nodes.size(); ++i) inverse_masses.push_back(body.m_nodes[i].m_im);
-  archive.runs(std::span(inverse_masses));
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    body.m_nodes[i].m_im = inverse_masses[static_cast<std::size_t>(i)];
+  VectorX<btScalar> inverse_masses(body.m_nodes.size());
+  for (int i = 0; i < body.m_nodes.size(); ++i) inverse_masses[i] = body.m_nodes[i].m_im;
+  archive.runs(std::span(inverse_masses.data(), static_cast<std::size_t>(inverse_masses.size())));
+  for (int i = 0; i < body.m_nodes.size() && archive.is_reading(); ++i) {
+    body.m_nodes[i].m_im = inverse_masses[i];
   }
 }
 
@@ -85,7 +94,7 @@ void serialize_motion(StateArchive& archive, btRigidBody& rigid) {
 }  // namespace
 
 void serialize(StateArchive& archive, btVector3& vector) {
-  for (int k = 0; k < 3; ++k) archive.value(vector[k]);
+  archive.values(std::span(vector.m_floats).first(3));
   if (archive.is_reading()) vector[3] = 0;
 }
 

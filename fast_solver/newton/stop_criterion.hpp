@@ -42,10 +42,11 @@ class StopCriterion {
   /// Iterations do not get anywhere any more.
   [[nodiscard]] bool is_stalled() const { return num_stalled_ >= kMostStalled; }
   /// What is left to gain by the slowest of the last iterations [J], once and not twice. Accelerated iterations gain little now and
-  /// then, with some way to go: that is known here, but too late to stop by.
+  /// then, with some way to go: that is known here, but too late to stop by. What conjugate gradients have left is at least what
+  /// their last iterations gained (Strakos and Tichy 2002): it counts twice.
   [[nodiscard]] double energy_left() const {
     const double slowest = *std::max_element(last_shrinks_.begin(), last_shrinks_.end());
-    return (gain_.left + std::max(rest_of(gain_.total, slowest), ahead())) / 2;
+    return gain_.left + std::max(rest_of(gain_.total, slowest), ahead()) / 2;
   }
 
  private:

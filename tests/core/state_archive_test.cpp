@@ -1,5 +1,6 @@
 #include <weft/core/state_archive.hpp>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -24,6 +25,7 @@ struct Everything {
   std::optional<double> present;
   std::optional<double> missing = 3.0;  ///< before something without it is read
   std::vector<float> masses = std::vector<float>(5);
+  std::array<double, 3> vector{};
 
   void serialize(StateArchive& archive) {
     archive.part("everything");
@@ -38,6 +40,7 @@ struct Everything {
     archive.optional(present, each);
     archive.optional(missing, each);
     archive.runs(std::span(masses));
+    archive.values(std::span(vector));
   }
 };
 
@@ -53,6 +56,7 @@ Everything example() {
   one.present = 0.25;
   one.missing.reset();
   one.masses = {1.0F, 1.0F, 1.0F, -0.0F, 0.0F};
+  one.vector = {1, -2, 3.5};
   return one;
 }
 

@@ -79,7 +79,7 @@ constexpr int kNumSteps = 60;
 
 // The bound takes for granted that springs resist. Those of a sheet that crumples are compressed, and steps of which the budget
 // ended first are farther off, for more iterations may find another fold. A box that stands a millimeter higher makes the
-// crumpling another one, so that several starts count together: 0.89 to 1.00 of their steps are bounded, and of 180 steps chance made 0.03
+// crumpling another one, so that several starts count together: 0.88 to 1.00 of their steps are bounded, and of 180 steps chance made 0.03
 // more or less.
 constexpr double kBoundedShare = 0.8;
 constexpr double kBoxHeights[] = {-0.35, -0.349, -0.348, -0.347, -0.346, -0.345};  ///< [m]
