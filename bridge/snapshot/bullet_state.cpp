@@ -8,7 +8,6 @@
 #include <BulletDynamics/ConstraintSolver/btConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
-#include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/core/error.hpp>
 
 namespace weft::bridge {
@@ -17,13 +16,10 @@ namespace {
 
 using Node = btSoftBody::Node;
 
-/// One vector of each node, all of them in one piece: a call for each number took half of the time of a snapshot.
+/// All nodes in one piece, for a call for each number took two thirds of the time of a snapshot.
 template <btVector3 Node::*kVector>
 void serialize_nodes(StateArchive& archive, btSoftBody& body) {
-  Matrix3X<btScalar> vectors(3, body.m_nodes.size());
-  for (int i = 0; i < body.m_nodes.size() && !archive.is_reading(); ++i) {
-    vectors.col(i) = from_bullet<btScalar>(body.m_nodes[i].*kVector);
-  }
+  Matrix3X<btScalar> vectors = vectors_of<kVector>(body);
   archive.values(std::span(vectors.data(), static_cast<std::size_t>(vectors.size())));
   for (int i = 0; i < body.m_nodes.size() && archive.is_reading(); ++i) {
     body.m_nodes[i].*kVector = to_bullet(vectors.col(i));

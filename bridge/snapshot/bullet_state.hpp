@@ -2,14 +2,27 @@
 
 // Tested by tests/bridge/snapshot_test.cpp.
 
+#include <BulletSoftBody/btSoftBody.h>
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 
+#include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/core/state_archive.hpp>
+#include <weft/core/types.hpp>
 
 // State of Bullet's own objects between two steps.
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
+
+/// One vector of each node of a body (3 x number of nodes).
+template <btVector3 btSoftBody::Node::*kVector>
+[[nodiscard]] Matrix3X<btScalar> vectors_of(const btSoftBody& body) {
+  Matrix3X<btScalar> vectors(3, body.m_nodes.size());
+  for (int i = 0; i < body.m_nodes.size(); ++i) {
+    vectors.col(i) = from_bullet<btScalar>(body.m_nodes[i].*kVector);
+  }
+  return vectors;
+}
 
 void serialize(StateArchive& archive, btVector3& vector);
 void serialize(StateArchive& archive, btTransform& transform);

@@ -27,15 +27,6 @@ void serialize_derived(StateArchive& archive, const Derive& derive, Matrix3X<btS
   }
 }
 
-template <btVector3 btSoftBody::Node::*kVector>
-Matrix3X<btScalar> vectors_of(const btSoftBody& body) {
-  Matrix3X<btScalar> vectors(3, body.m_nodes.size());
-  for (int i = 0; i < body.m_nodes.size(); ++i) {
-    vectors.col(i) = from_bullet<btScalar>(body.m_nodes[i].*kVector);
-  }
-  return vectors;
-}
-
 }  // namespace
 
 FastBodyState::FastBodyState(const FastBody& body)

@@ -222,9 +222,7 @@ void CoarseCorrection::add_terms(const Row& of_spring, std::vector<CoarseTerm>& 
   const float least = kLeastSum * std::abs(row.count > 0 ? row.begin()->coefficient : 0.0F);
   for (const Row::Entry* one = row.begin(); one != row.end(); ++one) {
     const auto [basis, d] = *one;
-    if (d == 0) continue;
     for (const Row::Entry* two = one + 1; two != row.end(); ++two) {
-      if (two->coefficient == 0) continue;
       terms.push_back({factor_.pair_block(pair_of(basis, two->basis)), -d * two->coefficient});
     }
     if (std::abs(sum) > least) terms.push_back({factor_.own_block(basis), d * sum});

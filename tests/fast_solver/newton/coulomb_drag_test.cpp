@@ -62,7 +62,7 @@ TEST(CoulombDrag, IsNoStifferThanRoundingAllows) {
   EXPECT_LE(friction.force(kNode).norm(), 0.26 * kBound);
 }
 
-// What presses a node may begin to do so after its bound was set, and before it has moved.
+// A body may begin to press a node after the node's bound was set, and before the node has moved.
 TEST(CoulombDrag, OfANodeThatIsPressedLaterAndHasNotMovedIsFinite) {
   SlidingFriction<double> friction = friction_with(0);
   friction.add_to_bound(kNode, kBound);
