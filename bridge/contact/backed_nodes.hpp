@@ -57,7 +57,9 @@ class BackedNodes {
     still_sunken_.clear();
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const RigidContact& contact = contacts[c];
-      if (!is_behind(c) && !is_sunken(contact.node) && !pinches.has(contact.node)) continue;
+      const bool was_pressed =
+          is_behind(c) || pinches.has(contact.node) || pinches.depth_of(c) > 0;
+      if (!was_pressed && !is_sunken(contact.node)) continue;
       if (gap_of(contact) < -kLeastDepth * margin) still_sunken_.push_back(contact.node);
     }
     std::sort(still_sunken_.begin(), still_sunken_.end());

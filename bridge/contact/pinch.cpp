@@ -25,9 +25,6 @@ bool may_pinch(const btCollisionObject& one, const btCollisionObject& other) {
          (is_jointed(&one) || is_jointed(&other) || (is_kinematic(one) && is_kinematic(other)));
 }
 
-/// The part of the force that all nodes share alike: what has borne nothing so far must be able to begin [-].
-constexpr btScalar kEvenShare = btScalar(0.1);
-
 /// [N] With which Bullet presses two objects on each other, 0 if they are only near; none if they are not, or pass through each
 /// other, as neighboring links of a robot do.
 std::optional<btScalar> force_between(const btCollisionObject* one, const btCollisionObject* other,
@@ -72,6 +69,7 @@ void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& bod
   held_.assign(contacts.size(), {});
   first_of_.assign(static_cast<std::size_t>(body.m_nodes.size()), -1);
   std::vector<std::pair<std::size_t, std::size_t>> found;
+  std::vector<std::pair<std::size_t, std::size_t>> beside;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     int& first = first_of_[static_cast<std::size_t>(contacts[c].node)];
     if (first < 0) {
@@ -81,14 +79,18 @@ void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& bod
     const auto other = static_cast<std::size_t>(first);
     const RigidContact& a = contacts[other];
     const RigidContact& b = contacts[c];
-    if (!may_pinch(*a.object, *b.object) || !are_opposite(a, b)) continue;
-    if (room_between(a, b, body) > 0) continue;
+    if (!may_pinch(*a.object, *b.object)) continue;
+    const btScalar room = room_between(a, b, body);
+    if (!are_opposite(a, b) || room > 0) {
+      beside.emplace_back(other, c);
+      continue;
+    }
     // Both surfaces bear their share of what nodes pull with: every other node.
     const bool by_first = a.node % 2 == 0;
     found.emplace_back(by_first ? other : c, by_first ? c : other);
     Pair& pair = pair_of(a.object, b.object);
     ++pair.num_nodes;
-    pair.load += load_of(a.node);
+    pair.depth = std::max(pair.depth, -room / 2);
   }
   for (Pair& pair : pairs_) {
     const bool yields = MovableObject(pair.first) || MovableObject(pair.second);
@@ -105,14 +107,15 @@ void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& bod
     if (!pair.may_press) continue;
     if (nodes_.empty()) nodes_.assign(static_cast<std::size_t>(body.m_nodes.size()), 0);
     nodes_[static_cast<std::size_t>(contact.node)] = 1;
-    const btScalar even = 1 / static_cast<btScalar>(pair.num_nodes);
-    const btScalar share = pair.load > 0 ? load_of(contact.node) / pair.load : even;
     held_[holding].is_holding = true;
-    held_[holding].squeeze =
-        kLeastSqueeze + pair.force * (kEvenShare * even + (1 - kEvenShare) * share);
+    held_[holding].squeeze = kLeastSqueeze + pair.force / static_cast<btScalar>(pair.num_nodes);
     held_[holding].depth = -room_between(contact, other, body) / 2;
     held_[holding].other_friction = other.object->getFriction();
     held_[replaced].is_replaced = true;
+  }
+  for (const auto& [one, other] : beside) {
+    const Pair& pair = pair_of(contacts[one].object, contacts[other].object);
+    if (pair.may_press) held_[one].depth = held_[other].depth = pair.depth;
   }
 }
 

@@ -4,22 +4,21 @@
 
 #include <algorithm>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <BulletSoftBody/btSoftBody.h>
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/contact/rigid_contacts.hpp>
-#include <weft/core/state_archive.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
 /// Nodes between two surfaces that leave no room for cloth and its margins: two fingers of a gripper, or a finger and a table.
 /// The surfaces press on each other through the cloth, which Bullet solves as their contact; that force is what friction on
-/// both sides of the cloth may count on. A node is held halfway between the surfaces, by one of them. Nodes share that force
-/// in proportion to what friction has borne at each in the last step: soft cloth between pads slides as a whole or not at all.
+/// both sides of the cloth may count on, and all nodes between them share it alike. A node is held halfway between the surfaces,
+/// by one of them. Beside the edges of the surfaces nodes touch both too: cloth is pressed as thin there as between them, or stiff
+/// cloth would be torn out of the grip by its own thickness.
 ///
 /// This applies if a link of a multibody takes part, or a rigid body that Bullet lists a joint of, or two kinematic bodies do. The
 /// force between kinematic bodies is not defined: they hold whatever they pinch.
@@ -29,7 +28,7 @@ class Pinches {
   void find(std::span<const RigidContact> contacts, const btSoftBody& body, btScalar time_step);
   /// The squeeze of a contact that holds a pinched node [N], zero of others.
   [[nodiscard]] btScalar squeeze_of(std::size_t contact) const { return held_of(contact).squeeze; }
-  /// How far behind the plane of a contact its node is held [m].
+  /// How far behind the plane of a contact its node is held, or may be beside the surfaces [m].
   [[nodiscard]] btScalar depth_of(std::size_t contact) const { return held_of(contact).depth; }
   /// The friction on the other side [-], over that of the object of the contact.
   [[nodiscard]] btScalar other_friction(std::size_t contact) const {
@@ -42,26 +41,16 @@ class Pinches {
   template <class Impulse, class Position>
   void push_back(std::span<const RigidContact> contacts, const Impulse& impulse_on,
                  const Position& position_of) {
-    loads_.assign(nodes_.size(), 0);
     if (nodes_.empty()) return;
     WrenchSum sum;
     for (std::size_t c = 0; c < contacts.size() && c < held_.size(); ++c) {
       if (!held_[c].is_holding) continue;
-      const btVector3 impulse = impulse_on(contacts[c].node);
-      const btVector3& normal = contacts[c].normal;
-      loads_[static_cast<std::size_t>(contacts[c].node)] =
-          (impulse - btDot(impulse, normal) * normal).length();
-      sum.add(contacts[c].object, -impulse, position_of(contacts[c].node));
+      sum.add(contacts[c].object, -impulse_on(contacts[c].node), position_of(contacts[c].node));
     }
     sum.apply();
   }
-  /// The loads of the last step, for snapshots.
-  void serialize(StateArchive& archive, int num_nodes) {
-    archive.value(loads_);
-    if (!loads_.empty() && static_cast<int>(loads_.size()) != num_nodes)
-      archive.refuse("loads of " + std::to_string(loads_.size()) + " nodes, expected " +
-                     std::to_string(num_nodes));
-    if (!archive.is_reading()) return;
+  /// Nothing is left of the step before.
+  void clear() {
     held_.clear();
     nodes_.clear();
   }
@@ -90,8 +79,8 @@ class Pinches {
     const btCollisionObject* second = nullptr;
     int num_nodes = 0;
     btScalar force = 0;  ///< [N]
+    btScalar depth = 0;  ///< of the nodes behind the surfaces, the largest [m]
     bool may_press = false;
-    btScalar load = 0;  ///< that friction has borne in the last step, over all nodes [N s]
   };
   [[nodiscard]] const Held& held_of(std::size_t contact) const {
     static constexpr Held kNone;
@@ -99,16 +88,9 @@ class Pinches {
   }
   [[nodiscard]] Pair& pair_of(const btCollisionObject* one, const btCollisionObject* other);
 
-  /// The impulse of friction on a node in the last step [N s].
-  [[nodiscard]] btScalar load_of(int node) const {
-    const auto i = static_cast<std::size_t>(node);
-    return i < loads_.size() ? loads_[i] : btScalar(0);
-  }
-
-  std::vector<btScalar> loads_;  ///< of each node, or empty
-  std::vector<Held> held_;       ///< of each contact; empty: none is held
-  std::vector<char> nodes_;      ///< flags; empty: none
-  std::vector<int> first_of_;    ///< the first contact of each node, or -1
+  std::vector<Held> held_;     ///< of each contact; empty: none is held
+  std::vector<char> nodes_;    ///< flags; empty: none
+  std::vector<int> first_of_;  ///< the first contact of each node, or -1
   std::vector<Pair> pairs_;
 };
 

@@ -112,12 +112,12 @@ void FastBodyState::serialize(StateArchive& archive, const ObjectTable& objects,
   body.force_history_.serialize(archive, num_nodes);
   body.sleep_.serialize(archive, objects);
   body.pushed_.serialize(archive, objects);
-  body.pinches_.serialize(archive, num_nodes);
   body.backed_.serialize(archive, num_nodes);
   body.swept_.serialize(archive, num_nodes);
   if (body.solver_) fast::SolverState::serialize(archive, *body.solver_);
   if (!archive.is_reading()) return;
   body.contacts_.clear();
+  body.pinches_.clear();
   body.steady_.forget();
   body.colliders_.clear();
   body.impulses_.resize(3, 0);

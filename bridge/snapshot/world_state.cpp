@@ -18,7 +18,7 @@ namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
 
-constexpr int kVersion = 4;
+constexpr int kVersion = 5;
 
 /// FNV-1a, to tell whether a body has the laws that it had.
 class Fingerprint {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -12,6 +13,8 @@ inline constexpr double kTowelMass = 0.1;      // [kg]
 inline constexpr double kTowelFriction = 0.5;  // times 1 of the fingers, on both sides of the towel
 inline constexpr double kGripThreshold =
     9.81 * kTowelMass / (2 * kTowelFriction);  // [N] of the grip
+/// [N/m] From that of a knitted towel to that of woven cloth.
+inline constexpr std::array kTowelStiffness{200.0, 2000.0, 20000.0};
 inline constexpr double kTowelMargin = 0.004;  // [m]
 inline constexpr int kTowelNodes = 17;         // along each side
 inline constexpr double kTowelSize = 0.4;      // [m]
