@@ -46,6 +46,7 @@ void bench_detail(const Settings& settings);
 void bench_snapshot(const Settings& settings);
 /// The step in which sheets of a Bullet program are adopted, beside those that follow.
 void bench_setup(const Settings& settings);
+void bench_self_contact(const Settings& settings);
 /// The recorder's cost, the sizes of recordings and pages, and pictures in a second.
 void bench_playback(const Settings& settings);
 #endif

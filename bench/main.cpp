@@ -34,6 +34,7 @@ int run(int argc, char** argv) {
   benches["detail"] = bench_detail;
   benches["snapshot"] = bench_snapshot;
   benches["setup"] = bench_setup;
+  benches["self_contact"] = bench_self_contact;
   benches["playback"] = bench_playback;
 #endif
   Settings settings{.folder = WEFT_SOURCE_DIR "/bench/results"};

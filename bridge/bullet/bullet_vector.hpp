@@ -23,6 +23,12 @@ template <class Derived>
           static_cast<btScalar>(v.coeff(2))};
 }
 
+/// A vector of length 1 along another; 0 along 0.
+[[nodiscard]] inline btVector3 unit(const btVector3& v) {
+  const btScalar length = v.length();
+  return length > 0 ? v / length : btVector3(0, 0, 0);
+}
+
 /// All that Bullet stores of a vector, at no special address: what a processor loads at once. The last number is of no
 /// meaning.
 using Four = Eigen::Array<btScalar, 4, 1>;

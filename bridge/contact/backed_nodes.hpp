@@ -57,8 +57,7 @@ class BackedNodes {
     still_sunken_.clear();
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const RigidContact& contact = contacts[c];
-      const bool was_pressed =
-          is_behind(c) || pinches.has(contact.node) || pinches.depth_of(c) > 0;
+      const bool was_pressed = is_behind(c) || pinches.has(contact.node) || pinches.depth_of(c) > 0;
       if (!was_pressed && !is_sunken(contact.node)) continue;
       if (gap_of(contact) < -kLeastDepth * margin) still_sunken_.push_back(contact.node);
     }

@@ -170,10 +170,13 @@ ClothContact::ClothContact(const btSoftBody& body, const ClothContactSettings& s
 
 void ClothContact::note_near(const btSoftBody& body) {
   const auto thickness = static_cast<btScalar>(settings_.self_thickness);
-  refit(body);
+  windows_.forget();
+  look(body);
+  refit_tree(body);
   note_leaves(body);
   flat_.find_neighbors(body, tree_, thickness);
   flat_.refit(body, tree_);
+  if (loose_nodes_.empty()) windows_.find(body);
   near_at_rest_.assign(static_cast<std::size_t>(body.m_nodes.size()), {});
   num_near_faces_ = body.m_faces.size();
   for_candidates(body, thickness, *this, [&](int i, std::span<const int> slots) {
@@ -223,35 +226,49 @@ void ClothContact::for_candidates(const btSoftBody& body, btScalar reach, const 
   }
 }
 
-void ClothContact::refit_if_moved(const btSoftBody& body) {
-  bool is_seen =
-      is_tree_of_this_step_ && seen_.size() == static_cast<std::size_t>(body.m_nodes.size());
+void ClothContact::look_if_moved(const btSoftBody& body) {
+  bool is_seen = is_of_this_step_ && seen_.size() == static_cast<std::size_t>(body.m_nodes.size());
   for (int i = 0; is_seen && i < body.m_nodes.size(); ++i) {
     const auto& [start, end] = seen_[static_cast<std::size_t>(i)];
     is_seen = body.m_nodes[i].m_x == end && body.m_nodes[i].m_q == start;
   }
-  if (!is_seen) refit(body);
+  if (!is_seen) look(body);
 }
 
-void ClothContact::refit(const btSoftBody& body) {
+void ClothContact::look(const btSoftBody& body) {
   const auto num_faces = static_cast<std::size_t>(body.m_faces.size());
   if (!outward_.empty() && outward_.size() != num_faces) outward_ = outward_faces(body);
   motion_ = mean_motion(body);
-  tree_.refit(body, motion_);
-  flat_.refit(body, tree_);
   seen_.resize(static_cast<std::size_t>(body.m_nodes.size()));
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     const Node& node = body.m_nodes[static_cast<int>(i)];
     seen_[i] = {node.m_q, node.m_x};
   }
+  windows_.refit(seen_, motion_, kReach * static_cast<btScalar>(settings_.self_thickness));
+  is_tree_fitted_ = false;
   is_known_apart_ = false;
-  is_tree_of_this_step_ = true;
+  is_of_this_step_ = true;
+}
+
+// Most cloth is known to be apart from itself without its tree.
+void ClothContact::refit_tree(const btSoftBody& body) {
+  if (std::exchange(is_tree_fitted_, true)) return;
+  tree_.refit(body, motion_);
+  flat_.refit(body, tree_);
+  marks_.assign(tree_.num_leaves(), 0);
+  for (std::size_t leaf = 0; leaf < marks_.size(); ++leaf) {
+    const std::span<const int> faces = tree_.faces_of_leaf(leaf);
+    const bool is_apart = std::all_of(faces.begin(), faces.end(),
+                                      [this](int face) { return windows_.is_apart(face); });
+    if (is_apart) marks_[leaf] = kApart;
+  }
 }
 
 // What was near the whole node at rest is near both of its halves.
 void ClothContact::add_copies(const btSoftBody& body, const std::vector<int>& origins) {
   outward_ = outward_faces(body);
   flat_.forget();
+  windows_.forget();
   nodes_of_leaf_.clear();
   if (!settings_.with_itself) return;
   for (const int origin : origins) {
@@ -268,20 +285,22 @@ void ClothContact::add_self_contacts(btSoftBody& body, btScalar time_step) {
   const bool is_another = near_at_rest_.size() != static_cast<std::size_t>(body.m_nodes.size()) ||
                           num_near_faces_ != body.m_faces.size();
   if (is_another) note_near(body);
-  refit_if_moved(body);
+  look_if_moved(body);
+  is_known_apart_ = is_known_apart_ || windows_.are_all_apart();
   if (is_known_apart_) return;
+  refit_tree(body);
   const int num_before = body.m_scontacts.size();
   if (nodes_of_leaf_.size() != tree_.num_leaves()) note_leaves(body);  // it has torn
   const auto box_of = [&](int i) {
     return MotionBox::of(body.m_nodes[i], motion_).grown(kReach * rules.thickness);
   };
-  is_flat_.assign(tree_.num_leaves(), 0);
   for (std::size_t leaf = 0; leaf < tree_.num_leaves(); ++leaf) {
+    if (marks_[leaf] == kApart) continue;
     MotionBox all = MotionBox::nowhere();
     for (const int i : nodes_of_leaf_[leaf]) all.include(box_of(i));
-    flat_.mark(leaf, is_flat_);
-    tree_.find(all, nearby_, is_flat_);
-    flat_.unmark(leaf, is_flat_);
+    flat_.mark(leaf, marks_);
+    tree_.find(all, nearby_, marks_);
+    flat_.unmark(leaf, marks_);
     if (nearby_.leaves.empty()) continue;
     for (const int i : nodes_of_leaf_[leaf])
       add_self_contacts(body, i, tree_.collect(box_of(i), nearby_), rules);
@@ -306,8 +325,14 @@ void ClothContact::add_self_contacts(btSoftBody& body, int node, std::span<const
 }
 
 ClothContact::Faces ClothContact::faces(const btSoftBody& body) {
-  refit_if_moved(body);
-  return {tree_, flat_, motion_};
+  look_if_moved(body);
+  refit_tree(body);
+  return {tree_, flat_, marks_, motion_};
+}
+
+bool ClothContact::is_apart_from_itself(const btSoftBody& body) {
+  look_if_moved(body);
+  return windows_.are_all_apart();
 }
 
 // The height of a point over the plane of a face of the body [m], negative on the inside.
@@ -369,7 +394,8 @@ bool ClothContact::add_contacts(btSoftBody& body, btSoftBody& other, ClothContac
   const ContactRules rules{static_cast<btScalar>(settings_.margin + theirs.margin),
                            static_cast<btScalar>(settings_.friction * theirs.friction), time_step,
                            body.m_cfg.piterations};
-  other_contact.refit_if_moved(other);
+  other_contact.look_if_moved(other);
+  other_contact.refit_tree(other);
   bool is_inside = false;
   for_candidates(
       body, kReach * rules.thickness, other_contact, [&](int i, std::span<const int> slots) {

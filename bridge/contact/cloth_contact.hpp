@@ -10,6 +10,7 @@
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/contact/face_tree.hpp>
 #include <weft/bridge/contact/flat_patches.hpp>
+#include <weft/bridge/contact/unfolded_windows.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -59,7 +60,7 @@ class ClothContact {
   /// Nodes of the body were split (tearing.hpp): origins are the nodes that those appended were.
   void add_copies(const btSoftBody& body, const std::vector<int>& origins);
   /// Before btSoftBody::predictMotion: the body will be elsewhere.
-  void begin_step() { is_tree_of_this_step_ = false; }
+  void begin_step() { is_of_this_step_ = false; }
   /// After btSoftBody::predictMotion, before contacts with cloth are projected: where nodes are then is where contacts are
   /// looked for. time_step [s].
   void add_self_contacts(btSoftBody& body, btScalar time_step);
@@ -72,16 +73,22 @@ class ClothContact {
   struct Faces {
     const FaceTree& tree;
     const FlatPatches& flat;  ///< none of a body that does not meet itself
-    btVector3 motion;         ///< [m] mean of the nodes', which the tree's boxes are without
+    /// Leaves that come near no other place of the body: kApart, others: 0. Of a body that meets itself.
+    const std::vector<char>& marks;
+    btVector3 motion;  ///< [m] mean of the nodes', which the tree's boxes are without
   };
   [[nodiscard]] Faces faces(const btSoftBody& body);
+  /// Whether the body meets itself nowhere on that way, without a search.
+  [[nodiscard]] bool is_apart_from_itself(const btSoftBody& body);
+  static constexpr char kApart = 1;
 
   /// How nodes and faces are sorted, for snapshots.
   void serialize(StateArchive& archive, const btSoftBody& body);
 
  private:
-  void refit(const btSoftBody& body);
-  void refit_if_moved(const btSoftBody& body);
+  void look(const btSoftBody& body);
+  void look_if_moved(const btSoftBody& body);
+  void refit_tree(const btSoftBody& body);
   /// Which faces are closer to a node than the thickness, and its own: they are never in contact with it.
   void note_near(const btSoftBody& body);
   void note_leaves(const btSoftBody& body);
@@ -105,10 +112,12 @@ class ClothContact {
   FlatPatches flat_;
   std::vector<std::vector<int>> nodes_of_leaf_;  ///< each node once
   std::vector<int> loose_nodes_;                 ///< of no face
-  std::vector<char> is_flat_;                    ///< leaves, of those that are not looked at
-  btVector3 motion_;  ///< [m] mean of the body's nodes, of the step that the tree is of
-  bool is_tree_of_this_step_ = false;
-  std::vector<std::array<btVector3, 2>> seen_;  ///< m_q and m_x of the nodes that the tree is of
+  UnfoldedWindows windows_;
+  std::vector<char> marks_;  ///< of leaves: why they are not looked at
+  btVector3 motion_;         ///< [m] mean of the body's nodes, of the step that is seen
+  bool is_of_this_step_ = false;
+  std::vector<std::array<btVector3, 2>> seen_;  ///< m_q and m_x of the nodes
+  bool is_tree_fitted_ = false;                 ///< to them
   bool is_known_apart_ = false;                 ///< it meets itself nowhere, there
   NodeGroups groups_;
   FaceTree::Nearby nearby_;

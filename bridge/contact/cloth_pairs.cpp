@@ -101,10 +101,16 @@ void ClothPairs::add_contacts(btScalar time_step) {
 void ClothPairs::keep_apart(
     const std::function<void(const btSoftBody&, const LayerImpacts::Outcome&)>& use) {
   impacts_.clear();
-  for (const Member& one : members_) impacts_.add({one.body, one.contact});
+  bool is_any = false;
   for (const Pair& pair : pairs_) {
-    if (!pair.is_inside) impacts_.add_pair(pair.first, pair.second);
+    const Member& one = members_[pair.first];
+    const bool is_apart = pair.is_self() && one.contact->is_apart_from_itself(*one.body);
+    if (pair.is_inside || is_apart) continue;
+    impacts_.add_pair(pair.first, pair.second);
+    is_any = true;
   }
+  if (!is_any) return;
+  for (const Member& one : members_) impacts_.add({one.body, one.contact});
   const std::vector<LayerImpacts::Outcome> outcomes = impacts_.resolve();
   for (std::size_t m = 0; m < members_.size(); ++m) use(*members_[m].body, outcomes[m]);
 }

@@ -64,12 +64,11 @@ bool meet(const MotionBox& a, const MotionBox& b) {
   return apart == 0;
 }
 
-MotionBox MotionBox::of(const btSoftBody::Node& node, const btVector3& shift) {
-  const btVector3 start = node.m_q + shift;
+MotionBox MotionBox::of(const btVector3& start, const btVector3& end) {
   MotionBox box{{0, 0, 0, 0}, {0, 0, 0, 0}};
   for (int k = 0; k < 3; ++k) {
-    box.low[static_cast<std::size_t>(k)] = std::min(start[k], node.m_x[k]);
-    box.high[static_cast<std::size_t>(k)] = std::max(start[k], node.m_x[k]);
+    box.low[static_cast<std::size_t>(k)] = std::min(start[k], end[k]);
+    box.high[static_cast<std::size_t>(k)] = std::max(start[k], end[k]);
   }
   return box;
 }

@@ -20,7 +20,10 @@ struct MotionBox {
   std::array<btScalar, 4> high;
 
   /// The swept bounds of a node in this step, from m_q + shift to m_x.
-  static MotionBox of(const btSoftBody::Node& node, const btVector3& shift);
+  static MotionBox of(const btSoftBody::Node& node, const btVector3& shift) {
+    return of(node.m_q + shift, node.m_x);
+  }
+  static MotionBox of(const btVector3& start, const btVector3& end);
   static MotionBox nowhere();
   void include(const MotionBox& other);
   /// By distance [m] to all sides.

@@ -7,6 +7,8 @@
 #include <set>
 #include <span>
 
+#include <weft/bridge/bullet/bullet_vector.hpp>
+
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 namespace {
@@ -121,11 +123,6 @@ class Boundary {
   std::map<int, std::vector<Edge>> at_node_;
 };
 
-btVector3 unit(const btVector3& v) {
-  const btScalar length = v.length();
-  return length > 0 ? v / length : btVector3(0, 0, 0);
-}
-
 /// Directions of which those of a face's normal in a step are a positive sum.
 std::array<btVector3, 3> normals_of(const btSoftBody::Face& face) {
   const btSoftBody::Node &a = *face.m_n[0], &b = *face.m_n[1], &c = *face.m_n[2];
@@ -209,7 +206,7 @@ void FlatPatches::refit(const btSoftBody& body, const FaceTree& tree) {
   }
 }
 
-void FlatPatches::mark(std::size_t leaf, std::vector<char>& is_flat) const {
+void FlatPatches::mark(std::size_t leaf, std::vector<char>& marks) const {
   if (leaf >= neighbors_.size()) return;
   const Cone& cone = cones_[leaf];
   for (const int other : neighbors_[leaf]) {
@@ -217,14 +214,15 @@ void FlatPatches::mark(std::size_t leaf, std::vector<char>& is_flat) const {
     // About the middle of both axes.
     const btScalar farthest = std::max(cone.angle, near.angle);
     const bool may_be = farthest < kHalfAngle;
-    is_flat[static_cast<std::size_t>(other)] = static_cast<char>(
-        may_be && farthest + angle_between(cone.axis, near.axis) / 2 < kHalfAngle);
+    if (may_be && farthest + angle_between(cone.axis, near.axis) / 2 < kHalfAngle)
+      marks[static_cast<std::size_t>(other)] |= kFlat;
   }
 }
 
-void FlatPatches::unmark(std::size_t leaf, std::vector<char>& is_flat) const {
+void FlatPatches::unmark(std::size_t leaf, std::vector<char>& marks) const {
   if (leaf >= neighbors_.size()) return;
-  for (const int other : neighbors_[leaf]) is_flat[static_cast<std::size_t>(other)] = 0;
+  for (const int other : neighbors_[leaf])
+    marks[static_cast<std::size_t>(other)] &= static_cast<char>(~kFlat);
 }
 
 }  // namespace WEFT_BULLET_PRECISION

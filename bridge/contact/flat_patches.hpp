@@ -28,10 +28,11 @@ class FlatPatches {
   [[nodiscard]] bool is_forgotten() const { return neighbors_.empty(); }
   /// Normals of the step from m_q to m_x.
   void refit(const btSoftBody& body, const FaceTree& tree);
-  /// Marks the leaves that are flat together with this one.
-  void mark(std::size_t leaf, std::vector<char>& is_flat) const;
+  /// Marks the leaves that are flat together with this one, beside other marks.
+  void mark(std::size_t leaf, std::vector<char>& marks) const;
   /// Takes these marks away again.
-  void unmark(std::size_t leaf, std::vector<char>& is_flat) const;
+  void unmark(std::size_t leaf, std::vector<char>& marks) const;
+  static constexpr char kFlat = 2;
 
  private:
   struct Cone {

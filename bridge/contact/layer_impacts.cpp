@@ -26,10 +26,10 @@ constexpr int kSweeps = 8;
 constexpr int kZoneRounds = 30;
 /// Leaves of a tree that one search looks at.
 constexpr std::size_t kLeavesTogether = 16;
-/// Faces that may be near one, and distances of their parts that may be asked for, in a mean over some faces: several times what
+/// Faces that may be near one in a mean over some faces, and distances of parts that may be asked for of each: several times what
 /// crumpled cloth has. Cloth that explodes has all of it near all of it.
 constexpr std::int64_t kMostNear = 300;
-constexpr std::int64_t kMostDistances = 3000;
+constexpr std::int64_t kDistancesOfEach = 10;
 /// Each face of the other layer may be near so many besides: it may be much finer.
 constexpr std::int64_t kMostNearOfOther = 8;
 /// An impulse that acts on nodes that are nearly all pinned would throw the others far away: the least share of what is free [-].
@@ -323,12 +323,13 @@ void LayerImpacts::search(const Search& what, Found& found) const {
   // The other's motion is taken away from both.
   const btSoftBody& body = *layers_[what.one].body;
   found.boxes.resize(mine.boxes.size());
-  found.is_flat.assign(is_self ? my_tree.num_leaves() : 0, 0);
+  found.marks = is_self ? faces_[what.one].marks : std::vector<char>();
   std::int64_t num_near = 0;
   const std::int64_t of_other = is_self ? 0 : kMostNearOfOther * std::ssize(theirs.faces);
   std::int64_t num_faces = FaceTree::kWidth;
   found.num_distances = 0;
   for (std::size_t leaf = what.first_leaf; leaf < what.last_leaf; ++leaf) {
+    if (is_self && found.marks[leaf] == ClothContact::kApart) continue;
     MotionBox all = MotionBox::nowhere();
     for (const int f : my_tree.faces_of_leaf(leaf)) {
       for (const int node : mine.faces[static_cast<std::size_t>(f)]) {
@@ -338,9 +339,9 @@ void LayerImpacts::search(const Search& what, Found& found) const {
         all.include(box);
       }
     }
-    if (is_self) faces_[what.one].flat.mark(leaf, found.is_flat);
-    their_tree.find(all.grown(pair.reach()), found.nearby, found.is_flat);
-    if (is_self) faces_[what.one].flat.unmark(leaf, found.is_flat);
+    if (is_self) faces_[what.one].flat.mark(leaf, found.marks);
+    their_tree.find(all.grown(pair.reach()), found.nearby, found.marks);
+    if (is_self) faces_[what.one].flat.unmark(leaf, found.marks);
     if (found.nearby.leaves.empty()) continue;
     for (const int f : my_tree.faces_of_leaf(leaf)) {
       const auto& face = mine.faces[static_cast<std::size_t>(f)];
@@ -354,8 +355,7 @@ void LayerImpacts::search(const Search& what, Found& found) const {
         if (!is_known && !(is_self && f == g)) pair.look(f, g);
       }
       const std::int64_t most = kMostNear * num_faces + of_other;
-      found.is_too_much =
-          num_near > most || found.num_distances > kMostDistances / kMostNear * most;
+      found.is_too_much = num_near > most || found.num_distances > kDistancesOfEach * most;
       if (found.is_too_much) return;
       ++num_faces;
     }

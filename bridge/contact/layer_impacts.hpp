@@ -80,7 +80,7 @@ class LayerImpacts {
   struct Found {
     FaceTree::Nearby nearby;
     std::vector<MotionBox> boxes;  ///< of nodes of the one, in the other's motion
-    std::vector<char> is_flat;     ///< leaves, of those that are not looked at
+    std::vector<char> marks;       ///< of leaves: why they are not looked at
     std::vector<Impact> impacts;
     std::int64_t num_distances = 0;
     bool is_too_much = false;

@@ -101,8 +101,11 @@ void ClothContact::serialize(StateArchive& archive, const btSoftBody& body) {
   groups_.serialize(archive, body.m_nodes.size());
   bool is_torn = flat_.is_forgotten();
   archive.value(is_torn);
-  if (is_torn) flat_.forget();
-  is_tree_of_this_step_ = false;
+  if (is_torn) {
+    flat_.forget();
+    windows_.forget();
+  }
+  is_of_this_step_ = false;
 }
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -55,7 +55,7 @@ class Sheet {
     std::vector<char> is_flat(tree_.num_leaves(), 0);
     for (std::size_t leaf = 0; leaf < tree_.num_leaves(); ++leaf) {
       flat_.mark(leaf, is_flat);
-      for (const char one : is_flat) sum += one;
+      for (const char one : is_flat) sum += one == FlatPatches::kFlat ? 1 : 0;
       flat_.unmark(leaf, is_flat);
       for (const char one : is_flat) EXPECT_EQ(one, 0);
     }
