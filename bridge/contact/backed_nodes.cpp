@@ -136,10 +136,11 @@ void BackedNodes::make_supports(std::span<const RigidContact> contacts,
 btScalar BackedNodes::depth_to_keep(const RigidContact& contact,
                                     const fast::PlaneContact<btScalar>& plane,
                                     const Matrix3X<btScalar>& starts, btScalar inertia_step,
-                                    btScalar step_share) const {
+                                    btScalar step_share, btScalar least) const {
   const Vector3<btScalar> start = starts.col(contact.node) + plane.motion;
   const btScalar depth = std::max(btScalar(0), plane.offset - plane.normal.dot(start));
-  const btScalar kept = is_sunken(contact.node) ? depth_after(depth, inertia_step) : btScalar(0);
+  const btScalar sunken = is_sunken(contact.node) ? depth_after(depth, inertia_step) : btScalar(0);
+  const btScalar kept = std::max(sunken, std::min(depth, least));
   const bool is_behind_body = has(contact.node) && !contact.is_dynamic;
   return is_behind_body
              ? kept

@@ -44,11 +44,11 @@ class BackedNodes {
                      std::vector<fast::NodeSupport<btScalar>>& supports) const;
   /// How much of the depth at which a node begins a step or substep inside of a surface it keeps there [m]; at once, it would be a
   /// kick. Nodes that a body or fingers have pressed in and then left come out as slowly as that body would, others by the end
-  /// of the step. step_share: of the substep in the step [-].
+  /// of the step. step_share: of the substep in the step [-]; least: what it keeps in any case, if it begins as deep [m].
   [[nodiscard]] btScalar depth_to_keep(const RigidContact& contact,
                                        const fast::PlaneContact<btScalar>& plane,
                                        const Matrix3X<btScalar>& starts, btScalar inertia_step,
-                                       btScalar step_share) const;
+                                       btScalar step_share, btScalar least) const;
   /// Remembers which nodes the step leaves inside of what is behind them, by more than rounding. gap_of(contact): in the solution [m].
   template <class Gap>
   void end_step(std::span<const RigidContact> contacts, const Pinches& pinches, btScalar margin,
@@ -57,7 +57,7 @@ class BackedNodes {
     still_sunken_.clear();
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const RigidContact& contact = contacts[c];
-      const bool was_pressed = is_behind(c) || pinches.has(contact.node) || pinches.depth_of(c) > 0;
+      const bool was_pressed = is_behind(c) || pinches.has(contact.node) || pinches.is_beside(c);
       if (!was_pressed && !is_sunken(contact.node)) continue;
       if (gap_of(contact) < -kLeastDepth * margin) still_sunken_.push_back(contact.node);
     }

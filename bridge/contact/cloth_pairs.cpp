@@ -104,7 +104,12 @@ void ClothPairs::keep_apart(
   bool is_any = false;
   for (const Pair& pair : pairs_) {
     const Member& one = members_[pair.first];
-    const bool is_apart = pair.is_self() && one.contact->is_apart_from_itself(*one.body);
+    // What others push may meet itself then.
+    const auto num_pairs = std::count_if(pairs_.begin(), pairs_.end(), [&](const Pair& any) {
+      return any.first == pair.first || any.second == pair.first;
+    });
+    const bool is_apart =
+        pair.is_self() && num_pairs == 1 && one.contact->is_apart_from_itself(*one.body);
     if (pair.is_inside || is_apart) continue;
     impacts_.add_pair(pair.first, pair.second);
     is_any = true;

@@ -1,6 +1,7 @@
 #include <weft/bridge/contact/pinch.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>
@@ -82,7 +83,7 @@ void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& bod
     if (!may_pinch(*a.object, *b.object)) continue;
     const btScalar room = room_between(a, b, body);
     if (!are_opposite(a, b) || room > 0) {
-      beside.emplace_back(other, c);
+      if (is_jointed(a.object) || is_jointed(b.object)) beside.emplace_back(other, c);
       continue;
     }
     // Both surfaces bear their share of what nodes pull with: every other node.
@@ -90,7 +91,6 @@ void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& bod
     found.emplace_back(by_first ? other : c, by_first ? c : other);
     Pair& pair = pair_of(a.object, b.object);
     ++pair.num_nodes;
-    pair.depth = std::max(pair.depth, -room / 2);
   }
   for (Pair& pair : pairs_) {
     const bool yields = MovableObject(pair.first) || MovableObject(pair.second);
@@ -113,9 +113,27 @@ void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& bod
     held_[holding].other_friction = other.object->getFriction();
     held_[replaced].is_replaced = true;
   }
-  for (const auto& [one, other] : beside) {
-    const Pair& pair = pair_of(contacts[one].object, contacts[other].object);
-    if (pair.may_press) held_[one].depth = held_[other].depth = pair.depth;
+  if (!nodes_.empty()) find_beside(contacts, body, beside);
+}
+
+void Pinches::find_beside(std::span<const RigidContact> contacts, const btSoftBody& body,
+                          std::span<const std::pair<std::size_t, std::size_t>> of_nodes) {
+  std::vector<char> is_next(nodes_.size(), 0);
+  for (int f = 0; f < body.m_faces.size() && !of_nodes.empty(); ++f) {
+    const auto& corners = body.m_faces[f].m_n;
+    const auto number = [&](const btSoftBody::Node* node) {
+      return static_cast<int>(node - &body.m_nodes[0]);
+    };
+    const bool is_any = std::any_of(std::begin(corners), std::end(corners),
+                                    [&](const auto* node) { return has(number(node)); });
+    for (const auto* const node : corners) {
+      if (is_any) is_next[static_cast<std::size_t>(number(node))] = 1;
+    }
+  }
+  for (const auto& [one, other] : of_nodes) {
+    const bool may_press = pair_of(contacts[one].object, contacts[other].object).may_press;
+    const bool is_beside = is_next[static_cast<std::size_t>(contacts[one].node)] != 0;
+    held_[one].is_beside = held_[other].is_beside = may_press && is_beside;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <BulletSoftBody/btSoftBody.h>
@@ -17,7 +18,7 @@ inline namespace WEFT_BULLET_PRECISION {
 /// Nodes between two surfaces that leave no room for cloth and its margins: two fingers of a gripper, or a finger and a table.
 /// The surfaces press on each other through the cloth, which Bullet solves as their contact; that force is what friction on
 /// both sides of the cloth may count on, and all nodes between them share it alike. A node is held halfway between the surfaces,
-/// by one of them. Beside the edges of the surfaces nodes touch both too: cloth is pressed as thin there as between them, or stiff
+/// by one of them. Beside the edges of fingers neighbors of such nodes touch both too: they may stay in the margins there, or stiff
 /// cloth would be torn out of the grip by its own thickness.
 ///
 /// This applies if a link of a multibody takes part, or a rigid body that Bullet lists a joint of, or two kinematic bodies do. The
@@ -28,8 +29,14 @@ class Pinches {
   void find(std::span<const RigidContact> contacts, const btSoftBody& body, btScalar time_step);
   /// The squeeze of a contact that holds a pinched node [N], zero of others.
   [[nodiscard]] btScalar squeeze_of(std::size_t contact) const { return held_of(contact).squeeze; }
-  /// How far behind the plane of a contact its node is held, or may be beside the surfaces [m].
+  /// How far behind the plane of a contact its node is held [m].
   [[nodiscard]] btScalar depth_of(std::size_t contact) const { return held_of(contact).depth; }
+  /// Whether the node of a contact is beside the edge of a finger, next to nodes that it pinches.
+  [[nodiscard]] bool is_beside(std::size_t contact) const { return held_of(contact).is_beside; }
+  /// In which its node may stay there [m].
+  [[nodiscard]] btScalar margin_beside(std::size_t contact, const btSoftBody& body) const {
+    return is_beside(contact) ? body.getCollisionShape()->getMargin() : btScalar(0);
+  }
   /// The friction on the other side [-], over that of the object of the contact.
   [[nodiscard]] btScalar other_friction(std::size_t contact) const {
     return held_of(contact).other_friction;
@@ -72,6 +79,7 @@ class Pinches {
     btScalar other_friction = 0;
     bool is_holding = false;
     bool is_replaced = false;
+    bool is_beside = false;
   };
   /// Two objects that pinch nodes.
   struct Pair {
@@ -79,7 +87,6 @@ class Pinches {
     const btCollisionObject* second = nullptr;
     int num_nodes = 0;
     btScalar force = 0;  ///< [N]
-    btScalar depth = 0;  ///< of the nodes behind the surfaces, the largest [m]
     bool may_press = false;
   };
   [[nodiscard]] const Held& held_of(std::size_t contact) const {
@@ -87,6 +94,9 @@ class Pinches {
     return held_.empty() ? kNone : held_[contact];
   }
   [[nodiscard]] Pair& pair_of(const btCollisionObject* one, const btCollisionObject* other);
+  /// contacts: pairs of them, each of a node with two objects.
+  void find_beside(std::span<const RigidContact> contacts, const btSoftBody& body,
+                   std::span<const std::pair<std::size_t, std::size_t>> of_nodes);
 
   std::vector<Held> held_;     ///< of each contact; empty: none is held
   std::vector<char> nodes_;    ///< flags; empty: none

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include <weft/bridge/bullet/bullet_vector.hpp>
@@ -21,6 +22,10 @@ constexpr double kFacesOfBlock = 128;
 /// A region whose faces have another area than the convex region there, by more than this share, has holes or notches, or faces on
 /// each other [-].
 constexpr double kSameArea = 1e-6;
+/// An edge that is so near to the outline is on it, over its length [-].
+constexpr double kOnOutline = 1e-3;
+/// Few faces that are far from each other get no more blocks along an axis than faces over this.
+constexpr int kFewestFaces = 8;
 
 std::array<int, 3> corners_of(const btSoftBody& body, int face) {
   std::array<int, 3> corners{};
@@ -52,6 +57,37 @@ std::vector<PlanePoint> map_of(const btSoftBody& body) {
   return map;
 }
 
+/// The boxes of edges that do not join two faces, and are not on the outline: slits, seams, holes and notches, pieces on each other.
+std::vector<PlaneBox> gaps_in(const std::vector<std::array<int, 3>>& faces,
+                              const std::vector<PlanePoint>& map, const Polygon& outline) {
+  std::map<std::array<int, 2>, int> num_faces;
+  for (const auto& n : faces) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(n[k], n[(k + 1) % 3]);
+      ++num_faces[{low, high}];
+    }
+  }
+  std::vector<PlaneBox> gaps;
+  for (const auto& [edge, count] : num_faces) {
+    if (count == 2) continue;
+    const PlanePoint& a = map[at(edge[0])];
+    const PlanePoint& b = map[at(edge[1])];
+    const double most = kOnOutline * (b - a).norm();
+    bool is_on_outline = false;
+    for (std::size_t i = 0; i < outline.size() && count == 1 && !is_on_outline; ++i) {
+      const PlanePoint& from = outline[i];
+      const PlanePoint& to = outline[(i + 1) % outline.size()];
+      const double length = (to - from).norm();
+      is_on_outline =
+          std::max(std::abs(turn(from, to, a)), std::abs(turn(from, to, b))) <= most * length;
+    }
+    if (is_on_outline) continue;
+    gaps.push_back({a, a});
+    gaps.back().include(b);
+  }
+  return gaps;
+}
+
 PlaneBox around(const std::array<int, 3>& corners, const std::vector<PlanePoint>& map) {
   PlaneBox box{map[at(corners[0])], map[at(corners[0])]};
   box.include(map[at(corners[1])]);
@@ -80,7 +116,6 @@ void UnfoldedWindows::find(const btSoftBody& body) {
   std::vector<std::array<int, 3>> faces(at(num_faces));
   PlaneBox all = around(corners_of(body, 0), map);
   std::vector<PlanePoint> corners;
-  double whole_area = 0;
   for (int f = 0; f < num_faces; ++f) {
     faces[at(f)] = corners_of(body, f);
     const PlaneBox box = around(faces[at(f)], map);
@@ -89,31 +124,45 @@ void UnfoldedWindows::find(const btSoftBody& body) {
     Polygon polygon;
     for (const int node : faces[at(f)]) polygon.push_back(map[at(node)]);
     corners.insert(corners.end(), polygon.begin(), polygon.end());
-    const double face_area = area(polygon);
-    if (!(face_area > 0)) return;  // it stands on the plane
-    whole_area += face_area;
+    if (!(area(polygon) > 0)) return;  // it stands on the plane
   }
   const Polygon hull = convex_hull(corners);
   const PlanePoint size = all.high - all.low;
-  const double side = std::sqrt(whole_area * kFacesOfBlock / num_faces);
+  const double side = std::sqrt(size.x() * size.y() * kFacesOfBlock / num_faces);
+  const double most = std::max(1, num_faces / kFewestFaces);
   for (int k = 0; k < 2; ++k)
-    num_blocks_[at(k)] = std::max(1, static_cast<int>(std::lround(size[k] / side)));
+    num_blocks_[at(k)] = static_cast<int>(std::lround(std::clamp(size[k] / side, 1.0, most)));
   make_blocks(faces, map, all);
 
+  find_whole_windows(map, hull, gaps_in(faces, map, hull));
+  const bool is_any = std::any_of(windows_.begin(), windows_.end(),
+                                  [](const Window& window) { return window.is_whole; });
+  if (!is_any) windows_.clear();
+}
+
+void UnfoldedWindows::find_whole_windows(const std::vector<PlanePoint>& map, const Polygon& hull,
+                                         const std::vector<PlaneBox>& gaps) {
+  std::vector<PlaneBox> boxes;  // of blocks
+  for (const Block& block : blocks_) {
+    boxes.push_back(PlaneBox::nowhere());
+    for (const int node : block.nodes) boxes.back().include(map[at(node)]);
+  }
   windows_.assign(at(num_windows(0) * num_windows(1)), {});
   for (std::size_t w = 0; w < windows_.size(); ++w) {
     std::vector<char> is_mine(blocks_.size(), 0);
-    PlaneBox box{all.high, all.low};
+    PlaneBox box = PlaneBox::nowhere();
     for_blocks(static_cast<int>(w), [&](std::size_t b) {
       is_mine[b] = 1;
-      for (std::size_t i = blocks_[b].first; i < blocks_[b].last; ++i) {
-        const PlaneBox face = around(faces_.corners[i], map);
-        box.include(face.low);
-        box.include(face.high);
-      }
+      if (blocks_[b].num_faces == 0) return;
+      box.include(boxes[b].low);
+      box.include(boxes[b].high);
     });
+    const bool has_gaps =
+        std::any_of(gaps.begin(), gaps.end(), [&](const PlaneBox& gap) { return gap.meets(box); });
+    if (has_gaps) continue;
     double covered = 0;
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      if (!boxes[b].meets(box)) continue;
       for (std::size_t i = blocks_[b].first; i < blocks_[b].first + blocks_[b].num_faces; ++i) {
         const PlaneBox face = around(faces_.corners[i], map);
         if (!face.meets(box)) continue;
@@ -127,9 +176,6 @@ void UnfoldedWindows::find(const btSoftBody& body) {
     const double wanted = area(clipped(hull, box));
     windows_[w].is_whole = std::abs(covered - wanted) <= kSameArea * wanted;
   }
-  const bool is_any = std::any_of(windows_.begin(), windows_.end(),
-                                  [](const Window& window) { return window.is_whole; });
-  if (!is_any) windows_.clear();
 }
 
 void UnfoldedWindows::make_blocks(const std::vector<std::array<int, 3>>& faces,

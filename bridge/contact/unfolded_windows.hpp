@@ -28,7 +28,7 @@ inline namespace WEFT_BULLET_PRECISION {
 /// a strip that curls up in its plane is found as well as a fold.
 ///
 /// The map is the projection of the rest shape onto a plane. It is divided into blocks of a hundred faces, and each two by two of
-/// them are a window, which counts if it is a convex region without holes. Blocks that are in no unfolded window together may meet
+/// them are a window, which counts if it is a convex region without holes and slits. Blocks that are in no unfolded window together may meet
 /// if their boxes do.
 class UnfoldedWindows {
  public:
@@ -68,7 +68,7 @@ class UnfoldedWindows {
     MotionBox box;
   };
   struct Window {
-    bool is_whole = false;            ///< a convex region without holes
+    bool is_whole = false;            ///< a convex region without holes and slits
     std::vector<std::size_t> others;  ///< mapped faces beside its blocks that it reaches into
     bool is_unfolded = false;
   };
@@ -84,6 +84,9 @@ class UnfoldedWindows {
   void for_blocks(int window, const Use& use) const;
   void make_blocks(const std::vector<std::array<int, 3>>& faces,
                    const std::vector<Eigen::Vector2d>& map, const PlaneBox& all);
+  void find_whole_windows(const std::vector<Eigen::Vector2d>& map,
+                          const std::vector<Eigen::Vector2d>& hull,
+                          const std::vector<PlaneBox>& gaps);
   void find_gradients(Ways ways);
   [[nodiscard]] bool is_unfolded(int window) const;
   [[nodiscard]] bool are_unfolded(std::size_t first, std::size_t last, const Frame& frame) const;

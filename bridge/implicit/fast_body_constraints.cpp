@@ -182,7 +182,8 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     plane.offset -= is_replaced ? BackedNodes::kFarAway : pinches_.depth_of(c);
     if (!pinches_.has(contact.node))
       plane.offset -=
-          backed_.depth_to_keep(contact, plane, starts_, inertia_step_, time_step / body.m_sst.sdt);
+          backed_.depth_to_keep(contact, plane, starts_, inertia_step_, time_step / body.m_sst.sdt,
+                                pinches_.margin_beside(c, body));
     const MovableObject object = movable_of(contact);
     if (object && !pinches_.has(contact.node)) {
       plane.body = pushed_.number_of(object, body.m_worldInfo->m_dispatcher, time_step, is_again);
@@ -243,7 +244,6 @@ void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
     contacts_[static_cast<std::size_t>(backed_.all()[k].behind)].impulse =
         whole_step * to_bullet(active_solver().support_force(k));
   }
-  const auto position_of = [&](int node) { return in_world(node); };
   const auto impulse_on = [&](int node) -> btVector3 {
     return whole_step * to_bullet(active_solver().constraint_force(node));
   };
@@ -253,7 +253,7 @@ void FastBody::exchange_impulses(btSoftBody& body, btScalar time_step) {
     return btDot(contact.normal, in_world(contact.node)) - contact.offset;
   };
   backed_.end_step(contacts_, pinches_, body.getCollisionShape()->getMargin(), gap_of);
-  pinches_.push_back(contacts_, impulse_on, position_of);
+  pinches_.push_back(contacts_, impulse_on, [&](int node) { return in_world(node); });
   given_to_bodies_ = -pushed_.kinetic_energy();
   pushed_.exchange_impulses(time_step);
   for (int a = 0; a < body.m_anchors.size(); ++a) {  // that push with a share only

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,10 @@ using Polygon = std::vector<PlanePoint>;
 struct PlaneBox {
   PlanePoint low, high;
 
+  [[nodiscard]] static PlaneBox nowhere() {
+    constexpr double kFar = std::numeric_limits<double>::max();
+    return {PlanePoint(kFar, kFar), PlanePoint(-kFar, -kFar)};
+  }
   void include(const PlanePoint& point) {
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);

@@ -1,17 +1,21 @@
 // Layers of cloth do not pass through each other, as an independent count of edges through triangles sees it.
 #include <weft/bridge/contact/layer_impacts.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/classic/nodes/node_state.hpp>
 #include <weft/bridge/cloth_body.hpp>
+#include <weft/bridge/contact/cloth_pairs.hpp>
 #include <weft/bridge/soft_world.hpp>
 #include <weft/core/parallel/threads.hpp>
 #include <weft/mesh/cloth_grid.hpp>
@@ -110,6 +114,62 @@ class Sheets {
 };
 
 constexpr auto kStay = [](const btVector3&) { return btVector3(0, 0, 0); };
+
+// A sheet lies as a U, with layers so far apart that it is known not to meet itself, until another one drives its upper layer into the
+// lower one in the same step.
+TEST(LayerImpacts, KeepLayersApartThatAnotherSheetDrivesIntoEachOther) {
+  constexpr double kGap = 0.24;  // [m]
+  constexpr double kWay = 0.4;   // [m] of the other sheet
+  const ClothContactSettings settings{
+      .with_itself = true, .with_others = true, .self_thickness = 0.005, .margin = 0.0025};
+  SoftWorld world{SoftWorldSettings{}};
+  const auto grid_of = [](int across, int along, double mass) {
+    ClothGrid grid;
+    grid.nodes = {across, along};
+    grid.size = {0.01 * (across - 1), 0.01 * (along - 1)};
+    grid.total_mass = mass;
+    return grid;
+  };
+  const ClothMesh folded = make_cloth_grid(grid_of(101, 17, 0.02));
+  btSoftBody& body = world.add(make_cloth_body(world.info(), folded, {}));
+  ClothContact contact(body, settings);
+  const double radius = kGap / 2;
+  const double straight = 0.5 - std::numbers::pi * radius / 2;  // of each layer
+  for (int i = 0; i < folded.num_nodes(); ++i) {
+    const double along = folded.rest_positions(0, i) + 0.5;
+    const double angle = std::clamp((along - straight) / radius, 0.0, std::numbers::pi);
+    const double back = std::max(0.0, along - straight - std::numbers::pi * radius);
+    const double x = -std::min(along, straight) - radius * std::sin(angle) + back;
+    btSoftBody::Node& node = body.m_nodes[i];
+    node.m_x = node.m_q =
+        to_bullet(Vector3<double>(x, radius * std::cos(angle), folded.rest_positions(2, i)));
+  }
+  ClothGrid grid = grid_of(15, 21, 0.5);
+  grid.center = {-0.07, kGap / 2 + 0.02, 0.003};
+  const ClothMesh falling = make_cloth_grid(grid);
+  btSoftBody& other = world.add(make_cloth_body(world.info(), falling, {}));
+  ClothContact other_contact(other, settings);
+  for (int i = 0; i < other.m_nodes.size(); ++i) {
+    other.m_nodes[i].m_q = other.m_nodes[i].m_x;
+    other.m_nodes[i].m_x -= btVector3(0, btScalar(kWay), 0);
+  }
+  contact.begin_step();
+  other_contact.begin_step();
+  ASSERT_TRUE(contact.is_apart_from_itself(body));
+  ClothPairs pairs;
+  pairs.add_self(body, contact);
+  pairs.add(body, contact, other, other_contact);
+  int num_impacts = 0;
+  pairs.keep_apart([&](const btSoftBody&, const LayerImpacts::Outcome& outcome) {
+    num_impacts = outcome.num_impacts;
+    EXPECT_TRUE(outcome.is_clear);
+  });
+  EXPECT_GT(num_impacts, 0);
+  Matrix3X<btScalar> x;
+  Matrix3X<btScalar> v;
+  read_nodes(body, x, v);
+  EXPECT_EQ(validation::self_piercings(x.cast<double>(), folded.triangles).size(), 0U);
+}
 
 TEST(LayerImpacts, HoldASheetThatWouldFlyThroughAnother) {
   for (const double way : {0.06, 0.2, 1.0, 3.0}) {

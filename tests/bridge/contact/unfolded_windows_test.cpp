@@ -212,6 +212,43 @@ TEST(UnfoldedWindows, ASheetWithASlitHasNoWindowThere) {
   EXPECT_FALSE(surface.is_apart(closes));
 }
 
+/// Two meshes that share no nodes.
+ClothMesh beside(ClothMesh mesh, const ClothMesh& other, double way) {
+  const auto n = mesh.rest_positions.cols();
+  const auto t = mesh.triangles.cols();
+  mesh.rest_positions.conservativeResize(3, n + other.rest_positions.cols());
+  mesh.rest_positions.rightCols(other.rest_positions.cols()) = other.rest_positions;
+  mesh.rest_positions.row(0).tail(other.rest_positions.cols()).array() += way;
+  mesh.triangles.conservativeResize(3, t + other.triangles.cols());
+  mesh.triangles.rightCols(other.triangles.cols()) = other.triangles.array() + static_cast<int>(n);
+  mesh.masses.setConstant(mesh.rest_positions.cols(), 1e-4);
+  mesh.edge_sets.clear();
+  mesh.texture_coordinates = {};
+  return mesh;
+}
+
+TEST(UnfoldedWindows, PiecesThatTouchButAreNotJoinedAreLookedAt) {
+  constexpr int kNodes = 21;
+  Surface surface(beside(sheet(kNodes, kNodes), sheet(kNodes, kNodes), kSpacing * (kNodes - 1)));
+  // The left one is lifted, moved over the right one and dropped.
+  const double edge = kSpacing * (kNodes - 1) / 2;
+  const auto over = [=](double height) -> Place {
+    return [=](const btVector3& at) {
+      const double x = static_cast<double>(at.x());
+      const bool is_left = x < edge - 1e-4;
+      return is_left ? at + vector(0.05, height, 0) : at;
+    };
+  };
+  EXPECT_FALSE(surface.is_apart(over(0.01), over(-0.01)));
+}
+
+TEST(UnfoldedWindows, FacesFarFromEachOtherGetFewBlocks) {
+  ClothMesh mesh = sheet(2, 2);
+  for (const double way : {1.0, 1e3, 1e3, 1e6}) mesh = beside(mesh, sheet(2, 2), way);
+  Surface surface(mesh);
+  EXPECT_FALSE(surface.is_apart(kStays));
+}
+
 TEST(UnfoldedWindows, AClosedSurfaceHasNone) {
   Surface surface(make_icosphere({.radius = 0.3, .frequency = 12}));
   EXPECT_FALSE(surface.is_apart(kStays));

@@ -74,9 +74,9 @@ struct Outcome {
 Outcome hold(double force, double seconds, unsigned seed, double stiffness) {
   RobotWorld world;
   const ClothMesh mesh = towel(seed);
-  btSoftBody& body =
-      world.add_cloth(mesh, {law("tension", "stiffness", stiffness), law("velocity_damping", "rate", 2)},
-                      kTowelFriction, kTowelMargin);
+  btSoftBody& body = world.add_cloth(
+      mesh, {law("tension", "stiffness", stiffness), law("velocity_damping", "rate", 2)},
+      kTowelFriction, kTowelMargin);
   std::vector<btScalar> inverse_masses;
   for (const int corner : top_corners(mesh)) {
     inverse_masses.push_back(body.m_nodes[corner].m_im);
