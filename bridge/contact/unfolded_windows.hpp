@@ -38,7 +38,10 @@ class UnfoldedWindows {
   /// body in its rest shape. Finds no windows if that is not a graph over a plane.
   void find(const btSoftBody& body);
   /// No place of the surface is known to be apart from others: it is another one.
-  void forget() { windows_.clear(); }
+  void forget() {
+    windows_.clear();
+    are_all_apart_ = false;
+  }
   /// How far apart places stay in an unfolded window, over their distance at rest [-].
   static constexpr btScalar kLeast = btScalar(0.7);
 
