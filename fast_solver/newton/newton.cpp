@@ -169,8 +169,8 @@ double ImplicitSolver<Scalar>::motion_that_counts(bool has_contacts) {
   return std::clamp(squares, least * 2 * step_energy_, 2 * step_energy_);
 }
 
-// Continues from the Anderson combination of the last iterations if it has no more energy than the last result, beside rounding: the
-// differences of the last iterations are smaller than that. Returns the energy of the positions that are kept.
+// Continues from the Anderson combination of the last iterations if it has no more energy than the last result, on what does not give
+// way beside rounding: the differences of the last iterations are smaller than that. Returns the energy of the positions that are kept.
 template <class Scalar>
 double ImplicitSolver<Scalar>::accelerate(const StepProblem<Scalar>& problem, double reached) {
   using Products = typename AndersonHistory<Scalar>::Products;
@@ -199,7 +199,8 @@ double ImplicitSolver<Scalar>::accelerate(const StepProblem<Scalar>& problem, do
   }
   put_in_front(problem);  // for combinations may lie behind planes, with less energy for that
   const double combined = energy(problem, positions_, &Body::motion);
-  if (combined <= reached + kEnergyRounding * std::abs(reached)) {
+  const double rounding = bodies_.empty() ? kEnergyRounding * std::abs(reached) : 0.0;
+  if (combined <= reached + rounding) {
     evaluate();
     return combined;
   }
