@@ -103,8 +103,7 @@ void UnfoldedWindows::for_blocks(int window, const Use& use) const {
   const int x = window % num_windows(0);
   const int y = window / num_windows(0);
   for (int j = y; j < std::min(y + 2, num_blocks_[1]); ++j) {
-    for (int i = x; i < std::min(x + 2, num_blocks_[0]); ++i)
-      use(static_cast<std::size_t>(j * num_blocks_[0] + i));
+    for (int i = x; i < std::min(x + 2, num_blocks_[0]); ++i) use(at(j * num_blocks_[0] + i));
   }
 }
 
