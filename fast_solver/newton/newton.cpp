@@ -199,8 +199,7 @@ double ImplicitSolver<Scalar>::accelerate(const StepProblem<Scalar>& problem, do
   }
   put_in_front(problem);  // for combinations may lie behind planes, with less energy for that
   const double combined = energy(problem, positions_, &Body::motion);
-  const double rounding = bodies_.empty() ? kEnergyRounding * std::abs(reached) : 0.0;
-  if (combined <= reached + rounding) {
+  if (combined <= reached + (bodies_.empty() ? kEnergyRounding * std::abs(reached) : 0.0)) {
     evaluate();
     return combined;
   }
