@@ -98,18 +98,21 @@ void ClothPairs::add_contacts(btScalar time_step) {
   }
 }
 
+bool ClothPairs::meets_others(std::size_t member) const {
+  return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
+    return !pair.is_self() && (pair.first == member || pair.second == member);
+  });
+}
+
 void ClothPairs::keep_apart(
     const std::function<void(const btSoftBody&, const LayerImpacts::Outcome&)>& use) {
   impacts_.clear();
   bool is_any = false;
   for (const Pair& pair : pairs_) {
     const Member& one = members_[pair.first];
-    // What others push may meet itself then.
-    const auto num_pairs = std::count_if(pairs_.begin(), pairs_.end(), [&](const Pair& any) {
-      return any.first == pair.first || any.second == pair.first;
-    });
+    // Another body could push parts of this one into each other, in a later round.
     const bool is_apart =
-        pair.is_self() && num_pairs == 1 && one.contact->is_apart_from_itself(*one.body);
+        pair.is_self() && !meets_others(pair.first) && one.contact->is_apart_from_itself(*one.body);
     if (pair.is_inside || is_apart) continue;
     impacts_.add_pair(pair.first, pair.second);
     is_any = true;

@@ -55,6 +55,7 @@ class ClothPairs {
     [[nodiscard]] bool is_self() const { return first == second; }
   };
   [[nodiscard]] std::size_t member(btSoftBody& body, ClothContact& contact);
+  [[nodiscard]] bool meets_others(std::size_t member) const;
 
   std::vector<Member> members_;
   std::vector<Pair> pairs_;

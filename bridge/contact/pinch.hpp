@@ -33,7 +33,7 @@ class Pinches {
   [[nodiscard]] btScalar depth_of(std::size_t contact) const { return held_of(contact).depth; }
   /// Whether the node of a contact is beside the edge of a finger, next to nodes that it pinches.
   [[nodiscard]] bool is_beside(std::size_t contact) const { return held_of(contact).is_beside; }
-  /// In which its node may stay there [m].
+  /// How deep the node of a contact may stay behind its plane because it is there [m]; 0 elsewhere.
   [[nodiscard]] btScalar margin_beside(std::size_t contact, const btSoftBody& body) const {
     return is_beside(contact) ? body.getCollisionShape()->getMargin() : btScalar(0);
   }

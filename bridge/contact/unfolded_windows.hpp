@@ -28,8 +28,8 @@ inline namespace WEFT_BULLET_PRECISION {
 /// a strip that curls up in its plane is found as well as a fold.
 ///
 /// The map is the projection of the rest shape onto a plane. It is divided into blocks of a hundred faces, and each two by two of
-/// them are a window, which counts if it is a convex region without holes and slits. Blocks that are in no unfolded window together may meet
-/// if their boxes do.
+/// them are a window, which counts if it is a convex region without holes and slits. Blocks that are in no unfolded window together
+/// may meet if their boxes do.
 class UnfoldedWindows {
  public:
   /// Where nodes are when a step begins, and when it ends.
