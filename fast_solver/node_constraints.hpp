@@ -2,6 +2,7 @@
 
 // Tested by tests/fast_solver/implicit_solver_test.cpp.
 
+#include <algorithm>
 #include <vector>
 
 #include <weft/core/types.hpp>
@@ -44,9 +45,17 @@ struct PlaneContact {
   Scalar friction = 0;                               ///< Coulomb coefficient [-], >= 0
   /// By which another surface presses the node onto this one [N]. If it is not zero, the node stays on the plane whatever pulls.
   Scalar squeeze = 0;
+  Scalar squeeze_friction = 0;  ///< Coulomb coefficient of that surface [-], >= 0
   /// The collider among the step's rigid bodies, or -1: nothing moves it. Offset and motion are those without the cloth.
   int body = -1;
   Vector3<Scalar> lever_arm = Vector3<Scalar>::Zero();  ///< from the body's center to the node [m]
+
+  /// The largest friction on the node [N] if it pushes against the plane by so much [N] beside the squeeze. A node that pulls harder
+  /// than it is squeezed bears on the other surface alone.
+  [[nodiscard]] Scalar friction_bound(Scalar push) const {
+    const Scalar bound = friction * std::max(Scalar(0), push + squeeze);
+    return squeeze > 0 ? bound + squeeze_friction * std::max(squeeze, -push) : bound;
+  }
 };
 
 /// A surface behind a node that a rigid body presses on it: a spring along its normal, which only pushes, with Coulomb friction.

@@ -37,7 +37,7 @@ class Pinches {
   [[nodiscard]] btScalar margin_beside(std::size_t contact, const btSoftBody& body) const {
     return is_beside(contact) ? body.getCollisionShape()->getMargin() : btScalar(0);
   }
-  /// The friction on the other side [-], over that of the object of the contact.
+  /// The friction of the object on the other side [-].
   [[nodiscard]] btScalar other_friction(std::size_t contact) const {
     return held_of(contact).other_friction;
   }

@@ -176,8 +176,9 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     plane.normal = from_bullet<btScalar>(contact.normal);
     plane.offset = contact.offset - plane.normal.dot(origin_);
     plane.motion = from_bullet<btScalar>(contact.motion);
-    plane.friction = body.m_cfg.kDF * (contact.object->getFriction() + pinches_.other_friction(c));
+    plane.friction = body.m_cfg.kDF * contact.object->getFriction();
     plane.squeeze = pinches_.squeeze_of(c);
+    plane.squeeze_friction = body.m_cfg.kDF * pinches_.other_friction(c);
     const bool is_replaced = pinches_.is_replaced(c) || backed_.is_behind(c);
     plane.offset -= is_replaced ? BackedNodes::kFarAway : pinches_.depth_of(c);
     if (!pinches_.has(contact.node))

@@ -165,8 +165,8 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const Scalar gap = normal.dot(at_node(positions_, i) - with_body) - contact.offset;
   const Scalar inertia = Scalar(inertia_[i]);
   const bool was_held = !is_first && contact_states_before_[at(i)] != ContactState::kFree;
-  const Scalar pressure = -normal.dot(at_node(residual_forces_, i)) +
-                          inertia * std::max(Scalar(0), -gap) + contact.squeeze;
+  const Scalar pressure =
+      -normal.dot(at_node(residual_forces_, i)) + inertia * std::max(Scalar(0), -gap);
   const Scalar push = is_first ? std::min(Scalar(0), first_push(i, normal)) : Scalar(0);
   const bool is_near = gap + push < 0;
   if (!(contact.squeeze > 0 || (was_held ? pressure > 0 : is_near))) return;
@@ -174,7 +174,7 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
       at_node(positions_, i) - at_node(start_positions_, i) - contact.motion - with_body;
   Vector3<Scalar> tendency = at_node(residual_forces_, i) + inertia * slip;
   tendency -= normal.dot(tendency) * normal;
-  const Scalar most = contact.friction * std::max(Scalar(0), pressure);
+  const Scalar most = contact.friction_bound(pressure);
   const Scalar size = tendency.norm();
   // A node that slides, or that a plane has only now been found for, would be drawn back to where the step began: not by what
   // may be rounding.
@@ -183,7 +183,9 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const Scalar slipped = along.norm();
   const bool was_at_rest = is_first && !(inertia * slipped > most);
   const Scalar rounding = rounding_of_force(i);
-  const Scalar doubt = was_at_rest || did_stick ? Scalar(0) : contact.friction * rounding;
+  const Scalar doubt = was_at_rest || did_stick
+                           ? Scalar(0)
+                           : (contact.friction + contact.squeeze_friction) * rounding;
   // One that has slid would be drawn back to where the step began, against its springs: friction must bear that too, or the next
   // decision would let it go again (the trial force of Alart and Curnier 1991). Springs of a node that a body presses would be
   // drawn along with it.

@@ -309,13 +309,16 @@ class OnAPlane : public testing::Test {
 
   /// The node's place after a step from the origin, which is on the plane.
   Vector3<double> step(const Vector3<double>& velocity, const Vector3<double>& force,
-                       double friction, const Vector3<double>& motion = Vector3<double>::Zero()) {
+                       double friction, const Vector3<double>& motion = Vector3<double>::Zero(),
+                       double squeeze = 0, double squeeze_friction = 0) {
     const Matrix3X<double> q = Matrix3X<double>::Zero(3, 1);
     const Matrix3X<double> y = kTimeStep * velocity + kTimeStep * kTimeStep * force;
     PlaneContact<double> contact;
     contact.normal = {0, 1, 0};
     contact.friction = friction;
     contact.motion = motion;
+    contact.squeeze = squeeze;
+    contact.squeeze_friction = squeeze_friction;
     const std::vector<PlaneContact<double>> contacts = {contact};
     Matrix3X<double> x = kTimeStep * velocity;
     solver_.solve({y, q, kTimeStep, kTimeStep, contacts}, {12, 4}, x);
@@ -337,6 +340,20 @@ TEST_F(OnAPlane, SlidesWithWhatCoulombLeaves) {
   // (6 - 0.5 * 10) N on 1 kg over one implicit step; corrections are in single precision.
   EXPECT_NEAR(x[0], 1.0 * kTimeStep * kTimeStep, 1e-8);
   EXPECT_NEAR(x[1], 0.0, 1e-9);
+}
+
+// The plane bears the squeeze and what the node pushes with, the surface that squeezes it only the squeeze; a node that pulls
+// harder than that bears on this surface alone.
+TEST_F(OnAPlane, SlidesBetweenTwoSurfacesByTheFrictionOfBoth) {
+  for (const auto& [push, bound] : {std::pair{10.0, 0.5 * 13 + 0.3 * 3},
+                                    {0.0, 0.5 * 3 + 0.3 * 3},
+                                    {-2.0, 0.5 * 1 + 0.3 * 3},
+                                    {-7.0, 0.3 * 7}}) {
+    const Vector3<double> x = step({0, 0, 0}, {12, -push, 0}, 0.5, {0, 0, 0}, 3, 0.3);
+    // Corrections are in single precision.
+    EXPECT_NEAR(x[0] / (kTimeStep * kTimeStep), 12 - bound, 1e-3) << push;
+    EXPECT_NEAR(x[1], 0.0, 1e-9) << push;
+  }
 }
 
 TEST_F(OnAPlane, SlowsDownAsCoulombSays) {
