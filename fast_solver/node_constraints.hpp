@@ -56,6 +56,8 @@ struct PlaneContact {
     const Scalar bound = friction * std::max(Scalar(0), push + squeeze);
     return squeeze > 0 ? bound + squeeze_friction * std::max(squeeze, -push) : bound;
   }
+  /// The coefficient of all surfaces together [-].
+  [[nodiscard]] Scalar all_friction() const { return friction + squeeze_friction; }
 };
 
 /// A surface behind a node that a rigid body presses on it: a spring along its normal, which only pushes, with Coulomb friction.

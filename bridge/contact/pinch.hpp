@@ -11,6 +11,7 @@
 
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/contact/rigid_contacts.hpp>
+#include <weft/fast_solver/node_constraints.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
@@ -27,19 +28,18 @@ class Pinches {
  public:
   /// time_step: of Bullet's step [s].
   void find(std::span<const RigidContact> contacts, const btSoftBody& body, btScalar time_step);
-  /// The squeeze of a contact that holds a pinched node [N], zero of others.
-  [[nodiscard]] btScalar squeeze_of(std::size_t contact) const { return held_of(contact).squeeze; }
-  /// How far behind the plane of a contact its node is held [m].
-  [[nodiscard]] btScalar depth_of(std::size_t contact) const { return held_of(contact).depth; }
+  /// Gives the plane of a contact that holds a pinched node the squeeze, the friction of the object on the other side times that of
+  /// the cloth, and the place halfway between both; other planes stay as they are.
+  void press(std::size_t contact, btScalar friction, fast::PlaneContact<btScalar>& plane) const {
+    plane.squeeze = held_of(contact).squeeze;
+    plane.squeeze_friction = friction * held_of(contact).other_friction;
+    plane.offset -= held_of(contact).depth;
+  }
   /// Whether the node of a contact is beside the edge of a finger, next to nodes that it pinches.
   [[nodiscard]] bool is_beside(std::size_t contact) const { return held_of(contact).is_beside; }
   /// How deep the node of a contact may stay behind its plane because it is there [m]; 0 elsewhere.
   [[nodiscard]] btScalar margin_beside(std::size_t contact, const btSoftBody& body) const {
     return is_beside(contact) ? body.getCollisionShape()->getMargin() : btScalar(0);
-  }
-  /// The friction of the object on the other side [-].
-  [[nodiscard]] btScalar other_friction(std::size_t contact) const {
-    return held_of(contact).other_friction;
   }
   /// Whether another contact holds the node of this one.
   [[nodiscard]] bool is_replaced(std::size_t contact) const { return held_of(contact).is_replaced; }

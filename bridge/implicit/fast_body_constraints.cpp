@@ -177,10 +177,8 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     plane.offset = contact.offset - plane.normal.dot(origin_);
     plane.motion = from_bullet<btScalar>(contact.motion);
     plane.friction = body.m_cfg.kDF * contact.object->getFriction();
-    plane.squeeze = pinches_.squeeze_of(c);
-    plane.squeeze_friction = body.m_cfg.kDF * pinches_.other_friction(c);
-    const bool is_replaced = pinches_.is_replaced(c) || backed_.is_behind(c);
-    plane.offset -= is_replaced ? BackedNodes::kFarAway : pinches_.depth_of(c);
+    pinches_.press(c, body.m_cfg.kDF, plane);
+    if (pinches_.is_replaced(c) || backed_.is_behind(c)) plane.offset -= BackedNodes::kFarAway;
     if (!pinches_.has(contact.node))
       plane.offset -=
           backed_.depth_to_keep(contact, plane, starts_, inertia_step_, time_step / body.m_sst.sdt,

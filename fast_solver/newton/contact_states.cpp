@@ -167,8 +167,7 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const bool was_held = !is_first && contact_states_before_[at(i)] != ContactState::kFree;
   const Scalar pressure =
       -normal.dot(at_node(residual_forces_, i)) + inertia * std::max(Scalar(0), -gap);
-  const Scalar push = is_first ? std::min(Scalar(0), first_push(i, normal)) : Scalar(0);
-  const bool is_near = gap + push < 0;
+  const bool is_near = gap + (is_first ? std::min(Scalar(0), first_push(i, normal)) : 0) < 0;
   if (!(contact.squeeze > 0 || (was_held ? pressure > 0 : is_near))) return;
   const Vector3<Scalar> slip =
       at_node(positions_, i) - at_node(start_positions_, i) - contact.motion - with_body;
@@ -183,9 +182,7 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const Scalar slipped = along.norm();
   const bool was_at_rest = is_first && !(inertia * slipped > most);
   const Scalar rounding = rounding_of_force(i);
-  const Scalar doubt = was_at_rest || did_stick
-                           ? Scalar(0)
-                           : (contact.friction + contact.squeeze_friction) * rounding;
+  const Scalar doubt = was_at_rest || did_stick ? Scalar(0) : contact.all_friction() * rounding;
   // One that has slid would be drawn back to where the step began, against its springs: friction must bear that too, or the next
   // decision would let it go again (the trial force of Alart and Curnier 1991). Springs of a node that a body presses would be
   // drawn along with it.
@@ -200,8 +197,8 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
   const bool is_on_body = contact.body >= 0;
   if (was_held && !did_stick) has_slid_[at(i)] = 1;
   const bool sticks_again = !is_on_body && did_stick && !is_first && has_slid_[at(i)] != 0;
-  const bool is_pinched = contact.squeeze > 0;
-  const bool sticks = size <= most_without_slip(most, doubt, is_pinched, sticks_again) && may_stick;
+  const bool sticks =
+      size <= most_without_slip(most, doubt, contact.squeeze > 0, sticks_again) && may_stick;
   contact_states_[at(i)] = sticks ? ContactState::kFixed : ContactState::kOnPlane;
   normals_.col(i) = normal.template cast<float>();
   if (sticks) return friction_.release(i);
@@ -221,8 +218,7 @@ void ImplicitSolver<Scalar>::decide_contact_state(const PlaneContact<Scalar>& co
     const Vector3<Scalar> free_slip =
         slip_of(contact, at_node(inertial_positions_, i), &Body::motion);
     const Scalar pull = (tendency - inertia * free_slip).norm();
-    const bool is_pulled = pull > Scalar(kSlack) * most + rounding;
-    if (!is_pulled) farthest = std::max(farthest, free_slip.norm());
+    if (pull <= Scalar(kSlack) * most + rounding) farthest = std::max(farthest, free_slip.norm());
   }
   // Rounding of stiff springs' forces is larger than friction, and says nothing of all nodes together.
   const Scalar together = std::min(
