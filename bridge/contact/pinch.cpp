@@ -14,6 +14,10 @@ namespace {
 /// [N] Of surfaces that the program leads: more than any cloth pulls with.
 constexpr btScalar kUnyielding = btScalar(1e6);
 
+/// The product of the normals of fingers' surfaces that face each other [-]: round ones are far from parallel a few millimeters
+/// beside the line where they touch.
+constexpr btScalar kFacing = btScalar(-0.3);
+
 /// [N] Of nodes between surfaces that do not press yet: they are held from both sides.
 constexpr btScalar kLeastSqueeze = btScalar(1e-9);
 
@@ -82,8 +86,10 @@ void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& bod
     const RigidContact& b = contacts[c];
     if (!may_pinch(*a.object, *b.object)) continue;
     const btScalar room = room_between(a, b, body);
-    if (!are_opposite(a, b) || room > 0) {
-      if (is_jointed(a.object) || is_jointed(b.object)) beside.emplace_back(other, c);
+    const bool is_on_joint = is_jointed(a.object) || is_jointed(b.object);
+    const bool are_facing = is_on_joint ? btDot(a.normal, b.normal) <= kFacing : are_opposite(a, b);
+    if (!are_facing || room > 0) {
+      if (is_on_joint) beside.emplace_back(other, c);
       continue;
     }
     // Both surfaces bear their share of what nodes pull with: every other node.
@@ -109,7 +115,9 @@ void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& bod
     nodes_[static_cast<std::size_t>(contact.node)] = 1;
     held_[holding].is_holding = true;
     held_[holding].squeeze = kLeastSqueeze + pair.force / static_cast<btScalar>(pair.num_nodes);
-    held_[holding].depth = -room_between(contact, other, body) / 2;
+    const btVector3 across = contact.normal - other.normal;
+    held_[holding].normal = across / across.length();
+    held_[holding].offset = (contact.offset - other.offset) / across.length();
     held_[holding].other_friction = other.object->getFriction();
     held_[replaced].is_replaced = true;
   }

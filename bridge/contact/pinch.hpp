@@ -9,6 +9,7 @@
 
 #include <BulletSoftBody/btSoftBody.h>
 
+#include <weft/bridge/bullet/bullet_vector.hpp>
 #include <weft/bridge/bullet/precision.hpp>
 #include <weft/bridge/contact/rigid_contacts.hpp>
 #include <weft/fast_solver/node_constraints.hpp>
@@ -28,12 +29,17 @@ class Pinches {
  public:
   /// time_step: of Bullet's step [s].
   void find(std::span<const RigidContact> contacts, const btSoftBody& body, btScalar time_step);
-  /// Gives the plane of a contact that holds a pinched node the squeeze, the friction of the object on the other side times that of
-  /// the cloth, and the place halfway between both; other planes stay as they are.
-  void press(std::size_t contact, btScalar friction, fast::PlaneContact<btScalar>& plane) const {
-    plane.squeeze = held_of(contact).squeeze;
-    plane.squeeze_friction = friction * held_of(contact).other_friction;
-    plane.offset -= held_of(contact).depth;
+  /// Makes the plane of a contact that holds a pinched node the one halfway between both surfaces, and gives it the squeeze and the
+  /// friction of the object on the other side times that of the cloth; other planes stay as they are. origin: that offsets are
+  /// counted from [m].
+  void press(std::size_t contact, btScalar friction, const Vector3<btScalar>& origin,
+             fast::PlaneContact<btScalar>& plane) const {
+    const Held& held = held_of(contact);
+    if (!held.is_holding) return;
+    plane.squeeze = held.squeeze;
+    plane.squeeze_friction = friction * held.other_friction;
+    plane.normal = from_bullet<btScalar>(held.normal);
+    plane.offset = held.offset - plane.normal.dot(origin);
   }
   /// Whether the node of a contact is beside the edge of a finger, next to nodes that it pinches.
   [[nodiscard]] bool is_beside(std::size_t contact) const { return held_of(contact).is_beside; }
@@ -75,7 +81,8 @@ class Pinches {
  private:
   struct Held {
     btScalar squeeze = 0;
-    btScalar depth = 0;
+    btVector3 normal{0, 0, 0};  ///< that of the plane halfway, out of the object
+    btScalar offset = 0;        ///< [m]
     btScalar other_friction = 0;
     bool is_holding = false;
     bool is_replaced = false;
@@ -90,7 +97,7 @@ class Pinches {
     bool may_press = false;
   };
   [[nodiscard]] const Held& held_of(std::size_t contact) const {
-    static constexpr Held kNone;
+    static const Held kNone;
     return held_.empty() ? kNone : held_[contact];
   }
   [[nodiscard]] Pair& pair_of(const btCollisionObject* one, const btCollisionObject* other);

@@ -177,7 +177,7 @@ void FastBody::read_constraints(const btSoftBody& body, btScalar time_step, bool
     plane.offset = contact.offset - plane.normal.dot(origin_);
     plane.motion = from_bullet<btScalar>(contact.motion);
     plane.friction = body.m_cfg.kDF * contact.object->getFriction();
-    pinches_.press(c, body.m_cfg.kDF, plane);
+    pinches_.press(c, body.m_cfg.kDF, origin_, plane);
     if (pinches_.is_replaced(c) || backed_.is_behind(c)) plane.offset -= BackedNodes::kFarAway;
     if (!pinches_.has(contact.node))
       plane.offset -=
