@@ -113,12 +113,15 @@ void Pinches::find(std::span<const RigidContact> contacts, const btSoftBody& bod
     if (!pair.may_press) continue;
     if (nodes_.empty()) nodes_.assign(static_cast<std::size_t>(body.m_nodes.size()), 0);
     nodes_[static_cast<std::size_t>(contact.node)] = 1;
-    held_[holding].is_holding = true;
-    held_[holding].squeeze = kLeastSqueeze + pair.force / static_cast<btScalar>(pair.num_nodes);
+    Held& held = held_[holding];
+    held.is_holding = true;
+    held.squeeze = kLeastSqueeze + pair.force / static_cast<btScalar>(pair.num_nodes);
+    // Where both surfaces are as far away.
     const btVector3 across = contact.normal - other.normal;
-    held_[holding].normal = across / across.length();
-    held_[holding].offset = (contact.offset - other.offset) / across.length();
-    held_[holding].other_friction = other.object->getFriction();
+    const btScalar length = across.length();
+    held.normal = across / length;
+    held.offset = (contact.offset - other.offset) / length;
+    held.other_friction = other.object->getFriction();
     held_[replaced].is_replaced = true;
   }
   if (!nodes_.empty()) find_beside(contacts, body, beside);

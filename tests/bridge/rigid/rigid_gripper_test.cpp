@@ -161,17 +161,22 @@ TEST(RigidGripper, LosesATowelBelowTheThreshold) {
   }
 }
 
-// A few millimeters beside the line where round fingers touch, their surfaces are not parallel: nodes there used to slip out. They
-// are a row or two, which leave and enter as the towel moves by the distance of rows.
+// A few millimeters beside the line where round fingers touch, their surfaces are not parallel. Nodes there used to slip, and towels
+// lagged by 5 mm in the mean. They are a row or two, which leave and enter as the towel moves by the distance of rows.
 TEST(RigidGripper, HoldsATowelBetweenRoundFingers) {
+  double lag = 0;
+  int num_towels = 0;
   for (const double stiffness : {50.0, 200.0, 2000.0, 20000.0}) {
     for (int seed = 1; seed <= test::count(1); ++seed) {
       const TowelMotion outcome = grip(1.6 * kGripThreshold, 1, seed, stiffness, round_pad());
       SCOPED_TRACE(testing::Message() << "seed " << seed << ", " << stiffness << " N/m");
       EXPECT_NEAR(outcome.carried, outcome.lifted, 8e-3);
       EXPECT_LT(outcome.slip, 5e-3);
+      lag += outcome.lifted - outcome.carried;
+      ++num_towels;
     }
   }
+  EXPECT_LT(lag / num_towels, 2e-3);
 }
 
 // It is not gripped between fingers that only stand near, with room for the towel.
