@@ -260,6 +260,23 @@ void HingeTorsion<Scalar>::add_rest_stiffness(const State<Scalar>& rest,
 }
 
 template <class Scalar>
+void HingeTorsion<Scalar>::get_gradients(ConstMatrix3XRef<Scalar> positions,
+                                         Eigen::Ref<Gradients> gradients) const {
+  using std::sqrt;
+  for (Eigen::Index place = 0; place < hinges_.size(); ++place) {
+    const Eigen::Index h = hinges_.order()[static_cast<std::size_t>(place)];
+    const HingeAngle<Scalar> angle =
+        numbers().angle(place, hinges_.template at<Scalar>(positions, h));
+    const Scalar root = angle.has_normals ? Scalar(sqrt(stiffness_[place])) : Scalar(0);
+    for (int corner = 0; corner < 4; ++corner) {
+      const PlainVector<Scalar>& g = angle.gradient[static_cast<std::size_t>(corner)];
+      gradients.col(h).template segment<3>(3 * corner) =
+          Vector3<Scalar>(root * g.x, root * g.y, root * g.z);
+    }
+  }
+}
+
+template <class Scalar>
 Scalar HingeTorsion<Scalar>::potential_energy(const State<Scalar>& state) const {
   const Numbers hinges = numbers();
   return hinges_.template sum<Scalar>(

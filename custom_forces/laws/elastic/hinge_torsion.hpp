@@ -36,6 +36,7 @@ template <class Scalar>
 class HingeTorsion final : public ForceLaw<Scalar> {
  public:
   static const LawInfo kInfo;
+  using Gradients = Eigen::Matrix<Scalar, 12, Eigen::Dynamic>;
 
   HingeTorsion(const LawSpecification& specification, const ClothMesh& mesh);
 
@@ -51,6 +52,12 @@ class HingeTorsion final : public ForceLaw<Scalar> {
   void add_rest_stiffness(const State<Scalar>& rest,
                           std::vector<PairStiffness<Scalar>>& pairs) const override;
   [[nodiscard]] Scalar potential_energy(const State<Scalar>& state) const override;
+
+  /// The hinges' nodes, 4 x m: the ends of the edge, then the far corners of its triangles.
+  [[nodiscard]] const BatchedAssembly<4>::Elements& hinges() const { return hinges_.elements(); }
+  /// sqrt(k) dtheta/dx of each hinge, by its nodes, 12 x m [sqrt(N/m)]; 0 for a hinge that exerts no force for its area. Squares of
+  /// these are the law's stiffness but for what the moment adds. positions: 3 x n [m].
+  void get_gradients(ConstMatrix3XRef<Scalar> positions, Eigen::Ref<Gradients> gradients) const;
 
   /// Smallest triangle whose normal is still trusted, as a fraction of its rest area [-].
   static constexpr double kMinAreaRatio = 1e-6;

@@ -22,6 +22,9 @@ constexpr double kRigidity = 2.0;  // D [N m]
 /// Rounding of an angle from cross products, relative to a right angle.
 constexpr double kAngleRoundoff = 100 * kRoundoff;
 
+/// Gradients are sums of a few terms, and meet forces that were made of them in another order.
+constexpr double kGradientRounding = 100 * kRoundoff;
+
 LawSpecification hinge_torsion() {
   return {"hinge_torsion", {}, {{"rigidity", {kRigidity}}}};
 }
@@ -216,6 +219,61 @@ TEST(HingeTorsion, ThreeTrianglesAtAnEdgeAndTwistedNeighborsAreRefused) {
   ClothMesh twisted = two_triangles();
   twisted.triangles.col(1) << 0, 1, 3;
   EXPECT_THROW((void)make_law<double>(hinge_torsion(), twisted), InvalidArgument);
+}
+
+HingeTorsion<double>::Gradients gradients_at(const ClothMesh& mesh,
+                                             const Matrix3X<double>& positions) {
+  const auto law = make_law<double>(hinge_torsion(), mesh);
+  const auto& hinges = dynamic_cast<const HingeTorsion<double>&>(*law);
+  HingeTorsion<double>::Gradients gradients(12, hinges.hinges().cols());
+  hinges.get_gradients(positions, gradients);
+  return gradients;
+}
+
+TEST(HingeTorsion, GradientsTimesTheRootOfTwiceTheEnergyAreForces) {
+  const ClothMesh mesh = two_triangles();
+  for (const double angle : {-2.5, -0.4, 0.4, 2.5}) {
+    const Matrix3X<double> positions = folded(angle);
+    const Matrix3X<double> force = hinge_force_at(mesh, positions);
+    // The law's angle is negative where wings are folded to the front.
+    const double root = std::copysign(std::sqrt(2 * hinge_energy_at(mesh, positions)), angle);
+    const auto gradients = gradients_at(mesh, positions);
+    const auto law = make_law<double>(hinge_torsion(), mesh);
+    const auto& nodes = dynamic_cast<const HingeTorsion<double>&>(*law).hinges();
+    for (int corner = 0; corner < 4; ++corner) {
+      const Vector3<double> expected = force.col(nodes(corner, 0));
+      const Vector3<double> found = root * gradients.col(0).segment<3>(3 * corner);
+      EXPECT_LT((found - expected).norm(), kGradientRounding * expected.norm()) << angle;
+    }
+  }
+}
+
+TEST(HingeTorsion, SquaresOfGradientsAreTheStiffnessWithoutMoments) {
+  ClothGrid grid;
+  grid.nodes = {5, 4};
+  ClothMesh mesh = make_cloth_grid(grid);
+  for (auto x : mesh.rest_positions.colwise()) x.y() += 0.8 * x.x() * x.x() - 0.3 * x.x() * x.z();
+  const auto law = make_law<double>(hinge_torsion(), mesh);
+  const auto& nodes = dynamic_cast<const HingeTorsion<double>&>(*law).hinges();
+  const auto gradients = gradients_at(mesh, mesh.rest_positions);
+  const Matrix3X<double> displacements = Matrix3X<double>::Random(3, mesh.num_nodes());
+  Matrix3X<double> product = Matrix3X<double>::Zero(3, mesh.num_nodes());
+  for (Eigen::Index h = 0; h < nodes.cols(); ++h) {
+    double strain = 0;
+    for (int corner = 0; corner < 4; ++corner) {
+      strain += gradients.col(h).segment<3>(3 * corner).dot(displacements.col(nodes(corner, h)));
+    }
+    for (int corner = 0; corner < 4; ++corner) {
+      product.col(nodes(corner, h)) += strain * gradients.col(h).segment<3>(3 * corner);
+    }
+  }
+  Matrix3X<double> expected = Matrix3X<double>::Zero(3, mesh.num_nodes());
+  Matrix3X<double> scratch(3, law->scratch_columns());
+  const Matrix3X<double> still = Matrix3X<double>::Zero(3, mesh.num_nodes());
+  law->add_stiffness_product({mesh.rest_positions, still, mesh.masses}, displacements, scratch,
+                             expected);
+  EXPECT_GT(expected.norm(), 1);
+  EXPECT_LT((product + expected).norm(), kGradientRounding * expected.norm());
 }
 
 }  // namespace
