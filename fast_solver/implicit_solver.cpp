@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include <weft/core/index.hpp>
 #include <weft/core/trace.hpp>
+#include <weft/fast_solver/newton/node_stiffness.hpp>
 
 namespace weft::fast {
 namespace {
@@ -64,55 +64,39 @@ void ImplicitSolver<Scalar>::load(const StepProblem<Scalar>& problem,
       });
 }
 
+// Displacements times the stiffness of step forces need them.
 template <class Scalar>
-void ImplicitSolver<Scalar>::evaluate_step_forces() {
-  from_arrays<Scalar>(positions_, {0, num_nodes()}, step_force_positions_);
-  step_forces_.setZero();
-  step_force_law_->add_forces(step_force_positions_, step_forces_);
-}
-
-template <class Scalar>
-double ImplicitSolver<Scalar>::energy_of_step_forces(const Nodes& positions) {
-  if (step_force_law_ == nullptr) return 0;
-  from_arrays<Scalar>(positions, {0, num_nodes()}, step_force_positions_);
-  return step_force_law_->energy(step_force_positions_);
+void ImplicitSolver<Scalar>::find_strains(const Floats& displacements) {
+  if (!step_forces_.has_elements()) return;
+  team_->run(parts_.count(), [this, &displacements](int part) {
+    step_forces_.find_strains(part, parts_.count(), displacements);
+  });
 }
 
 // Evaluates the residual at the present positions, and its work along the last step.
 template <class Scalar>
 void ImplicitSolver<Scalar>::evaluate(bool linearizes) {
-  if (step_force_law_ != nullptr) evaluate_step_forces();
+  step_forces_.evaluate(positions_, linearizes, forces_);
   const auto stride = static_cast<int>(weights_.size());
   const SumKernel<Scalar>& sums = sum_kernel<Scalar>();
-  const auto both =
-      sum_over_parts<Eigen::Array2d>([this, stride, linearizes, &sums](NodeRange nodes) {
-        const int count = nodes.end - nodes.begin;
-        for (int axis = 0; axis < 3; ++axis) {
-          residual_forces_.col(axis).segment(nodes.begin, count) =
-              weights_.segment(nodes.begin, count)
-                  .cwiseProduct(inertial_positions_.col(axis).segment(nodes.begin, count) -
-                                positions_.col(axis).segment(nodes.begin, count));
-        }
-        forces_.add_forces(nodes, positions_, residual_forces_, linearizes);
-        for (int i = nodes.begin; step_force_law_ != nullptr && i < nodes.end; ++i) {
-          if (i < num_nodes()) residual_forces_.row(i) += step_forces_.col(i).transpose();
-        }
-        supports_.add_forces(nodes, positions_, start_positions_, bodies_, residual_forces_);
-        for (const int node : in_range(pinned_, nodes)) residual_forces_.row(node).setZero();
-        return Eigen::Array2d(sums.dot(residual_forces_.data(), step_.data(), stride, nodes),
-                              sums.squares(residual_forces_.data(), stride, nodes));
-      });
+  const auto both = sum_over_parts<Eigen::Array2d>([this, stride, linearizes,
+                                                    &sums](NodeRange nodes) {
+    const int count = nodes.end - nodes.begin;
+    for (int axis = 0; axis < 3; ++axis) {
+      residual_forces_.col(axis).segment(nodes.begin, count) =
+          weights_.segment(nodes.begin, count)
+              .cwiseProduct(inertial_positions_.col(axis).segment(nodes.begin, count) -
+                            positions_.col(axis).segment(nodes.begin, count));
+    }
+    forces_.add_forces(nodes, positions_, residual_forces_, linearizes);
+    step_forces_.add(nodes, residual_forces_, linearizes ? &forces_.diagonal_blocks() : nullptr);
+    supports_.add_forces(nodes, positions_, start_positions_, bodies_, residual_forces_);
+    for (const int node : in_range(pinned_, nodes)) residual_forces_.row(node).setZero();
+    return Eigen::Array2d(sums.dot(residual_forces_.data(), step_.data(), stride, nodes),
+                          sums.squares(residual_forces_.data(), stride, nodes));
+  });
   work_left_ = both[0];
   residual_squares_ = both[1];
-}
-
-// Block Jacobi, the fine level of the preconditioner: it is accurate for motion that is transverse to the sheet.
-template <class Scalar>
-void ImplicitSolver<Scalar>::smooth(NodeRange nodes, Floats& correction) {
-  const auto stride = static_cast<int>(blocks_.rows());
-  vector_kernel().multiply_blocks(blocks_.data(), stride, nodes, residual_vector_.data(),
-                                  correction.data());
-  project(nodes, correction);
 }
 
 // The drag of sliding nodes becomes the second derivative of their friction.
@@ -136,8 +120,9 @@ void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body:
     project(nodes, product);
     and_then(nodes, part);
   };
+  find_strains(displacements);
   team_->run(parts_.count(), [this, &displacements, &product, is_linked, finish](int part) {
-    forces_.multiply(parts_[part], system_inertia_, displacements, product);
+    multiply_nodes(parts_[part], displacements, product);
     relieve(parts_[part], displacements, product);
     if (!is_linked) finish(parts_[part], part);
   });
@@ -150,10 +135,13 @@ void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body:
   team_->run(parts_.count(), [this, finish](int part) { finish(parts_[part], part); });
 }
 
-// The smoothed residual, and its restriction for the coarse correction: what the preconditioner needs of a part's own nodes.
+// What the preconditioner needs of a part's own nodes: the residual smoothed by block Jacobi, the fine level, which is accurate for
+// motion that is transverse to the sheet, and its restriction for the coarse correction.
 template <class Scalar>
 void ImplicitSolver<Scalar>::smooth(int part) {
-  smooth(parts_[part], smoothed_);
+  vector_kernel().multiply_blocks(blocks_.data(), static_cast<int>(blocks_.rows()), parts_[part],
+                                  residual_vector_.data(), smoothed_.data());
+  project(parts_[part], smoothed_);
   coarse_correction_.restrict_residual(part, coarse_roles_.held(), residual_vector_);
 }
 
@@ -245,8 +233,8 @@ void ImplicitSolver<Scalar>::start_linear(const StepProblem<Scalar>& problem) {
   find_body_residuals(&Body::residual);
   for (Body& body : bodies_) body.coarse_product.setZero();
   if (moves_held) {
-    team_->run(parts_.count(),
-               [this](int part) { forces_.multiply(parts_[part], system_inertia_, step_, work_); });
+    find_strains(step_);
+    for_each_part([this](NodeRange nodes) { multiply_nodes(nodes, step_, work_); });
     for (Body& body : bodies_) body.correction.setZero();
     supports_.add_products(step_, &Body::correction, work_, bodies_, &Body::coarse_product);
   }
@@ -387,7 +375,7 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem,
                                    Matrix3XRef<Scalar> positions, WorkerTeam& team) {
   const TraceScope trace("implicit solve");
   team_ = &team;
-  step_force_law_ = problem.forces;
+  step_forces_.begin_step(problem.forces, forces_);
   load(problem, positions);
   evaluate();
   const double first = std::sqrt(residual_squares_);
@@ -412,32 +400,15 @@ void ImplicitSolver<Scalar>::solve(const StepProblem<Scalar>& problem,
       residual_forces_.middleRows(nodes.begin, count) -=
           weights_.segment(nodes.begin, count) * shift->transpose();
     }
-    update_compensation(nodes);
+    find_compensation<Scalar>(nodes, forces_.diagonal_blocks(), inertia_, residual_forces_,
+                              constraint_forces_, positions_, compensation_);
     from_arrays<Scalar>(positions_, nodes, positions);
   });
   for (const int i : constrained_) {
     if (contact_states_[at(i)] != ContactState::kOnPlane) compensation_.row(i).setZero();
   }
   team_ = nullptr;
-  step_force_law_ = nullptr;
-}
-
-// One step of Jacobi's method for the residual forces, which positions on their grid cannot follow.
-template <class Scalar>
-void ImplicitSolver<Scalar>::update_compensation(NodeRange nodes) {
-  constexpr Scalar kHalfRounding = std::numeric_limits<Scalar>::epsilon() / 2;
-  const BlockArrays& blocks = forces_.diagonal_blocks();
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int i = nodes.begin; i < nodes.end; ++i) {
-      const Scalar stiffness = Scalar(inertia_[i] + blocks(i, axis));
-      const Scalar left = residual_forces_(i, axis) + constraint_forces_(i, axis);
-      const Scalar most = kHalfRounding * std::abs(positions_(i, axis));
-      const Scalar displacement = left / (stiffness > 0 ? stiffness : Scalar(1));
-      compensation_(i, axis) = displacement > most    ? most
-                               : displacement < -most ? -most
-                                                      : displacement;
-    }
-  }
+  step_forces_.begin_step(nullptr, forces_);
 }
 
 template <class Scalar>

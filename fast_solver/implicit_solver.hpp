@@ -18,6 +18,7 @@
 #include <weft/fast_solver/newton/direction_weights.hpp>
 #include <weft/fast_solver/newton/newton_iteration.hpp>
 #include <weft/fast_solver/newton/node_supports.hpp>
+#include <weft/fast_solver/newton/present_step_forces.hpp>
 #include <weft/fast_solver/newton/sliding_friction.hpp>
 #include <weft/fast_solver/solver_report.hpp>
 #include <weft/fast_solver/solver_settings.hpp>
@@ -135,8 +136,11 @@ class ImplicitSolver : TeamLoops {
   void follow_kinematic(const StepProblem<Scalar>& problem);
   void load(const StepProblem<Scalar>& problem, ConstMatrix3XRef<Scalar> guess);
   void evaluate(bool linearizes = true);
-  void evaluate_step_forces();
-  [[nodiscard]] double energy_of_step_forces(const Nodes& positions);
+  void find_strains(const Floats& displacements);
+  void multiply_nodes(NodeRange nodes, const Floats& displacements, Floats& product) const {
+    forces_.multiply(nodes, system_inertia_, displacements, product);
+    step_forces_.add_products(nodes, product);
+  }
   void decide_contact_states(const StepProblem<Scalar>& problem, const NewtonIteration& iteration);
   /// There friction is a constant force: with a drag, which can stop a node, towels that ought to slip were held between fingers,
   /// whose motors take back what the solution gives to links.
@@ -159,7 +163,6 @@ class ImplicitSolver : TeamLoops {
   [[nodiscard]] Scalar rounding_of_position(int node) const;
   [[nodiscard]] Scalar first_push(int node, const Vector3<Scalar>& normal) const;
   void project(NodeRange nodes, Floats& vectors) const;
-  void smooth(NodeRange nodes, Floats& correction);
   void smooth(int part);
   void load_bodies(const StepProblem<Scalar>& problem);
   void link(int node, int body, const Vector3<Scalar>& lever_arm, const Vector3<Scalar>& normal);
@@ -192,6 +195,7 @@ class ImplicitSolver : TeamLoops {
   [[nodiscard]] double gain_of_rounding_now(bool is_on_fixed);
   void save_positions();
   void restore_positions();
+  [[nodiscard]] double shorten_bending(const StepProblem<Scalar>& problem, double now, double most);
   [[nodiscard]] double accelerate(const StepProblem<Scalar>& problem, double reached);
   /// The incremental potential [J].
   [[nodiscard]] double energy(const StepProblem<Scalar>& problem, const Nodes& positions,
@@ -212,11 +216,10 @@ class ImplicitSolver : TeamLoops {
   /// A shift of all nodes [m]; bodies are shifted already.
   [[nodiscard]] std::optional<Vector3<Scalar>> net_momentum_correction(
       const StepProblem<Scalar>& problem);
-  void update_compensation(NodeRange nodes);
   void clamp(const StepProblem<Scalar>& problem);
   void put_in_front(const StepProblem<Scalar>& problem);
 
-  const StepForces<Scalar>* step_force_law_ = nullptr;  ///< while a step is solved
+  PresentStepForces<Scalar> step_forces_;
   NetworkForces<Scalar> forces_;
   CoarseCorrection coarse_correction_;
   VectorX<Scalar> masses_;  ///< [kg], padded with zeros
@@ -245,8 +248,6 @@ class ImplicitSolver : TeamLoops {
   Nodes last_positions_;  ///< positions at the start of the iteration
   Nodes last_results_;    ///< result of the last iteration
   AndersonHistory<Scalar> anderson_;
-  Matrix3X<Scalar> step_force_positions_;  ///< positions as StepForces takes them
-  Matrix3X<Scalar> step_forces_;
   std::vector<ContactState> contact_states_;         ///< for each node, padded
   std::vector<char> has_slid_;                       ///< flags of nodes: in this step
   std::vector<ContactState> contact_states_before_;  ///< contact states of the iteration before

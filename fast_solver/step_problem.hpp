@@ -5,6 +5,7 @@
 #include <span>
 
 #include <weft/core/types.hpp>
+#include <weft/fast_solver/network/element_stiffness.hpp>
 #include <weft/fast_solver/node_constraints.hpp>
 
 namespace weft::fast {
@@ -14,14 +15,22 @@ namespace weft::fast {
 template <class Scalar>
 class StepForces {
  public:
-  StepForces() = default;
-  StepForces(const StepForces&) = delete;
-  StepForces& operator=(const StepForces&) = delete;
   virtual ~StepForces() = default;
   /// forces += those at positions, both 3 x n [m], [N].
   virtual void add_forces(ConstMatrix3XRef<Scalar> positions, Matrix3XRef<Scalar> forces) const = 0;
+  /// Whether stiffness() is known; if not, the constant one of the network stands for it wherever nodes are.
+  [[nodiscard]] virtual bool has_stiffness() const { return false; }
+  /// Their stiffness at positions, until the next call; null if it is not known.
+  [[nodiscard]] virtual ElementStiffness* stiffness(ConstMatrix3XRef<Scalar> /*positions*/) const {
+    return nullptr;
+  }
   /// [J]
   [[nodiscard]] virtual double energy(ConstMatrix3XRef<Scalar> positions) const = 0;
+
+ protected:
+  StepForces() = default;
+  StepForces(StepForces&&) = default;
+  StepForces& operator=(StepForces&&) = default;
 };
 
 /// One implicit step. It asks for the x that solves

@@ -265,7 +265,7 @@ NetworkView<Scalar> NetworkForces<Scalar>::view() const {
           static_cast<int>(diagonal_.rows()),
           springs_->data(),
           dampers_.empty() ? nullptr : dampers_.data(),
-          bending_.empty() ? nullptr : bending_.data(),
+          bending_.empty() || is_bending_out_ ? nullptr : bending_.data(),
           least_transverse_,
           root_scale_,
           linear_.data()};
@@ -313,16 +313,6 @@ void NetworkForces<Scalar>::multiply(NodeRange nodes, const VectorX<float>& iner
   // A NaN must not stay in the padding behind the nodes.
   const int num_beyond = nodes.end - std::max(nodes.begin, num_nodes());
   if (num_beyond > 0) product.middleRows(nodes.end - num_beyond, num_beyond).setZero();
-}
-
-template <class Scalar>
-void NetworkForces<Scalar>::multiply(const std::vector<int>& blocks, const VectorX<float>& inertia,
-                                     const NodeArrays<float>& displacements,
-                                     NodeArrays<float>& product) const {
-  for (const int block : blocks) {
-    network_kernel<Scalar>().multiply(view(), {block * kNodeBlock, (block + 1) * kNodeBlock},
-                                      inertia.data(), displacements.data(), product.data());
-  }
 }
 
 template class NetworkForces<float>;

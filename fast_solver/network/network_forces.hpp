@@ -64,12 +64,11 @@ class NetworkForces {
   void multiply(NodeRange nodes, const VectorX<float>& inertia,
                 const NodeArrays<float>& displacements, NodeArrays<float>& product) const;
 
-  /// The same at the nodes of some blocks of kNodeBlock only.
-  void multiply(const std::vector<int>& blocks, const VectorX<float>& inertia,
-                const NodeArrays<float>& displacements, NodeArrays<float>& product) const;
-
   /// The 3 x 3 blocks of the diagonal of that stiffness [N/m].
   [[nodiscard]] const BlockArrays& diagonal_blocks() const { return diagonal_; }
+  [[nodiscard]] BlockArrays& diagonal_blocks() { return diagonal_; }
+  /// From the next linearization on, whether its stiffness is without that of bending; the coarse correction's is with it.
+  void leave_out_bending(bool is_out) { is_bending_out_ = is_out; }
 
   [[nodiscard]] const EdgeSlots& slots() const { return *slots_; }
   /// The springs between some nodes; what couples them to others is in the diagonal only. Dampers count as in steps of 1/60 s.
@@ -114,6 +113,7 @@ class NetworkForces {
   SharedValue<AlignedVector<Scalar>> springs_;
   bool has_damping_ = false;  ///< without: no array
   bool has_bending_ = false;
+  bool is_bending_out_ = false;
   AlignedVector<Scalar> damping_;  ///< for each lane [N s/m]
   AlignedVector<Scalar> dampers_;
   AlignedVector<float> bending_;

@@ -56,7 +56,7 @@ void ImplicitSolver<Scalar>::set_nodes(const VectorX<double>& masses,
         &constraint_forces_, &unmoved_, &last_positions_, &last_results_, &compensation_}) {
     vectors->setZero(num_rows, 3);
   }
-  for (Matrix3X<Scalar>* vectors : {&step_force_positions_, &step_forces_}) vectors->setZero(3, n);
+  step_forces_.resize(n);
   masses_.setZero(num_rows);
   masses_.head(n) = masses.cast<Scalar>();
   inertia_.setZero(num_rows);

@@ -7,6 +7,7 @@
 #include <weft/fast_solver/newton/contact_decisions.hpp>
 #include <weft/fast_solver/newton/node_stiffness.hpp>
 #include <weft/fast_solver/newton/stop_criterion.hpp>
+#include <weft/fast_solver/newton/transverse_stiffness.hpp>
 
 #include <weft/core/index.hpp>
 
@@ -15,10 +16,6 @@ namespace {
 
 /// The coarse matrix is factorized again after so many iterations.
 constexpr int kIterationsPerFactor = 4;
-/// Least transverse over axial stiffness of a spring after an iteration that increased the energy, and its growth if that was not
-/// enough: with 1 no iteration gains any.
-constexpr double kFirstTransverse = 0.02;
-constexpr double kTransverseGrowth = 7;
 /// The share of an energy that is rounding [-]. In contact with what nothing moves there is more of it, of what nodes press with and
 /// the last digits of their heights: gains of less than kEnergyDoubt are judged by the slopes at both ends (Hager and Zhang 2005).
 /// Not so on bodies: between fingers friction gives way by what rounding would excuse.
@@ -79,7 +76,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
   StopCriterion stop;
   ContactDecisions decisions(has_contacts, !supports_.empty(), problem.continues);
   energy_before_ = 0;
-  double transverse = 0;
+  TransverseStiffness transverse;
   bool is_within = false;
   report_ = {.is_converged = false};
   anderson_.forget();
@@ -92,42 +89,42 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
                   .is_first = iteration == 0,
                   .decides = decisions.decides(),
                   .continues = problem.continues,
-                  .is_cautious = transverse > 0,
+                  .is_cautious = transverse.is_raised(),
                   .factorizes = iteration % kIterationsPerFactor == 0});
     if (iteration == 0 || has_contacts) stop.set_rounding(gain_of_rounding_now(is_on_fixed));
     const bool are_contact_states_new =
         has_met_planes_ ||
         (decisions.decides() && (iteration == 0 || have_contact_states_changed_));
     decisions.add(iteration == 0, are_contact_states_new);
-    const double now = energy(problem, positions_, &Body::motion);
+    double now = energy(problem, positions_, &Body::motion);
     const bool is_rounding = !last_gain_.is_broken && last_gain_.total <= stop.most_of_rounding();
     const bool is_doubtful = is_on_fixed && last_gain_.slope_left > kSteepestRise &&
                              last_gain_.total <= kEnergyDoubt * std::abs(energy_before_);
     const double noise = (is_doubtful ? kEnergyDoubt : kEnergyRounding) * energy_before_ +
                          (is_rounding ? stop.most_of_rounding() : stop.rounding());
-    if (!are_contact_states_new && !(now <= energy_before_ + asked + noise)) {
-      restore_positions();
+    const double most = energy_before_ + asked + noise;
+    if (!are_contact_states_new) now = shorten_bending(problem, now, most);
+    if (!are_contact_states_new && !(now <= most)) {
+      const bool is_stiffest = !step_forces_.follow() && !transverse.raise();
+      forces_.set_least_transverse_stiffness(static_cast<Scalar>(transverse.share()));
+      restore_positions();  // with the linearization of the repetition
       anderson_.forget();
-      const bool is_stiffest = transverse == 1;
-      transverse = std::min(1.0, std::max(kFirstTransverse, kTransverseGrowth * transverse));
       if (is_stiffest) {
         // With this linearization every spring gains. What is left is rounding, if that is all that the step could have gained.
         const double least =
             std::max({stop.most_of_rounding(), asked, kEnergyRounding * std::abs(energy_before_)});
         if (last_gain_.is_broken || last_gain_.total > least) break;
         report_.is_converged = decisions.are_settled();
-        transverse = 0;
         stop.forget_stalls();
       }
-      forces_.set_least_transverse_stiffness(static_cast<Scalar>(transverse));
       decisions.decide_next(is_stiffest);
       continue;
     }
     wanted = squared_tolerance * motion_that_counts(has_contacts);
     stop.add(last_gain_, has_contacts ? 0 : energy_before_ - now, are_contact_states_new);
     energy_before_ = now;
-    transverse = transverse > kFirstTransverse ? transverse / kTransverseGrowth : 0.0;
-    forces_.set_least_transverse_stiffness(static_cast<Scalar>(transverse));
+    transverse.lower();
+    forces_.set_least_transverse_stiffness(static_cast<Scalar>(transverse.share()));
     report_.energy_left = last_gain_.is_broken ? step_energy_ : stop.energy_left();
     const bool is_solved = stop.is_solved(wanted);
     const bool is_over = is_solved || (stop.is_stalled() && solver_settings.tolerance > 0);
@@ -136,7 +133,9 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     if (is_over && !report_.is_converged && !decisions.can_decide()) break;
     decisions.plan(iteration, last_gain_.total, is_over, has_met_planes_);
     if (decisions.decides()) stop.forget_stalls();
-    if (are_contact_states_new) {
+    const bool bends_now = last_gain_.slope_left < kSteepestRise && step_forces_.follow();
+    if (bends_now) evaluate();
+    if (are_contact_states_new || bends_now) {
       anderson_.forget();
     } else if (!report_.is_converged && iteration + 1 < solver_settings.newton_iterations) {
       energy_before_ = accelerate(problem, now);

@@ -2,6 +2,7 @@
 
 // Tested by tests/fast_solver/newton/node_stiffness_test.cpp.
 
+#include <cmath>
 #include <limits>
 
 #include <weft/core/types.hpp>
@@ -36,6 +37,25 @@ template <class Scalar>
     sum += static_cast<double>(places.cwiseAbs2().template cast<float>().dot(stiffness));
   }
   return kVariance * kUnit * kUnit * sum;
+}
+
+/// One step of Jacobi's method for the residual and constraint forces of some nodes [N], which positions on their grid cannot follow.
+template <class Scalar>
+void find_compensation(NodeRange nodes, const BlockArrays& blocks, const VectorX<float>& inertia,
+                       const NodeArrays<Scalar>& residuals, const NodeArrays<Scalar>& constraints,
+                       const NodeArrays<Scalar>& positions, NodeArrays<Scalar>& compensation) {
+  constexpr Scalar kHalfRounding = std::numeric_limits<Scalar>::epsilon() / 2;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = nodes.begin; i < nodes.end; ++i) {
+      const Scalar stiffness = Scalar(inertia[i] + blocks(i, axis));
+      const Scalar left = residuals(i, axis) + constraints(i, axis);
+      const Scalar most = kHalfRounding * std::abs(positions(i, axis));
+      const Scalar displacement = left / (stiffness > 0 ? stiffness : Scalar(1));
+      compensation(i, axis) = displacement > most    ? most
+                              : displacement < -most ? -most
+                                                     : displacement;
+    }
+  }
 }
 
 }  // namespace weft::fast

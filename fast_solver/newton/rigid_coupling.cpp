@@ -101,7 +101,11 @@ void ImplicitSolver<Scalar>::factorize_bodies() {
     for (int k = 0; k < 6 && (is_behind || !linked_blocks_.empty()); ++k) {
       body.correction = Floats6::Unit(k);
       add_carried(links_, bodies_, &Body::correction, correction);
-      forces_.multiply(linked_blocks_, system_inertia_, correction, correction_product_);
+      find_strains(correction);
+      for (const int block : linked_blocks_) {
+        multiply_nodes({block * kNodeBlock, (block + 1) * kNodeBlock}, correction,
+                       correction_product_);
+      }
       body.correction_product = body.inertia.col(k);
       supports_.add_products(correction, &Body::correction, correction_product_, bodies_,
                              &Body::correction_product);

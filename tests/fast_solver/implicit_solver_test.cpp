@@ -1,5 +1,7 @@
 #include <cmath>
+#include <cstdlib>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <Eigen/LU>
@@ -395,6 +397,86 @@ TEST(ImplicitSolver, LeadsANodeAndSaysWhatThatTakes) {
   const Vector3<double> momentum = (x - q) * mesh.masses / kTimeStep;
   EXPECT_GT(momentum[1], 1e-3);
   EXPECT_LT((momentum - kTimeStep * solver.constraint_force(4)).norm(), 1e-6 * momentum.norm());
+}
+
+/// Holds four nodes at a time by c^2 / 2 with c = s |x0 - x1 + x2 - x3 - r|^2 / 2: without stiffness at rest, and stiff where they have left it.
+class StiffeningForces : public StepForces<double> {
+ public:
+  StiffeningForces(ElementStiffness::Elements elements, const Matrix3X<double>& rest, bool knows)
+      : elements_(std::move(elements)), rest_(rest), knows_stiffness_(knows) {
+    stiffness_.set_elements(elements_, static_cast<int>(rest.cols()));
+  }
+  void add_forces(ConstMatrix3XRef<double> positions, Matrix3XRef<double> forces) const override {
+    for (Eigen::Index e = 0; e < elements_.cols(); ++e) {
+      const Vector3<double> left = left_of(e, positions);
+      for (int corner = 0; corner < 4; ++corner) {
+        forces.col(elements_(corner, e)) -=
+            kSigns[corner] * kScale * kScale / 2 * left.squaredNorm() * left;
+      }
+    }
+  }
+  [[nodiscard]] double energy(ConstMatrix3XRef<double> positions) const override {
+    double sum = 0;
+    for (Eigen::Index e = 0; e < elements_.cols(); ++e) {
+      sum += std::pow(kScale / 2 * left_of(e, positions).squaredNorm(), 2) / 2;
+    }
+    return sum;
+  }
+  [[nodiscard]] bool has_stiffness() const override { return knows_stiffness_; }
+  [[nodiscard]] ElementStiffness* stiffness(ConstMatrix3XRef<double> positions) const override {
+    if (!knows_stiffness_) return nullptr;
+    for (Eigen::Index e = 0; e < elements_.cols(); ++e) {
+      const Vector3<double> gradient = kScale * left_of(e, positions);
+      for (int corner = 0; corner < 4; ++corner) {
+        stiffness_.gradients().col(e).segment<3>(3 * corner) =
+            (kSigns[corner] * gradient).cast<float>();
+      }
+    }
+    return &stiffness_;
+  }
+
+ private:
+  static constexpr double kScale = 1000;  // [sqrt(N/m)/m]
+  static constexpr int kSigns[] = {1, -1, 1, -1};
+  [[nodiscard]] Vector3<double> left_of(Eigen::Index e, ConstMatrix3XRef<double> positions) const {
+    Vector3<double> left = Vector3<double>::Zero();
+    for (int corner = 0; corner < 4; ++corner) {
+      const int node = elements_(corner, e);
+      left += kSigns[corner] * (positions.col(node) - rest_.col(node));
+    }
+    return left;
+  }
+  ElementStiffness::Elements elements_;
+  Matrix3X<double> rest_;
+  bool knows_stiffness_;
+  mutable ElementStiffness stiffness_;
+};
+
+// As bending of triangles that are squeezed is: many times as stiff as the matrix that the network has for it.
+TEST(ImplicitSolver, FollowsTheStiffnessOfForcesThatStiffen) {
+  const ClothMesh mesh = solver_cloth(16);
+  const auto is_free = all_free_but(mesh, {0, 15});
+  const Matrix3X<double> q = mesh.rest_positions;
+  ElementStiffness::Elements elements(4, 60);
+  for (int e = 0; e < 60; ++e) elements.col(e) << 4 * e, 4 * e + 1, 4 * e + 2, 4 * e + 3;
+  std::srand(1);
+  Matrix3X<double> v = Matrix3X<double>::Random(3, q.cols());
+  for (const int pin : {0, 15}) v.col(pin).setZero();
+  const Matrix3X<double> y = fallen(q, v, is_free);
+  ImplicitSolver<double> solver(springs(mesh, 200.0), mesh.masses, is_free);
+  const auto report = [&](bool knows_stiffness) {
+    const StiffeningForces forces(elements, q, knows_stiffness);
+    Matrix3X<double> x = q + kTimeStep * v;
+    solver.solve({.inertial_positions = y,
+                  .start_positions = q,
+                  .time_step = kTimeStep,
+                  .inertia_step = kTimeStep,
+                  .forces = &forces},
+                 {}, x);
+    return solver.report();
+  };
+  EXPECT_TRUE(report(true).is_converged);
+  EXPECT_FALSE(report(false).is_converged);
 }
 
 }  // namespace
