@@ -26,10 +26,11 @@ using LawSet = forces::LawSet<btScalar>;
 
 namespace {
 
+/// Those that Bullet integrates as forces: FastBody solves for springs and bending.
 LawSet explicit_laws(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws) {
   std::vector<forces::LawSpecification> rest;
   for (const forces::LawSpecification& law : laws) {
-    if (!fast::is_implicit(law)) rest.push_back(law);
+    if (!fast::is_implicit(law) && !fast::is_bending(law.law)) rest.push_back(law);
   }
   return make_laws(mesh, rest);
 }
@@ -234,8 +235,8 @@ void SoftBodySolver::replace_laws(btSoftBody& body, const ClothMesh& mesh,
 
 TornLaws SoftBodySolver::laws_after(const btSoftBody& body, const Tear& tear,
                                     const std::vector<forces::LawSpecification>& laws) const {
-  if (!is_fast(body)) return {make_laws(tear.mesh, laws), {}, {}};
-  TornLaws torn{explicit_laws(tear.mesh, laws), {}, {}};
+  if (!is_fast(body)) return {make_laws(tear.mesh, laws), {}, {}, {}};
+  TornLaws torn{explicit_laws(tear.mesh, laws), {tear.mesh, laws}, {}, {}};
   torn.is_changed.assign(static_cast<std::size_t>(tear.mesh.num_nodes()), 0);
   for (const int node : tear.changed) torn.is_changed[static_cast<std::size_t>(node)] = 1;
   torn.springs = fast::make_network_at(torn.is_changed, tear.mesh, laws);
@@ -252,6 +253,7 @@ void SoftBodySolver::replace_laws(btSoftBody& body, const Tear& tear, TornLaws l
     throw;
   }
   if (!fast) return;
+  fast->set_bending(std::move(laws.bending));
   fast->tear(laws.springs, laws.is_changed, tear.mesh.masses, tear.origins);
   find(body)->fast = std::move(fast);
 }

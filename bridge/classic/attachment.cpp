@@ -131,10 +131,7 @@ void SoftBodySolver::Attachment::predict(btScalar time_step) {
     check_prediction();
   };
   const bool fits = masses().size() == body->m_nodes.size();  // if not, the laws say so
-  if (fast && fits) {
-    fast->apply_external_impulses(*body, time_step);
-    fast->set_laws(laws, masses());
-  }
+  if (fast && fits) fast->apply_external_impulses(*body, time_step);
   if (fast && fits && !deferred.is_in_flight() && laws.is_node_by_node()) {
     const auto threads = fast->hold_threads();
     if (add_forces_node_by_node(time_step)) return predict_fast();

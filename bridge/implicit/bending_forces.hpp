@@ -1,38 +1,54 @@
 #pragma once
 
-// Tested by tests/bridge/tearing_test.cpp, tests/bridge/implicit/explosion_test.cpp.
+// Tested by tests/bridge/tearing_test.cpp, tests/scenes/catalog/sock_puppet_test.cpp.
 
+#include <memory>
 #include <vector>
 
 #include <weft/bridge/bullet/precision.hpp>
-#include <weft/custom_forces/law_set.hpp>
+#include <weft/custom_forces/force_law.hpp>
+#include <weft/custom_forces/law_info.hpp>
+#include <weft/custom_forces/laws/elastic/hinge_torsion.hpp>
+#include <weft/fast_solver/network/element_stiffness.hpp>
 #include <weft/fast_solver/step_problem.hpp>
+#include <weft/mesh/cloth_mesh.hpp>
 
 namespace weft::bridge {
 inline namespace WEFT_BULLET_PRECISION {
 
-/// How bending forces change within a step. Those of its start are among the forces that Bullet integrates, like those of all
-/// laws that are not implicit; f(x) - f(q) is what an implicit step adds to them, so that it ends with f(x).
+/// The bending laws of a body, which an implicit step solves for like its springs: they are not among the forces that Bullet
+/// integrates.
 class BendingForces : public fast::StepForces<btScalar> {
  public:
-  /// The bending laws of a set, which must live until the step ends. masses: n [kg].
-  void set_laws(const forces::LawSet<btScalar>& laws, const VectorX<btScalar>& masses);
+  BendingForces() = default;
+  /// Those of the laws that resist bending. Throws as forces::make_law().
+  BendingForces(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws);
   [[nodiscard]] bool empty() const { return laws_.empty(); }
-  /// starts: q, 3 x n [m].
-  void begin_step(ConstMatrix3XRef<btScalar> starts);
+  /// n [kg]
+  void set_masses(const VectorX<double>& masses);
 
   void add_forces(ConstMatrix3XRef<btScalar> positions,
                   Matrix3XRef<btScalar> forces) const override;
   [[nodiscard]] double energy(ConstMatrix3XRef<btScalar> positions) const override;
+  /// Not where a law is not hinge_torsion: of others only the stiffness at the rest shape is known.
+  [[nodiscard]] bool has_stiffness() const override { return hinges_.size() == laws_.size(); }
+  [[nodiscard]] fast::ElementStiffness* stiffness(
+      ConstMatrix3XRef<btScalar> positions) const override;
 
  private:
-  void add_law_forces(ConstMatrix3XRef<btScalar> positions, Matrix3XRef<btScalar> forces) const;
+  using Hinges = forces::HingeTorsion<btScalar>;
+  [[nodiscard]] forces::State<btScalar> state_at(ConstMatrix3XRef<btScalar> positions) const {
+    return {positions, no_velocities_, masses_, 0.0};
+  }
+  void set_hinges(int num_nodes);
 
-  std::vector<const forces::ForceLaw<btScalar>*> laws_;
+  std::vector<std::unique_ptr<forces::ForceLaw<btScalar>>> laws_;
+  std::vector<const Hinges*> hinges_;  ///< of those
   VectorX<btScalar> masses_;
   Matrix3X<btScalar> no_velocities_;
-  Matrix3X<btScalar> start_forces_;
   mutable Matrix3X<btScalar> scratch_;
+  mutable fast::ElementStiffness stiffness_;
+  mutable Hinges::Gradients gradients_;  ///< of one law
 };
 
 }  // namespace WEFT_BULLET_PRECISION

@@ -31,12 +31,14 @@ void include_in_bounds(const Matrix3X<btScalar>& positions, btSoftBody& body) {
 
 FastBody::FastBody(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
                    VectorX<double> masses, const FastSettings& settings)
-    : network_(fast::make_network(mesh, laws)),
+    : bending_(mesh, laws),
+      network_(fast::make_network(mesh, laws)),
       masses_(std::move(masses)),
       wave_speed_(wave_speed(network_, masses_)),
       explicit_(network_, masses_),
       settings_(settings) {
   check(settings);
+  bending_.set_masses(masses_);
   set_num_nodes(masses_.size());
 }
 
@@ -55,6 +57,7 @@ void FastBody::tear(const fast::SpringNetwork& springs, const std::vector<char>&
   masses_ = std::move(masses);
   explicit_.forget();
   history_.is_replaced = true;
+  bending_.set_masses(masses_);
   set_num_nodes(masses_.size());
   if (solver_) {
     if (limited_.as_given.edges.cols() > 0) {
@@ -343,8 +346,6 @@ void FastBody::begin_solve(btSoftBody& body, btScalar time_step,
   pushed_.begin_solve(pushed);
   if (excess_ > 0 && (was_changed_outside() || !are_positions_kept())) excess_ = 0;
   set_targets(body, choose_method(body, time_step), time_step);
-  // Forces of bending at the start of the whole step are among those that the step was predicted with.
-  if (!bending_.empty() && num_substeps_ == 1) bending_.begin_step(starts_);
   solve(body, time_step, settings_.solver, false);
 }
 

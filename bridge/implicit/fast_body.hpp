@@ -46,7 +46,7 @@ inline namespace WEFT_BULLET_PRECISION {
 class FastBody : public NodeTeam {
  public:
   using PreparedSolvers = fast::PreparedSolvers<btScalar>;
-  /// laws: all of the body's; those that are not implicit only lend their stiffness. masses: n [kg].
+  /// laws: all of the body's, of which those of springs and of bending are solved for here. masses: n [kg].
   /// Throws InvalidArgument as make_network() and for fewer than one iteration.
   FastBody(const ClothMesh& mesh, const std::vector<forces::LawSpecification>& laws,
            VectorX<double> masses, const FastSettings& settings);
@@ -62,10 +62,8 @@ class FastBody : public NodeTeam {
             VectorX<double> masses, const std::vector<int>& origins);
   /// Another rest length [m], > 0, of the spring between two nodes; does nothing without such a spring.
   void set_rest_length(int first, int second, double rest_length);
-  /// Laws of the body; those of bending follow the positions within a step. To be called before each step.
-  void set_laws(const forces::LawSet<btScalar>& laws, const VectorX<btScalar>& masses) {
-    bending_.set_laws(laws, masses);
-  }
+  /// Other bending laws, for the masses of the body; they take part in the solution.
+  void set_bending(BendingForces bending) { bending_ = std::move(bending); }
   /// A body that sleeps is not to be stepped: only these are called.
   [[nodiscard]] bool is_asleep() const { return sleep_.is_asleep(); }
   [[nodiscard]] bool is_at_rest() const { return sleep_.is_at_rest(settings_); }

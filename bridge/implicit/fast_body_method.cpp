@@ -182,14 +182,17 @@ FastBody::EnergyBalance FastBody::energy_balance(btScalar time_step, double for_
   for (const int pin : pins_) weights_.col(pin).setZero();
   const double given = energy_put_in(
       {weights_, starts_, start_velocities_, predicted_, positions_, time_step}, team_);
-  const double start = solver_->spring_energy(starts_, team_);
-  const double end = solver_->spring_energy(positions_, team_);
+  const auto stored_at = [this](const Matrix3X<btScalar>& positions) {
+    return solver_->spring_energy(positions, team_) + bending_.energy(positions);
+  };
+  const double start = stored_at(starts_);
+  const double end = stored_at(positions_);
   const bool is_between = method_ == Method::kForces || method_ == Method::kExplicit;
   // Where velocities are those of the middle of a step, what springs store from middle to middle counts.
   double stored = end - start;
   if (is_between) {
     const btScalar share = std::min(btScalar(1), time_step / last_spacing_);
-    stored += static_cast<double>(share) * (start - solver_->spring_energy(last_starts_, team_));
+    stored += static_cast<double>(share) * (start - stored_at(last_starts_));
     stored /= 2;
   }
   const double slack =

@@ -74,7 +74,6 @@ void FastBody::begin_substeps(const btSoftBody& body, btScalar time_step) {
   pin_starts_ = starts_(Eigen::all, pins_).colwise() + origin_;
   pin_ends_.clear();
   for (const int pin : pins_) pin_ends_.push_back(body.m_nodes[pin].m_x);
-  if (!bending_.empty()) bending_.begin_step(starts_);
 }
 
 void FastBody::begin_substep(btSoftBody& body, const RigidSubsteps& rigid, int substep,
