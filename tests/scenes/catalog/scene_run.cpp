@@ -28,7 +28,8 @@ int piercings(const SceneState& state, const std::vector<ClothMesh>& meshes) {
 
 }  // namespace
 
-void run_scene(const Scene& for_all, const std::function<void(const SceneState&)>& look) {
+void run_scene(const Scene& for_all, const std::function<void(const SceneState&)>& look,
+               const std::function<void(const StepReport&)>& read) {
   const std::string name = for_all.engines.empty() ? "bullet_soft" : for_all.engines.front();
   const EngineInfo* engine = find_engine(name, StoredPrecision::kFloat32);
   ASSERT_NE(engine, nullptr);
@@ -41,6 +42,7 @@ void run_scene(const Scene& for_all, const std::function<void(const SceneState&)
   for (int step = 1; step <= num_steps; ++step) {
     const StepReport report = simulator->step(world.time_step);
     ASSERT_FALSE(report.blow_up) << report.blow_up->body << ": " << report.blow_up->reason;
+    read(report);
     if (step % per_frame == 0) look(simulator->state());
   }
 }

@@ -10,9 +10,11 @@
 
 namespace weft::scenes {
 
-/// Runs a scene on the first engine that it names, in single precision, and looks at every frame.
+/// Runs a scene on the first engine that it names, in single precision, and looks at every frame and at every step.
 /// Fails the test if the run blows up.
-void run_scene(const Scene& scene, const std::function<void(const SceneState&)>& look);
+void run_scene(
+    const Scene& scene, const std::function<void(const SceneState&)>& look,
+    const std::function<void(const StepReport&)>& read = [](const StepReport&) {});
 
 /// What all frames of a run have in common.
 struct RunNumbers {
