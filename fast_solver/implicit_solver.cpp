@@ -64,7 +64,7 @@ void ImplicitSolver<Scalar>::load(const StepProblem<Scalar>& problem,
       });
 }
 
-// Displacements times the stiffness of step forces need them.
+// Products with the stiffness of step forces need the strains of all elements, which other parts' nodes may have.
 template <class Scalar>
 void ImplicitSolver<Scalar>::find_strains(const Floats& displacements) {
   if (!step_forces_.has_elements()) return;
@@ -135,7 +135,7 @@ void ImplicitSolver<Scalar>::multiply(const Floats& displacements, Floats6 Body:
   team_->run(parts_.count(), [this, finish](int part) { finish(parts_[part], part); });
 }
 
-// What the preconditioner needs of a part's own nodes: the residual smoothed by block Jacobi, the fine level, which is accurate for
+// The preconditioner needs two things of a part's own nodes: the residual smoothed by block Jacobi, the fine level, which is accurate for
 // motion that is transverse to the sheet, and its restriction for the coarse correction.
 template <class Scalar>
 void ImplicitSolver<Scalar>::smooth(int part) {

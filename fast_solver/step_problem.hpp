@@ -20,7 +20,7 @@ class StepForces {
   virtual void add_forces(ConstMatrix3XRef<Scalar> positions, Matrix3XRef<Scalar> forces) const = 0;
   /// Whether stiffness() is known; if not, the constant one of the network stands for it wherever nodes are.
   [[nodiscard]] virtual bool has_stiffness() const { return false; }
-  /// Their stiffness at positions, until the next call; null if it is not known.
+  /// Their stiffness at positions, if it is known: not null then, and valid until the next call.
   [[nodiscard]] virtual ElementStiffness* stiffness(ConstMatrix3XRef<Scalar> /*positions*/) const {
     return nullptr;
   }

@@ -59,7 +59,6 @@ void BendingForces::set_hinges(int num_nodes) {
 }
 
 fast::ElementStiffness* BendingForces::stiffness(ConstMatrix3XRef<btScalar> positions) const {
-  if (!has_stiffness()) return nullptr;
   Eigen::Index first = 0;
   for (const auto* law : hinges_) {
     const Eigen::Index count = law->hinges().cols();

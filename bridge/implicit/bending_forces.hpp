@@ -1,7 +1,5 @@
 #pragma once
 
-// Tested by tests/bridge/tearing_test.cpp, tests/scenes/catalog/sock_puppet_test.cpp.
-
 #include <memory>
 #include <vector>
 

@@ -15,6 +15,7 @@ constexpr double kSmallestShare = 0.1;
 constexpr double kRoundingShare = 0.01;
 /// Iterations of a step that the budget has left with more energy than it began with.
 constexpr int kSafeIterations = 8;
+/// Halvings of a whole step towards where it began, and of one iteration.
 constexpr int kHalvings = 6;
 constexpr int kHalvingsOfIteration = 8;
 /// A motion with so many times the energy of the motion without springs has gone astray, and is begun anew [-].

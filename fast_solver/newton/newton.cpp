@@ -133,9 +133,9 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     if (is_over && !report_.is_converged && !decisions.can_decide()) break;
     decisions.plan(iteration, last_gain_.total, is_over, has_met_planes_);
     if (decisions.decides()) stop.forget_stalls();
-    const bool bends_now = last_gain_.slope_left < kSteepestRise && step_forces_.follow();
-    if (bends_now) evaluate();
-    if (are_contact_states_new || bends_now) {
+    const bool is_followed_now = last_gain_.slope_left < kSteepestRise && step_forces_.follow();
+    if (is_followed_now) evaluate();
+    if (are_contact_states_new || is_followed_now) {
       anderson_.forget();
     } else if (!report_.is_converged && iteration + 1 < solver_settings.newton_iterations) {
       energy_before_ = accelerate(problem, now);

@@ -424,7 +424,6 @@ class StiffeningForces : public StepForces<double> {
   }
   [[nodiscard]] bool has_stiffness() const override { return knows_stiffness_; }
   [[nodiscard]] ElementStiffness* stiffness(ConstMatrix3XRef<double> positions) const override {
-    if (!knows_stiffness_) return nullptr;
     for (Eigen::Index e = 0; e < elements_.cols(); ++e) {
       const Vector3<double> gradient = kScale * left_of(e, positions);
       for (int corner = 0; corner < 4; ++corner) {
