@@ -105,7 +105,8 @@ export function characterMeshes(character: TomlTable): Map<string, ClothMesh> {
     const parts = take(text(entry["part"]));
     if (parts.length > 0) add(text(entry["name"]), parts, entry);
     // The page shows the simulated cloth, so what Weft draws in its place is no skin either.
-    take(text(table(entry["drawn_mesh"])?.["part"]));
+    const drawn = table(entry["drawn_mesh"]);
+    if (drawn) take(text(drawn["part"]));
   }
   for (const node of new Set(model.parts.map((part) => part.node))) {
     const group = model.parts.filter((part) => part.node === node && !taken.has(part));
