@@ -206,11 +206,15 @@ class ImplicitSolver : TeamLoops {
   void stay_at_start(const StepProblem<Scalar>& problem);
   void enforce_descent(const StepProblem<Scalar>& problem, int iterations);
   void restore_start();
-  /// Only part of the last step, if it went too far; evaluate() is due then.
-  bool shorten_step(double work_before);
+  /// Takes less or more than the last step, by what is left of work_before, the work of all forces with it [J]. Returns whether
+  /// evaluate() is due.
+  bool search_line(const StepProblem<Scalar>& problem, const NewtonIteration& iteration,
+                   double work_before);
   void move_bodies(Scalar share);
-  /// The work of the residual forces with the step, at nodes with a hold [J].
-  [[nodiscard]] double work_of_constrained() const;
+  /// The work of the residual forces with the step that holds take up [J]: at nodes with a hold, without bodies but for
+  /// that along planes on which they slide, where friction at these positions works too.
+  [[nodiscard]] double work_of_holds(const StepProblem<Scalar>& problem,
+                                     const Nodes& positions) const;
   void find_constraint_forces();
   [[nodiscard]] double residual_norm();
   /// A shift of all nodes [m]; bodies are shifted already.
@@ -267,7 +271,8 @@ class ImplicitSolver : TeamLoops {
   LinearGains gains_;            ///< of the last linear solve
   SolverReport report_;
   double residual_ = 0, step_energy_ = 0;
-  bool has_constraint_forces_ = false, was_clamped_ = false, has_met_planes_ = false;
+  bool has_constraint_forces_ = false, was_clamped_ = false, was_lengthened_ = false,
+       has_met_planes_ = false;
   bool have_contact_states_changed_ = false;  ///< in the last iteration
 };
 

@@ -25,7 +25,7 @@ MAX_CLASS_LINES = 400
 MAX_CLASS_FUNCTIONS = 25
 # "module Class" -> how many lines and functions it may have today, and why. They go down; up only for what a fault needs.
 LARGE_CLASSES = {
-    "fast_solver ImplicitSolver": (1550, 72, "Newton, line search, contact states and rigid coupling share the state of a step"),
+    "fast_solver ImplicitSolver": (1580, 72, "Newton, line search, contact states and rigid coupling share the state of a step"),
     "bridge FastBody": (1060, 57, "all stages of an implicit step of one body"),
     "bridge SoftBodySolver": (867, 54, "everything that a program may call, and Bullet's nine hooks"),
     "fast_solver CoarseCorrection": (538, 26, "set-up, changes and use of one coarse space"),

@@ -352,10 +352,21 @@ void ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
 }
 
 template <class Scalar>
-double ImplicitSolver<Scalar>::work_of_constrained() const {
+double ImplicitSolver<Scalar>::work_of_holds(const StepProblem<Scalar>& problem,
+                                             const Nodes& positions) const {
   double work = 0;
-  for (const int i : constrained_)
-    work += static_cast<double>(at_node(residual_forces_, i).dot(step_of(i)));
+  for (const int i : constrained_) {
+    const Vector3<Scalar> force = at_node(residual_forces_, i);
+    work += static_cast<double>(force.dot(step_of(i)));
+    // Bodies get the friction of the linear system, wherever the step has led.
+    if (!bodies_.empty() || contact_of_[at(i)] < 0) continue;
+    if (contact_states_[at(i)] != ContactState::kOnPlane) continue;
+    const PlaneContact<Scalar>& contact = problem.contacts[at(contact_of_[at(i)])];
+    const Vector3<Scalar> friction =
+        friction_.force_at(i, slip_of(contact, at_node(positions, i), &Body::motion));
+    const Vector3<Scalar> along = step_of(i) - contact.normal.dot(step_of(i)) * contact.normal;
+    work -= static_cast<double>((force + friction).dot(along));
+  }
   return work;
 }
 

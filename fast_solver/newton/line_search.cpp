@@ -9,8 +9,11 @@
 namespace weft::fast {
 namespace {
 
-/// The smallest fraction of a step that is taken [-].
+/// A step that leaves more of the slope than this, either way, has another length [-].
+constexpr double kMuchLeft = 0.5;
+/// The smallest fraction of a step that is taken, and the largest multiple [-].
 constexpr double kSmallestShare = 0.1;
+constexpr double kLongest = 20;
 /// The share of that energy that rounding may make of a step that changes nothing [-].
 constexpr double kRoundingShare = 0.01;
 /// Iterations of a step that the budget has left with more energy than it began with.
@@ -26,18 +29,42 @@ constexpr double kFarUp = 10;
 // Shortens the step where the linear model fails, because springs turn far in one step. The test is the directional derivative of the
 // energy at the end of the step. If it opposes the step by more than half of what drove it, the step is cut back to the zero
 // of the secant.
+//
+// Compressed springs are softer than the linear model, so that such steps end with much of the slope that they began with, and each
+// covers the same part of the way that is left. Close to the solution they are lengthened, to the zero of the secant too. Far from it
+// nodes would jump into other folds.
 template <class Scalar>
-bool ImplicitSolver<Scalar>::shorten_step(double work_before) {
-  const double work_after = work_left_ - work_of_constrained() + work_of_bodies();
-  last_gain_.slope_left = work_before > 0 ? work_after / work_before : 0;
-  if (!(work_before > 0 && work_after < -0.5 * work_before)) return false;
-  const double share = std::max(kSmallestShare, work_before / (work_before - work_after));
-  const auto excess = static_cast<Scalar>(1.0 - share);
-  for (const int i : constrained_) step_.row(i).setZero();
-  add_carried(links_, bodies_, &Body::step, step_);
-  move_bodies(-excess);
-  positions_ -= excess * step_.template cast<Scalar>();
-  return true;
+bool ImplicitSolver<Scalar>::search_line(const StepProblem<Scalar>& problem,
+                                         const NewtonIteration& iteration, double work_before) {
+  const auto find_slope = [&] {
+    const double left = work_left_ + work_of_bodies() - work_of_holds(problem, positions_);
+    last_gain_.slope_left = work_before > 0 ? left / work_before : 0;
+  };
+  find_slope();
+  const double slope = last_gain_.slope_left;
+  was_lengthened_ = false;
+  if (slope < -kMuchLeft) {
+    const auto excess = static_cast<Scalar>(1 - std::max(kSmallestShare, 1 / (1 - slope)));
+    for (const int i : constrained_) step_.row(i).setZero();
+    add_carried(links_, bodies_, &Body::step, step_);
+    move_bodies(-excess);
+    positions_ -= excess * step_.template cast<Scalar>();
+    return true;
+  }
+  was_lengthened_ = slope > kMuchLeft && last_gain_.total <= iteration.most_to_lengthen;
+  if (!was_lengthened_) return false;
+  // What has put nodes onto planes is no part of the way.
+  for_each_part([this](NodeRange nodes) { project(nodes, step_); });
+  const auto go = [&](double share) {
+    positions_ += static_cast<Scalar>(share) * step_.template cast<Scalar>();
+    evaluate(iteration.linearizes);
+    find_slope();
+  };
+  const double further = 1 / std::max(1 - slope, 1 / kLongest) - 1;
+  go(further);
+  const double beyond = last_gain_.slope_left;
+  if (beyond < -kMuchLeft) go(further * beyond / (slope - beyond));
+  return false;
 }
 
 // Where bending is followed, halves the iteration until the energy, now, is at most this: hinges that are bent far turn over, and their

@@ -24,6 +24,9 @@ constexpr double kEnergyDoubt = 1e-6;
 constexpr double kSteepestRise = -0.5;
 /// In contact rounding gains so many times as much as without, for heights above planes are rounded too [-].
 constexpr double kRoundingOfHeights = 3;
+/// In contact with what nothing moves iterations may be lengthened that gain at most so many times what may be left: the solution is
+/// close. Without contacts steps are solved as soon, and their errors are said better, if they are not [-].
+constexpr double kCloseBy = 100;
 /// The share of an energy that a step without motion is held against [-].
 constexpr double kAtRest = 0.01;
 constexpr double kAtRestInContact = 0.3;
@@ -55,10 +58,10 @@ void ImplicitSolver<Scalar>::iterate_once(const StepProblem<Scalar>& problem,
   const double of_bodies = work_of_bodies();
   move();
   const std::size_t num_constrained = constrained_.size();
-  const double of_others = of_bodies - work_of_constrained();
+  const double work = work_done_ + of_bodies - work_of_holds(problem, last_positions_);
   evaluate(iteration.linearizes);
   // The linear model knows nothing of planes that it has not met: it is judged before nodes are put in front of them.
-  const bool is_shorter = shorten_step(work_done_ + of_others);
+  const bool is_shorter = search_line(problem, iteration, work);
   clamp(problem);
   has_met_planes_ = constrained_.size() > num_constrained;
   if (is_shorter || was_clamped_) evaluate(iteration.linearizes);
@@ -86,6 +89,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     iterate_once(problem,
                  {.iterations = solver_settings.linear_iterations,
                   .accuracy = accuracy_of(iteration, has_contacts, !bodies_.empty(), wanted),
+                  .most_to_lengthen = is_on_fixed ? kCloseBy * wanted : 0,
                   .is_first = iteration == 0,
                   .decides = decisions.decides(),
                   .continues = problem.continues,
@@ -135,7 +139,7 @@ void ImplicitSolver<Scalar>::iterate(const StepProblem<Scalar>& problem,
     if (decisions.decides()) stop.forget_stalls();
     const bool is_followed_now = last_gain_.slope_left < kSteepestRise && step_forces_.follow();
     if (is_followed_now) evaluate();
-    if (are_contact_states_new || is_followed_now) {
+    if (are_contact_states_new || is_followed_now || was_lengthened_) {
       anderson_.forget();
     } else if (!report_.is_converged && iteration + 1 < solver_settings.newton_iterations) {
       energy_before_ = accelerate(problem, now);

@@ -10,8 +10,9 @@ namespace weft::fast {
 struct NewtonIteration {
   int iterations;  ///< limit of conjugate gradients
   LinearAccuracy accuracy = {};
-  bool is_first = false;   ///< whether it is the first of a step
-  bool decides = true;     ///< whether contact states are decided
+  double most_to_lengthen = 0;  ///< the most that it may gain to be lengthened [J]
+  bool is_first = false;        ///< whether it is the first of a step
+  bool decides = true;          ///< whether contact states are decided
   bool continues = false;  ///< in the first iteration: contact states of the last solve are kept
   /// Whether an iteration before has gained energy: friction must be linearized by what bounds it from above.
   bool is_cautious = false;

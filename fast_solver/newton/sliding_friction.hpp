@@ -84,6 +84,12 @@ class SlidingFriction {
 
   [[nodiscard]] const VectorX<Scalar>& drags() const { return drags_; }  ///< for each node [N/m]
   [[nodiscard]] Vector3<float> force(int node) const { return forces_.col(node); }  ///< [N]
+  /// The friction of a node that has slipped so far [N].
+  [[nodiscard]] Vector3<Scalar> force_at(int node, const Vector3<Scalar>& slip) const {
+    const Scalar size = std::max(slip.norm(), least_slip(node));
+    if (!(bounds_[node] > 0 && size > 0)) return Vector3<Scalar>::Zero();
+    return -(bounds_[node] / size) * slip;
+  }
   /// Whether a node's friction is less than its bound: it holds the node, but for less than the least slip.
   [[nodiscard]] bool holds(int node) const {
     return static_cast<Scalar>(forces_.col(node).norm()) < Scalar(kBelowBound) * bounds_[node];

@@ -42,7 +42,19 @@ TEST(CoulombDrag, IsTheGradientOfItsEnergyAtAnySlip) {
         (friction.energy(kNode, size + change) - friction.energy(kNode, size - change)) /
         (2 * change);
     EXPECT_NEAR(-static_cast<double>(friction.force(kNode).y()), slope, 1e-3 * kBound) << slip;
+    EXPECT_NEAR(-friction.force_at(kNode, {0, size, 0}).y(), slope, 1e-3 * kBound) << slip;
   }
+}
+
+// The linear system may have another one, for the slip that is expected.
+TEST(CoulombDrag, HasItsForceAtAnySlipWhateverSlipIsExpected) {
+  SlidingFriction<double> friction = friction_with(kBound);
+  const Vector3<double> slip(2 * kLeastSlip, 0, 0);
+  friction.expect_slip(kNode, slip, 8 * kLeastSlip);
+  EXPECT_NEAR(friction.force(kNode).x(), -kBound / 4, 1e-6);
+  EXPECT_NEAR(friction.force_at(kNode, slip).x(), -kBound, 1e-12);
+  friction.release(kNode);
+  EXPECT_EQ(friction.force_at(kNode, slip).norm(), 0);
 }
 
 TEST(CoulombDrag, HoldsWhatSlipsLessThanTheLeastSlip) {

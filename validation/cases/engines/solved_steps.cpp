@@ -41,12 +41,12 @@ constexpr const char* kReason =
 
 /// One step in twenty may meet too much at once.
 constexpr double kMost = 0.05;
-/// Scenes in which more do: what the cloth rests on has many facets or is cloth, and chance and rounding decide which node is on
-/// which of them. 0.06 to 0.23 when this was written.
+/// Scenes in which more do in steps of 1/60 s: what the cloth rests on has many facets or is cloth, and chance and rounding decide which
+/// node is on which of them.
 constexpr double kMostInPiles = 0.3;
 
 Tolerance tolerance_of(std::string_view scene, const Pace& pace) {
-  if (scene == "stack" || (scene == "colliders" && pace.time_step))
+  if ((scene == "stack" || scene == "colliders") && pace.time_step)
     return {kMostInPiles, Basis::kTruncation,
             "four layers of cloth; facets of a ring in long steps"};
   return {kMost, Basis::kTruncation, "one step in twenty may meet too much at once"};
