@@ -206,15 +206,15 @@ class ImplicitSolver : TeamLoops {
   void stay_at_start(const StepProblem<Scalar>& problem);
   void enforce_descent(const StepProblem<Scalar>& problem, int iterations);
   void restore_start();
-  /// Takes less or more than the last step, by what is left of work_before, the work of all forces with it [J]. Returns whether
-  /// evaluate() is due.
-  bool search_line(const StepProblem<Scalar>& problem, const NewtonIteration& iteration,
+  /// Shortens or lengthens the last step by how much of work_before, the work of all forces with it [J], is left at its end. Returns
+  /// whether evaluate() is due.
+  bool line_search(const StepProblem<Scalar>& problem, const NewtonIteration& iteration,
                    double work_before);
   void move_bodies(Scalar share);
-  /// The work of the residual forces with the step that holds take up [J]: at nodes with a hold, without bodies but for
-  /// that along planes on which they slide, where friction at these positions works too.
-  [[nodiscard]] double work_of_holds(const StepProblem<Scalar>& problem,
-                                     const Nodes& positions) const;
+  /// The work with the step that constraints take up [J]: that of the residual forces at constrained nodes. Where there is no dynamic
+  /// body, nodes that slide keep what acts along their planes, with the friction at these positions.
+  [[nodiscard]] double work_of_constraints(const StepProblem<Scalar>& problem,
+                                           const Nodes& positions) const;
   void find_constraint_forces();
   [[nodiscard]] double residual_norm();
   /// A shift of all nodes [m]; bodies are shifted already.

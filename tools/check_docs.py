@@ -17,7 +17,7 @@ LONG_PAGES = {
     "docs/bridge.md": (2200, "everything that a program may call"),
     "docs/colliders.md": (1300, "every shape of Bullet's, and what holds between bodies"),
     "docs/decisions.md": (2850, "one paragraph for each choice, read one at a time"),
-    "docs/implicit_step.md": (1775, "the whole step in one place"),
+    "docs/implicit_step.md": (1780, "the whole step in one place"),
     "docs/playback.md": (1350, "every command and key"),
     "docs/validation.md": (1850, "the method, and what is known to fail"),
 }

@@ -352,8 +352,8 @@ void ImplicitSolver<Scalar>::clamp(const StepProblem<Scalar>& problem) {
 }
 
 template <class Scalar>
-double ImplicitSolver<Scalar>::work_of_holds(const StepProblem<Scalar>& problem,
-                                             const Nodes& positions) const {
+double ImplicitSolver<Scalar>::work_of_constraints(const StepProblem<Scalar>& problem,
+                                                   const Nodes& positions) const {
   double work = 0;
   for (const int i : constrained_) {
     const Vector3<Scalar> force = at_node(residual_forces_, i);

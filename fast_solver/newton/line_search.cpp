@@ -34,10 +34,10 @@ constexpr double kFarUp = 10;
 // covers the same part of the way that is left. Close to the solution they are lengthened, to the zero of the secant too. Far from it
 // nodes would jump into other folds.
 template <class Scalar>
-bool ImplicitSolver<Scalar>::search_line(const StepProblem<Scalar>& problem,
+bool ImplicitSolver<Scalar>::line_search(const StepProblem<Scalar>& problem,
                                          const NewtonIteration& iteration, double work_before) {
   const auto find_slope = [&] {
-    const double left = work_left_ + work_of_bodies() - work_of_holds(problem, positions_);
+    const double left = work_left_ + work_of_bodies() - work_of_constraints(problem, positions_);
     last_gain_.slope_left = work_before > 0 ? left / work_before : 0;
   };
   find_slope();
@@ -53,7 +53,7 @@ bool ImplicitSolver<Scalar>::search_line(const StepProblem<Scalar>& problem,
   }
   was_lengthened_ = slope > kMuchLeft && last_gain_.total <= iteration.most_to_lengthen;
   if (!was_lengthened_) return false;
-  // What has put nodes onto planes is no part of the way.
+  // The part of the step that put nodes onto their planes is not repeated, because it would take them off again.
   for_each_part([this](NodeRange nodes) { project(nodes, step_); });
   const auto go = [&](double share) {
     positions_ += static_cast<Scalar>(share) * step_.template cast<Scalar>();

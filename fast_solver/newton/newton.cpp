@@ -24,8 +24,8 @@ constexpr double kEnergyDoubt = 1e-6;
 constexpr double kSteepestRise = -0.5;
 /// In contact rounding gains so many times as much as without, for heights above planes are rounded too [-].
 constexpr double kRoundingOfHeights = 3;
-/// In contact with what nothing moves iterations may be lengthened that gain at most so many times what may be left: the solution is
-/// close. Without contacts steps are solved as soon, and their errors are said better, if they are not [-].
+/// An iteration that gains at most so many times what may be left is close to the solution, and may be lengthened in contact with what
+/// nothing moves. Without contacts as many steps are solved without that, and their estimated errors are more often right [-].
 constexpr double kCloseBy = 100;
 /// The share of an energy that a step without motion is held against [-].
 constexpr double kAtRest = 0.01;
@@ -58,10 +58,10 @@ void ImplicitSolver<Scalar>::iterate_once(const StepProblem<Scalar>& problem,
   const double of_bodies = work_of_bodies();
   move();
   const std::size_t num_constrained = constrained_.size();
-  const double work = work_done_ + of_bodies - work_of_holds(problem, last_positions_);
+  const double work = work_done_ + of_bodies - work_of_constraints(problem, last_positions_);
   evaluate(iteration.linearizes);
   // The linear model knows nothing of planes that it has not met: it is judged before nodes are put in front of them.
-  const bool is_shorter = search_line(problem, iteration, work);
+  const bool is_shorter = line_search(problem, iteration, work);
   clamp(problem);
   has_met_planes_ = constrained_.size() > num_constrained;
   if (is_shorter || was_clamped_) evaluate(iteration.linearizes);

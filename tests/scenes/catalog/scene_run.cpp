@@ -47,6 +47,22 @@ void run_scene(const Scene& for_all, const std::function<void(const SceneState&)
   }
 }
 
+SolveNumbers measure_solves(Scene scene) {
+  scene.engines = {"bullet_weft"};
+  SolveNumbers numbers;
+  int num_steps = 0;
+  int num_unsolved = 0;
+  run_scene(
+      scene, [](const SceneState&) {},
+      [&](const StepReport& report) {
+        ++num_steps;
+        if (!report.solve.value().is_within_tolerance) ++num_unsolved;
+        numbers.largest_error = std::max(numbers.largest_error, report.solve->error);
+      });
+  numbers.unsolved_share = static_cast<double>(num_unsolved) / num_steps;
+  return numbers;
+}
+
 RunNumbers measure_scene(const Scene& scene) {
   std::vector<ClothMesh> meshes;
   for (const Cloth& cloth : scene.cloths) meshes.push_back(make_mesh(cloth));

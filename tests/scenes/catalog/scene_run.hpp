@@ -16,6 +16,13 @@ void run_scene(
     const Scene& scene, const std::function<void(const SceneState&)>& look,
     const std::function<void(const StepReport&)>& read = [](const StepReport&) {});
 
+/// How a scene's steps were solved on bullet_weft, as the solver says.
+struct SolveNumbers {
+  double unsolved_share = 0.0;  ///< of all steps [-]
+  double largest_error = 0.0;   ///< of a step [m]
+};
+[[nodiscard]] SolveNumbers measure_solves(Scene scene);
+
 /// What all frames of a run have in common.
 struct RunNumbers {
   double deepest = 0.0;      ///< [m] of any node below any surface

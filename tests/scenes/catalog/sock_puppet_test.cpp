@@ -129,19 +129,9 @@ TEST(SockPuppetScene, WithoutTheHandItFallsTogether) {
 // Its neck folds, and triangles there are squeezed until hinges are many times as stiff as at rest: with the stiffness of the rest shape
 // alone a quarter of the steps is not solved.
 TEST(SockPuppetScene, IsSolvedToTheTolerance) {
-  const Scene scene = load_scene("sock_puppet");
-  int num_steps = 0;
-  int num_unsolved = 0;
-  double largest_error = 0;
-  run_scene(
-      scene, [](const SceneState&) {},
-      [&](const StepReport& report) {
-        ++num_steps;
-        if (!report.solve->is_within_tolerance) ++num_unsolved;
-        largest_error = std::max(largest_error, report.solve->error);
-      });
-  EXPECT_LT(num_unsolved, 0.08 * num_steps);
-  EXPECT_LT(largest_error, 5e-3);  // [m]
+  const SolveNumbers numbers = measure_solves(load_scene("sock_puppet"));
+  EXPECT_LT(numbers.unsolved_share, 0.08);
+  EXPECT_LT(numbers.largest_error, 5e-3);  // [m]
 }
 
 }  // namespace
