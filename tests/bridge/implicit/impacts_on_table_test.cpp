@@ -132,12 +132,13 @@ void PrintTo(const Tumble& one, std::ostream* out) {
   *out << "turned by " << one.turned << " rad, steps of " << one.time_step << " s";
 }
 
-// At the last two, nodes in the corner between box and table went into the table: one plane held them. Of 60 tumbles that are turned by
-// 2.4 to 2.7 rad, one or two still gain 10 to 20 mJ in a step, by chance.
+// At the last four, nodes in the corner between box and table went into the table: one plane held them. Of 60 tumbles that are turned by
+// 2.4 to 2.7 rad one still gains 8 mJ in a step, at 2.55 rad: a corner comes between nodes, 4 cm apart, and strikes the table itself.
 INSTANTIATE_TEST_SUITE_P(Tumbles, TumblingBox,
                          testing::Values(Tumble{1.0 / 30, 0.3}, Tumble{1.0 / 30, 1.3},
                                          Tumble{1.0 / 60, 0.3}, Tumble{1.0 / 60, 1.8},
-                                         Tumble{1.0 / 30, 2.56}, Tumble{1.0 / 30, 2.7}));
+                                         Tumble{1.0 / 30, 2.5}, Tumble{1.0 / 30, 2.56},
+                                         Tumble{1.0 / 30, 2.6}, Tumble{1.0 / 30, 2.7}));
 
 }  // namespace
 }  // namespace weft::bridge
